@@ -19,6 +19,19 @@ class Spec(BaseModel):
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
+class Entries:
+    """Annotates a list of fixed length: what each of its entries is, and a list to show for an example.
+
+    Parameters
+        names : str - "[x, y]"
+        example : str - "[0, -9.81]"; empty: none
+    """
+
+    def __init__(self, names: str, example: str = "") -> None:
+        self.names = names
+        self.example = example
+
+
 MOST_NAME = 200
 """Characters of a design's name at most: it heads pictures and pages, and names files."""
 

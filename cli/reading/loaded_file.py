@@ -64,10 +64,36 @@ class LoadedFile:
         line, column = self.tree.source.place(at)
         return line, column, column + len(plain[0])
 
-    def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
-        """A diagnostic that points at a key, or at the nearest parent of a missing one."""
-        source, at = self._spot(path)
+    def report(
+        self,
+        code: str,
+        message: str,
+        path: KeyPath,
+        *,
+        key: str | None = None,
+        help: str = "",
+        of_several: bool = False,
+    ) -> Diagnostic:
+        """A diagnostic that points at a key, or at the nearest parent of a missing one.
+
+        `of_several` tells of what keys say together: it points at the `--set` that changed one of them, where the line
+        of the file would show what stands there no longer.
+        """
+        source, at = (of_several and self._changed(path, message)) or self._spot(path)
         return source.report(code, message, at, key=format_path(path) if key is None else key, help=help)
+
+    def _changed(self, path: KeyPath, message: str) -> tuple[Source, int] | None:
+        """The last `--set` below a section, or beside a key where the message names the value that it put in."""
+        if any(path[: len(override.path)] == override.path for override in self.overrides):
+            return None
+        for override in reversed(self.overrides):
+            if override.source.file != _SET:
+                continue
+            if override.path[: len(path)] == path and path:
+                return override.source, 0
+            if override.path[:-1] == path[:-1] and len(path) > 1 and _names(message, override.value):
+                return override.source, 0
+        return None
 
     def _spot(self, path: KeyPath) -> tuple[Source, int]:
         for override in reversed(self.overrides):
@@ -112,6 +138,13 @@ def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) ->
         found += 1
         at = value_at if value and found == len(path) else key_at
     return at, found
+
+
+def _names(message: str, value: Any) -> bool:
+    """Whether a message holds a number as a word of its own."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return re.search(rf"(?<![\w.]){re.escape(f'{value:g}')}(?![\w]|\.\d)", message) is not None
 
 
 def _common(one: KeyPath, other: KeyPath) -> int:

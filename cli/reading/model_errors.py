@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
-from gearlink.cli.reading.model_shapes import allowed_range, fields_at, meaning_at, takes_truth_value, unit_at
+from gearlink.cli.reading.model_shapes import allowed_range, fields_at, list_at, meaning_at, takes_truth_value, unit_at
 from gearlink.cli.reading.value_words import (
     WANTED,
     bound,
@@ -136,12 +136,14 @@ class _Wording:
             return self._out_of_range(finding, limit)
         return self._other(finding)
 
-    def _say(self, code: str, finding: _Finding, message: str, help: str = "") -> Diagnostic:
-        return self.loaded.report(code, message, finding.path, help=help)
+    def _say(
+        self, code: str, finding: _Finding, message: str, help: str = "", *, of_several: bool = False
+    ) -> Diagnostic:
+        return self.loaded.report(code, message, finding.path, help=help, of_several=of_several)
 
     def _wrong_value(self, group: list[_Finding]) -> Diagnostic:
         first = group[0]
-        words = [choices(f.context) if f.kind in ("literal_error", "enum") else [WANTED[f.kind]] for f in group]
+        words = [choices(f.context) if f.kind in ("literal_error", "enum") else [self._wanted(f)] for f in group]
         wanted = list(dict.fromkeys(word for some in words for word in some))
         listed = wanted[0] if len(wanted) == 1 else f"{', '.join(wanted[:-1])} or {wanted[-1]}"
         only_choice = len(group) == 1 and first.kind in ("literal_error", "enum")
@@ -152,6 +154,13 @@ class _Wording:
         code = "GL108" if only_choice and isinstance(first.value, (str, int, float)) else "GL107"
         about = "" if only_choice else meaning_at(self.model, first.path, self.loaded.data)
         return self._say(code, first, message, self._value_remedy(group, wanted) or about)
+
+    def _wanted(self, finding: _Finding) -> str:
+        """What a value of another type is to be; a list with its entries where they are known."""
+        _, names, example = list_at(self.model, finding.path, self.loaded.data)
+        if not names or finding.kind not in ("list_type", "tuple_type"):
+            return WANTED[finding.kind]
+        return f"a list {names}" + (f", such as {example}" if example else "")
 
     def _value_remedy(self, group: list[_Finding], wanted: list[str]) -> str:
         kinds, value = {f.kind for f in group}, group[0].value
@@ -172,7 +181,8 @@ class _Wording:
         """An error that a model raised with a code of ours; its context may name a key below the model's own."""
         below = parse_path(str(finding.context.get("key", ""))) or ()
         path = finding.path + below
-        return self.loaded.report(finding.kind, finding.text, path, help=str(finding.context.get("help", "")))
+        help = str(finding.context.get("help", ""))
+        return self.loaded.report(finding.kind, finding.text, path, help=help, of_several=True)
 
     def _missing(self, finding: _Finding) -> Diagnostic:
         *parent, last = finding.path
@@ -234,7 +244,10 @@ class _Wording:
         context = finding.context
         least, most = context.get("min_length"), context.get("max_length")
         limit = least if most is None else most
+        length, names, _ = list_at(self.model, finding.path, self.loaded.data)
         wanted = f"at {'least' if most is None else 'most'} {amount(int(limit or 0), 'entry', 'entries')}"
+        if length:
+            wanted = f"exactly {amount(length, 'entry', 'entries')}{f', {names}' if names else ''}"
         count = context.get("actual_length")
         message = f"{format_path(finding.path)} must have {wanted}, not {count}"
         return self._say("GL107", finding, message, meaning_at(self.model, finding.path, self.loaded.data))
@@ -254,4 +267,4 @@ class _Wording:
         raised = finding.context.get("error")
         message = str(raised) if isinstance(raised, Exception) and str(raised) else finding.text
         section = isinstance(finding.value, dict)
-        return self._say("GL111" if section else "GL108", finding, message)
+        return self._say("GL111" if section else "GL108", finding, message, of_several=section)

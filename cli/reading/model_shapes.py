@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from gearlink.core.spec import Deferred
+from gearlink.core.spec import Deferred, Entries
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import KeyPath
@@ -94,6 +94,32 @@ def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     units = {each.name for _, found in shapes_at(model, path, data)[0] for each in found if isinstance(each, _Unit)}
     unit = units.pop() if len(units) == 1 else ""
     return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
+
+
+def list_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[int, str, str]:
+    """Length of a list that has one, else 0; its entries with their unit; an example.
+
+    Example
+        >>> from gearlink.core.gears.spec import GearPairSpec
+        >>> list_at(GearPairSpec, ("teeth",), {})
+        (2, '[gear 1, gear 2]', '[25, 40]')
+    """
+    length, names, example = 0, "", ""
+    for shape, constraints in shapes_at(model, path, data)[0]:
+        origin: Any = get_origin(shape)
+        if origin not in (list, tuple):
+            continue
+        least, most = (_only(constraints, name) for name in ("min_length", "max_length"))
+        length = least if least == most and least is not None else 0
+        for each in constraints:
+            if isinstance(each, Entries):
+                unit = unit_at(model, (*path, 0), data)
+                names, example = each.names + (f" in {unit}" if unit not in ("", "1", "teeth") else ""), each.example
+    return length, names, example
+
+
+def _only(constraints: Iterable[Any], name: str) -> Any:
+    return next((getattr(each, name) for each in constraints if getattr(each, name, None) is not None), None)
 
 
 def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:

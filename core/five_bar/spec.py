@@ -10,7 +10,18 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.linkages.spec_parts import LinkageLimits, TurnAngle, require_rim
 from gearlink.core.linkages.spec_sections import InputRange
-from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.spec import (
+    Angle,
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Entries,
+    Length,
+    PressureAngle,
+    SignedLength,
+    Spec,
+    Teeth,
+)
 
 Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 
@@ -92,7 +103,7 @@ class WantedFunction(Spec):
 
     name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] = Field(description="y of x")
     exponent: SignedLength | None = Field(None, description="of a power", json_schema_extra={"unit": "1"})
-    x: Annotated[list[Plain], Field(min_length=2, max_length=2)] = Field(
+    x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]")] = Field(
         description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
     )
     input_swing: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
@@ -124,19 +135,21 @@ class FiveBarTarget(Spec):
 
     points: (
         Annotated[
-            list[Annotated[list[SignedLength], Field(min_length=2, max_length=2)]], Field(min_length=3, max_length=200)
+            list[Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]],
+            Field(min_length=3, max_length=200),
         ]
         | None
-    ) = Field(None, description="path: points [x, y] through which the coupler point shall run, any order")
+    ) = Field(None, description="of a path: points [x, y] through which the coupler point shall run, any order")
     positions: (
         Annotated[
-            list[Annotated[list[TurnAngle], Field(min_length=2, max_length=2)]], Field(min_length=2, max_length=5)
+            list[Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[input, output]")]],
+            Field(min_length=2, max_length=5),
         ]
         | None
-    ) = Field(None, description="function: two to five pairs [input angle, output angle]")
-    function: WantedFunction | None = Field(None, description="function: one over an interval, in place of positions")
+    ) = Field(None, description="of a function: two to five pairs [input angle, output angle]")
+    function: WantedFunction | None = Field(None, description="a function over an interval, in place of positions")
     input_angles: Annotated[list[TurnAngle], Field(min_length=3, max_length=200)] | None = Field(
-        None, description="path: input angle of each point, counted from the first's, so that the points are timed"
+        None, description="of a path: input angle of each point, counted from the first's, so that the points are timed"
     )
     tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
     budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(

@@ -163,7 +163,11 @@ def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> str:
     )
     stroke = _least_stroke(bed, cylinder)
     radius = f"cylinder.radius to at most {safely_below(cylinder.radius * _share(bed, cylinder))} mm"
-    return text + (f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}" if stroke else f"set {radius}")
+    return text + (
+        f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}"
+        if stroke
+        else f"set {radius}"
+    )
 
 
 def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:

@@ -12,6 +12,7 @@ from gearlink.core.gears.keys.types import Shift, SignedTeeth, TwoShifts
 from gearlink.core.spec import (
     Deferred,
     DrawingLimits,
+    Entries,
     GearLimits,
     Length,
     LoadLimits,
@@ -27,9 +28,9 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
 
     kind: Literal["gear-pair"]
-    teeth: Annotated[list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2)] = Field(
-        description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack"
-    )
+    teeth: Annotated[
+        list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2), Entries("[gear 1, gear 2]", "[25, 40]")
+    ] = Field(description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack")
     center_distance: Length | None = Field(
         None, description="working centre distance; with profile_shift the difference is backlash"
     )

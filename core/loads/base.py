@@ -95,7 +95,8 @@ class LoadsBase(Design):
         if given is None and (given := getattr(self.spec, "input_speed", None)) is None:
             raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
         if abs(given) < _SLOWEST:
-            raise NoSolution(f"no loads of motion at speed {given:g}: give {_SLOWEST:g} or more", key="loads.speed")
+            words = f"{_SLOWEST:g} 1/min or more, or -{_SLOWEST:g} 1/min or less for a turn the other way"
+            raise NoSolution(f"no loads of motion at a speed of {given:g} 1/min: give {words}", key="loads.speed")
         return given
 
     @property

@@ -8,19 +8,19 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import Angle, Length, Share, Spec
+from gearlink.core.spec import Angle, Entries, Length, Share, Spec
 
 Kilograms = Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "kg"})]
 Inertia = Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
 Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
-Vector = Annotated[list[Place], Field(min_length=2, max_length=2)]
+Vector = Annotated[list[Place], Field(min_length=2, max_length=2), Entries("[x, y]")]
 Newton = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N"})]
 NewtonMetre = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
 Gravity = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m/s^2"})]
 Speed = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1/min"})]
 Number = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "1"})]
 Coefficient = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
-Pair = Annotated[list[Number], Field(min_length=2, max_length=2)]
+Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angle, value]")]
 AboveZero = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N/mm"})]
 
 
@@ -67,8 +67,13 @@ class Course(Spec):
             )
         if self.table is not None:
             angles = [angle for angle, _ in self.table]
-            if any(b <= a for a, b in itertools.pairwise(angles)):
-                raise PydanticCustomError("GL111", "the angles of a table must ascend", {"key": "table"})
+            back = next((i for i, (a, b) in enumerate(itertools.pairwise(angles), 1) if b <= a), 0)
+            if back:
+                message = (
+                    f"the angles of a table must ascend: table[{back}] is at {angles[back]:.9g} deg, after "
+                    f"{angles[back - 1]:.9g} deg"
+                )
+                raise PydanticCustomError("GL111", "{message}", {"message": message, "key": f"table[{back}]"})
             if angles[-1] - angles[0] > 360.0:
                 message = "a table covers one turn at most"
                 raise PydanticCustomError("GL111", message, {"key": "table"})
@@ -85,8 +90,11 @@ class Load(Spec):
 
     on: str = Field(description="the link that it acts on")
     torque: NewtonMetre | Course | None = Field(None, description="torque, positive counter-clockwise")
-    force: Newton | Course | Annotated[list[Newton], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="on a slider: along its travel; with `point`: the vector [x, y] in the frame's coordinates"
+    force: Newton | Course | Annotated[list[Newton], Field(min_length=2, max_length=2), Entries("[x, y]")] | None = (
+        Field(
+            None,
+            description="on a slider: along its travel; with `point`: the vector [x, y] in the frame's coordinates",
+        )
     )
     point: Vector | None = Field(None, description="point of the link where the vector acts, in link coordinates")
     resistance: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
@@ -109,8 +117,10 @@ class Load(Spec):
 class Spring(Spec):
     """A helical spring between points of two links, or of a link and the frame."""
 
-    between: Annotated[list[str], Field(min_length=2, max_length=2)] = Field(description="two links, or one and frame")
-    points: Annotated[list[Vector], Field(min_length=2, max_length=2)] = Field(
+    between: Annotated[list[str], Field(min_length=2, max_length=2), Entries("[link, link or frame]")] = Field(
+        description="two links, or one and frame"
+    )
+    points: Annotated[list[Vector], Field(min_length=2, max_length=2), Entries("[[x, y], [x, y]]")] = Field(
         description="its ends, each in its link's coordinates; those of the frame in the design's"
     )
     rate: Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "N/mm"})] = Field(description="spring rate")
@@ -181,7 +191,10 @@ class Motor(Spec):
         if self.slope is not None and self.rated_speed is not None:
             raise PydanticCustomError("GL111", "slope excludes rated_speed: give one", {"key": "slope"})
         if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
-            raise PydanticCustomError("GL111", "rated_speed must lie below no_load_speed", {"key": "rated_speed"})
+            message = (
+                f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"
+            )
+            raise PydanticCustomError("GL111", "{message}", {"message": message, "key": "rated_speed"})
         return self
 
 
@@ -247,9 +260,9 @@ class Roller(Spec):
     preload: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "N"})] = Field(
         0.0, description="force between both rollers and their cams at rest, where two rollers run on two cams"
     )
-    stiffness: Annotated[list[AboveZero], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="stiffness of the contact of main and return roller, N/mm"
-    )
+    stiffness: (
+        Annotated[list[AboveZero], Field(min_length=2, max_length=2), Entries("[main roller, return roller]")] | None
+    ) = Field(None, description="stiffness of the contact of main and return roller, N/mm")
 
 
 class Material(Spec):
@@ -277,7 +290,7 @@ class Balance(Spec):
 class CommonLoads(Spec):
     """What the loads of every kind may say."""
 
-    gravity: Annotated[list[Gravity], Field(min_length=2, max_length=2)] = Field(
+    gravity: Annotated[list[Gravity], Field(min_length=2, max_length=2), Entries("[x, y]", "[0, -9.81]")] = Field(
         [0.0, 0.0], description="acceleration of gravity in the design's frame"
     )
     forces: Annotated[list[Load], Field(max_length=1000)] = Field([], description="applied forces and torques")

@@ -14,6 +14,7 @@ from gearlink.core.spec import (
     Assembly,
     Deferred,
     Distance,
+    Entries,
     Length,
     LoadLimits,
     SignedLength,
@@ -23,7 +24,7 @@ from gearlink.core.spec import (
 
 InertiaMoment = Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})]
 Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
-Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2)]
+Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]
 
 
 def _refuse(key: str, message: LiteralString, **words: str) -> NoReturn:
@@ -149,8 +150,8 @@ class ClosingSpring(Spec):
     torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] | None = Field(
         None, description="torque on each rocker; or else: arms, angle, preload"
     )
-    arms: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="A to the spring's ends on cam rocker and return rocker"
+    arms: Annotated[list[Length], Field(min_length=2, max_length=2), Entries("[cam rocker, return rocker]")] | None = (
+        Field(None, description="A to the spring's ends on cam rocker and return rocker")
     )
     angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="angle between these two arms"

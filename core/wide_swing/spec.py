@@ -110,7 +110,7 @@ class SwingCycle(Spec):
             given = "working, far_dwell, return and near_dwell"
             raise PydanticCustomError(
                 "GL108",
-                "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change}",
+                "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change} deg",
                 {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "change": f"{360.0 - total:+.7g}"},
             )
         return self
