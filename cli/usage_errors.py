@@ -48,6 +48,8 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     elif message.startswith("No such command") and "Did you mean" not in message:
         remedy = _of_command(message.split("'")[1], command, tree)
         wrong.message = f"{message.rstrip('.')}; {remedy}" if remedy else message
+    elif message.startswith("Got unexpected extra") and command.name == "laws":
+        wrong.message = f"{message}; {_of_law(message)}"
     elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
         wrong.message = f"{message}; {command.name} takes one file, `gearlink batch` and `gearlink check` several"
 
@@ -178,6 +180,15 @@ def _value_after(arguments: Sequence[str], names: Sequence[str]) -> str:
 # Commands
 
 
+def _of_law(message: str) -> str:
+    """The option that takes the name of a law, and the laws where it is none."""
+    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+
+    name = message.rpartition("(")[2].rstrip(").").split(" ")[0]
+    known = (*REST_TO_REST, *REST_TO_SPEED)
+    return f"give --law {name}" if name in known else f"give --law NAME; the laws are {', '.join(known)}"
+
+
 def _of_command(name: str, group: Any, tree: Any) -> str:
     """A command of a group inside this one; a file in place of a command."""
     inner = [path for path, _ in _leaves(tree) if path.endswith(f" {name}") and group is tree]
@@ -186,4 +197,4 @@ def _of_command(name: str, group: Any, tree: Any) -> str:
     if name.lower().endswith((".yaml", ".yml", ".json")):
         first = "analyze" if group is tree else f"{group.name} {next(iter(group.commands))}"
         return f"for a file: `gearlink {first} {name}`"
-    return ""
+    return "" if group is tree else f"`gearlink {group.name}` takes one of {', '.join(group.commands)}"

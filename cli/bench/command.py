@@ -13,7 +13,7 @@ import typer
 from gearlink.cli.bench.families import FAMILIES, measured
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import require_folder
-from gearlink.cli.options import Options
+from gearlink.cli.options import Format, Options
 from gearlink.cli.typer_options import offers, option, takes
 
 NAMES = tuple(FAMILIES)
@@ -56,13 +56,11 @@ def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path
 
     if wrong := [name for name in names if name not in NAMES]:
         message = f"no family {', '.join(wrong)}; the families are {', '.join(NAMES)}"
-        if form is BenchFormat.JSON:
-            from gearlink.cli.reading.diagnostics import Diagnostic
-            from gearlink.cli.render.errors import errors_as_json
+        from gearlink.cli.reading.diagnostics import Diagnostic
+        from gearlink.cli.render.errors import show_errors
 
-            print(errors_as_json([Diagnostic("GL115", message, file="<command line>", key=wrong[0])]))
-        else:
-            print(f"error: {message}", file=sys.stderr)
+        shown = Options(format=Format.JSON if form is BenchFormat.JSON else Format.TABLE)
+        show_errors([Diagnostic("GL115", message, file="<command line>", key=wrong[0])], shown)
         return ExitCode.WRONG_INPUT
 
     def say(text: str) -> None:

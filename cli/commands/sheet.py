@@ -43,15 +43,21 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
     for name in names or tuple(made):
         found = [sheet for sheet in made if sheet == name or sheet.rpartition("-")[0] == name]
         if not found:
-            known = f"it has {', '.join(made)}" if made else "it has none"
+            known = f"it has {', '.join(made)}" if made else f"it has none; {_who_has()}"
             message = f"this {kind} has no sheet named {named(name)}; {known}"
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
         chosen += found
     if not chosen:
-        help_ = "its picture is that of the design commands, with --plot"
+        help_ = f"its picture is that of the design commands, with --plot; {_who_has()}"
         message = f"a {kind} has no further sheets"
         raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))
+
+
+def _who_has() -> str:
+    from gearlink.cli.figures.sheets.sheet_list import kinds
+
+    return f"the kinds with sheets are {', '.join(kinds())}"
 
 
 def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:

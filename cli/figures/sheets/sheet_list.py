@@ -11,6 +11,13 @@ if TYPE_CHECKING:
 Makers = dict[str, Callable[[], "Figure"]]
 
 
+def kinds() -> tuple[str, ...]:
+    """The kinds whose designs have sheets."""
+    from gearlink.cli.figures.sheets import motion_sheet, timing_sheet
+
+    return tuple(dict.fromkeys((*motion_sheet.kinds(), *timing_sheet.kinds())))
+
+
 def sheets_of(design: Any) -> Makers:
     """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`).
 
