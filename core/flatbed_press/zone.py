@@ -55,7 +55,7 @@ def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = 
         shift = _shift_that_helps(bed, cylinder, end) if advise else ""
         if shift or not advise:
             raise NoSolution(f"{text}: {shift}" if shift else text, key="cylinder.initial_crank_angle")
-        raise NoSolution(f"{text}: {_sizes_that_help(bed, cylinder, end)}", key="bed.stroke")
+        raise _sizes_that_help(text, bed, cylinder, end)
     return root
 
 
@@ -153,21 +153,20 @@ def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str
     return ""
 
 
-def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> str:
-    """The greatest radius of the cylinder and the least stroke of the bed for which the speeds meet."""
+def _sizes_that_help(text: str, bed: BedChain, cylinder: CylinderChain, end: float) -> NoSolution:
+    """The refusal, with the greatest radius of the cylinder and the least stroke of the bed for which they meet."""
     fastest = _greatest(bed.speed, end)
     least = -_greatest(lambda phi: -cylinder.speed(phi), _TURN)
-    text = (
-        f"the bed makes {fastest:.5g} mm per radian of the input at most, the cylinder {least:.5g} at least, whatever "
-        "its initial crank angle: "
+    text += (
+        f": the bed makes {fastest:.5g} mm per radian of the input at most, the cylinder {least:.5g} at least, "
+        "whatever its initial crank angle: "
     )
     stroke = _least_stroke(bed, cylinder)
     radius = f"cylinder.radius to at most {safely_below(cylinder.radius * _share(bed, cylinder))} mm"
-    return text + (
-        f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}"
-        if stroke
-        else f"set {radius}"
-    )
+    if stroke is None:
+        return NoSolution(f"{text}set {radius}", key="cylinder.radius")
+    words = f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}"
+    return NoSolution(text + words, key="bed.stroke")
 
 
 def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
