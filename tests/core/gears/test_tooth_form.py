@@ -17,7 +17,8 @@ from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.spec import GearLimits
 
-WIDEST = math.pi / (4.0 * math.tan(math.radians(20.0)))
+ANGLE = math.radians(20.0)
+WIDEST = math.pi / (4.0 * math.tan(ANGLE))
 
 
 def checks(name: str, pair: GearPair, limits: GearLimits | None = None) -> list[Any]:
@@ -81,17 +82,29 @@ def test_one_tooth_of_difference_is_a_finding(pinion: int) -> None:
     made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
     (check,) = made.check("tip-fouling")
     assert (check.code, check.status, check.value) == ("GL206", "fail", -1.0)
-    assert made.quantity("tip_fouling_margin") is None if "tip_fouling_margin" in made.quantity_names() else True
+    assert "tip_fouling_margin" in made.quantity_names()
+    assert made.quantity("tip_fouling_margin") is None
     assert made.report("analyze").quantities
 
 
 @pytest.mark.parametrize("module", [0.3, 0.7, 1.0, 1.1, 7.0])
 @pytest.mark.parametrize("pinion", range(34, 60, 5))
 def test_two_teeth_of_difference_touch(module: float, pinion: int) -> None:
-    """The tip circles touch: rounding decides on which side, and neither is a crash."""
+    """The tip circles touch: rounding decides on which side, and neither is a crash.
+
+    Where they touch, both crossing angles are half a turn; a margin of rounding opens them by its root, 1e-6 at most.
+    """
     mesh = InternalMesh(module, (pinion, pinion + 2))
-    if mesh.tip_circle_margin >= 0.0:
-        assert mesh.tip_fouling_margin < 0.0
+    assert mesh.tip_circle_margin == pytest.approx(0.0, abs=1e-15 * module * pinion)
+    if mesh.tip_circle_margin < 0.0:
+        with pytest.raises(NoSolution, match="encloses"):
+            _ = mesh.tip_fouling_margin
+        return
+    z_1, z_2, base = pinion, pinion + 2, math.cos(ANGLE)
+    inv_1, inv_2, inv = (math.tan(a) - a for a in (math.acos(z_1 * base / z_2), math.acos(z_2 * base / z_1), ANGLE))
+    room = z_1 * (inv_1 + math.pi) - z_2 * (inv_2 + math.pi) + 2.0 * inv
+    assert mesh.tip_fouling_margin == pytest.approx(module * 0.5 * z_1 * room / z_2, rel=1e-6)
+    assert room < 0.0
 
 
 @pytest.mark.parametrize(("ring", "angle", "words"), [(33, 20.0, "at least 34 teeth"), (75, 1e-7, "larger pressure")])
