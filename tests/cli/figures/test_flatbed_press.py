@@ -40,7 +40,7 @@ def test_curves_are_the_table_of_positions(press: Sheet, what: str, part: str) -
     line = lines(axes)[part]
     table = press.design.table("positions")
     column = table.data[table.columns.index(f"{part}_{what}")]
-    np.testing.assert_allclose(line.get_xdata()[::60], table.data[0], atol=1e-12)
+    np.testing.assert_allclose(line.get_xdata()[::60], table.data[0], rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(line.get_ydata()[::60], column, rtol=1e-12, atol=1e-9)
     dots = next(each for each in axes.get_lines() if each.get_marker() == "o" and each.get_color() == line.get_color())
     np.testing.assert_array_equal(dots.get_ydata(), column)
@@ -79,7 +79,7 @@ def test_twelve_positions_of_the_bed_chain_keep_their_links(press: Sheet) -> Non
     for chain in chains:
         joints = points(chain)
         links = np.abs(np.diff(joints))
-        np.testing.assert_allclose(links, [116.0, 100.0, 100.0, made.crank_length, 520.0], atol=1e-9)
+        np.testing.assert_allclose(links, [116.0, 100.0, 100.0, made.crank_length, 520.0], rtol=0.0, atol=1e-9)
 
 
 def test_bed_arrows_are_its_speeds_to_one_scale(press: Sheet) -> None:
@@ -105,8 +105,8 @@ def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
     length = np.hypot(quiver.U, quiver.V)
     np.testing.assert_allclose(length / length[0], surface / surface[0], rtol=1e-12)
     arm = (quiver.X + 1j * quiver.Y) - 40.0j
-    np.testing.assert_allclose(np.abs(arm), 95.0, atol=1e-9)
-    np.testing.assert_allclose(np.real(np.conj(arm) * (quiver.U + 1j * quiver.V)), 0.0, atol=1e-9)
+    np.testing.assert_allclose(np.abs(arm), 95.0, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(np.real(np.conj(arm) * (quiver.U + 1j * quiver.V)), 0.0, rtol=0.0, atol=1e-9)
 
 
 @pytest.mark.parametrize(("title", "value"), [("Bed chain", "46.532°"), ("Cylinder chain", "35.724°")])
@@ -161,7 +161,9 @@ def test_cam_outlines_are_the_tables(cam: Sheet, name: str) -> None:
         for line in axes.get_lines()
         if line.get_label() == "pitch curve" and line.get_color() == profile.get_color()
     ]
-    np.testing.assert_allclose(pitch.get_xdata()[:-1:2], table.data[table.columns.index("pitch_x")], atol=1e-9)
+    np.testing.assert_allclose(
+        pitch.get_xdata()[:-1:2], table.data[table.columns.index("pitch_x")], rtol=0.0, atol=1e-9
+    )
 
 
 def test_rollers_touch_their_cams_on_the_line(cam: Sheet) -> None:

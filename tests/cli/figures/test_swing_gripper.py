@@ -53,7 +53,7 @@ def test_axes_on_the_right_are_the_rates_in_time() -> None:
     for ylabel, factor in (("β′", made.shaft_speed), ("β″", made.shaft_speed**2)):
         axes = panel_named(figure, ylabel)
         right = next(child for child in axes.child_axes if child.get_ylabel())
-        np.testing.assert_allclose(right.get_ylim(), np.asarray(axes.get_ylim()) * factor)
+        np.testing.assert_allclose(right.get_ylim(), np.asarray(axes.get_ylim()) * factor, rtol=1e-12)
 
 
 def test_phases_are_shaded_and_named(gripper: Sheet) -> None:

@@ -33,7 +33,7 @@ def test_law_is_the_table_s(name: str) -> None:
         np.testing.assert_array_equal(curves["unloaded law"].get_ydata(), data[i])
         assert {"harmonic", "cycloidal"} <= set(curves)
     harmonic = lines(panel(figure, "Velocity"))["harmonic"].get_ydata()
-    np.testing.assert_allclose(harmonic, 0.5 * math.pi * np.sin(math.pi * data[0]), atol=1e-14)
+    np.testing.assert_allclose(harmonic, 0.5 * math.pi * np.sin(math.pi * data[0]), rtol=0.0, atol=1e-14)
 
 
 def test_balance_is_the_table_s() -> None:
@@ -96,15 +96,17 @@ def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: st
             assert math.hypot(x[0], y[0]) == pytest.approx(cam.center_distance, abs=1e-9)
         columns = dict(zip(table.columns, table.data, strict=True))
         pitch = curves["pitch curve"].get_xydata()
-        np.testing.assert_allclose(pitch[[0, -1], 0], columns["pitch_x"][[0, -1]], atol=1e-9)
-        np.testing.assert_allclose(pitch[[0, -1], 1], columns["pitch_y"][[0, -1]], atol=1e-9)
+        np.testing.assert_allclose(pitch[[0, -1], 0], columns["pitch_x"][[0, -1]], rtol=0.0, atol=1e-9)
+        np.testing.assert_allclose(pitch[[0, -1], 1], columns["pitch_y"][[0, -1]], rtol=0.0, atol=1e-9)
         start = curves["profile"].get_xydata()[0]
         first = cam.points(np.array([cam.contact[0][0]])).profile[0]
         mirror = -1.0 if title.startswith("Cam of the return") else 1.0
-        np.testing.assert_allclose(start, [first.real, mirror * first.imag], atol=1e-9)
+        np.testing.assert_allclose(start, [first.real, mirror * first.imag], rtol=0.0, atol=1e-9)
         slot = curves["slot, in which the roller changes sides"].get_xydata()
         x, y = curves["rocker, mid-swing"].get_data()
-        np.testing.assert_allclose(np.hypot(slot[:, 0] - x[1], slot[:, 1] - y[1]), cam.roller_radius, atol=1e-9)
+        np.testing.assert_allclose(
+            np.hypot(slot[:, 0] - x[1], slot[:, 1] - y[1]), cam.roller_radius, rtol=0.0, atol=1e-9
+        )
 
 
 def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:

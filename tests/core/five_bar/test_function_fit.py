@@ -121,13 +121,13 @@ def test_no_change_of_the_links_lowers_the_error(best: Any) -> None:
 
 def test_error_table_is_the_difference(best: Any) -> None:
     table = best.table("structural_error", samples=40)
-    np.testing.assert_allclose(table["error"], table["output_angle"] - table["wanted_angle"], atol=1e-12)
+    np.testing.assert_allclose(table["error"], table["output_angle"] - table["wanted_angle"], rtol=0.0, atol=1e-12)
     each = [math.degrees(best.function_bar.output_angle(math.radians(x))) for x in table["input_angle"]]
-    np.testing.assert_allclose(np.remainder(table["output_angle"] - each + 180.0, 360.0), 180.0, atol=1e-9)
+    np.testing.assert_allclose(np.remainder(table["output_angle"] - each + 180.0, 360.0), 180.0, rtol=0.0, atol=1e-9)
     assert np.abs(table["error"]).max() <= math.degrees(best.structural_error) * (1.0 + 1e-6)
     swing = table["wanted_angle"] - table["wanted_angle"][0]
     x = 1.0 + np.linspace(0.0, 1.0, 41)
-    np.testing.assert_allclose(swing, 90.0 * np.log2(x), atol=1e-11)
+    np.testing.assert_allclose(swing, 90.0 * np.log2(x), rtol=0.0, atol=1e-11)
 
 
 def test_slopes_of_levelling_are_those_of_differences() -> None:
@@ -185,7 +185,7 @@ def test_a_link_beyond_its_bound_goes_no_further(monkeypatch: pytest.MonkeyPatch
 )
 def test_functions(name: Any, x: Any, exponent: float, half: float) -> None:
     made = Wanted(name, x, 1.0, -2.0, exponent)
-    np.testing.assert_allclose(made.output(np.array([0.0, 0.5, 1.0])), [0.0, -2.0 * half, -2.0], atol=1e-15)
+    np.testing.assert_allclose(made.output(np.array([0.0, 0.5, 1.0])), [0.0, -2.0 * half, -2.0], rtol=0.0, atol=1e-15)
 
 
 @pytest.mark.parametrize(

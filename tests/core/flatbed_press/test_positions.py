@@ -37,20 +37,20 @@ def cylinder() -> CylinderChain:
 def test_links_of_the_bed_chain_keep_their_lengths(bed: BedChain) -> None:
     at = bed_positions(bed, PHI)
     for start, end, length in ((at.a, at.b, 116.0), (at.b, at.c, 100.0), (at.c, at.d, 100.0)):
-        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
-    np.testing.assert_allclose(np.abs(at.e - at.d), bed.slider_crank_length, atol=1e-9)
-    np.testing.assert_allclose(np.abs(at.f - at.e), 520.0, atol=1e-9)
-    np.testing.assert_allclose(at.f.real, -13.0, atol=1e-9)
+        np.testing.assert_allclose(np.abs(end - start), length, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(np.abs(at.e - at.d), bed.slider_crank_length, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(np.abs(at.f - at.e), 520.0, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(at.f.real, -13.0, rtol=0.0, atol=1e-9)
 
 
 def test_crank_offset_angle_is_that_between_driven_crank_and_slider_crank(bed: BedChain) -> None:
     at = bed_positions(bed, PHI)
-    np.testing.assert_allclose(np.angle((at.c - at.d) / (at.e - at.d)), math.radians(177.0), atol=1e-12)
+    np.testing.assert_allclose(np.angle((at.c - at.d) / (at.e - at.d)), math.radians(177.0), rtol=0.0, atol=1e-12)
 
 
 def test_slider_makes_half_the_travel_of_the_bed(bed: BedChain) -> None:
     at = bed_positions(bed, PHI)
-    np.testing.assert_allclose(2.0 * (at.f.imag - at.f[0].imag), bed.travel(PHI).value, atol=1e-9)
+    np.testing.assert_allclose(2.0 * (at.f.imag - at.f[0].imag), bed.travel(PHI).value, rtol=0.0, atol=1e-9)
 
 
 def test_assemblies_are_those_of_the_chains(bed: BedChain, cylinder: CylinderChain) -> None:
@@ -62,7 +62,7 @@ def test_assemblies_are_those_of_the_chains(bed: BedChain, cylinder: CylinderCha
 def test_links_of_the_cylinder_chain_keep_their_lengths(cylinder: CylinderChain) -> None:
     at = cylinder_positions(cylinder, PHI)
     for start, end, length in ((at.g, at.h, 100.0), (at.h, at.m, 100.0), (at.m, at.n, 95.0)):
-        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
+        np.testing.assert_allclose(np.abs(end - start), length, rtol=0.0, atol=1e-9)
 
 
 def test_velocities_are_the_derivatives_of_the_positions(bed: BedChain, cylinder: CylinderChain) -> None:

@@ -29,12 +29,12 @@ def linkage() -> GripperLinkage:
 def test_links_keep_their_lengths(linkage: GripperLinkage) -> None:
     at = positions(linkage, *ARM, DEGREES)
     for start, end, length in ((at.a, at.c, 150.0), (at.c, at.d, 260.0), (at.d, at.e, 100.0), (at.e, at.f, 300.0)):
-        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
+        np.testing.assert_allclose(np.abs(end - start), length, rtol=0.0, atol=1e-9)
 
 
 def test_arm_is_rigid_with_the_output_link(linkage: GripperLinkage) -> None:
     at = positions(linkage, *ARM, DEGREES)
-    np.testing.assert_allclose(np.angle((at.f - at.e) / (at.d - at.e), deg=True), 15.0, atol=1e-10)
+    np.testing.assert_allclose(np.angle((at.f - at.e) / (at.d - at.e), deg=True), 15.0, rtol=0.0, atol=1e-10)
 
 
 def test_assembly_puts_c_left_of_the_way_to_d(linkage: GripperLinkage) -> None:

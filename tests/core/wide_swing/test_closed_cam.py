@@ -125,7 +125,7 @@ def test_sectors_are_the_polar_angles_of_the_joints() -> None:
             at = np.searchsorted(np.sort(np.concatenate([t, np.linspace(0.0, TURN, 2000)])), t)
             polar = fine[at]
             polar[-1] = fine[0] + TURN
-            np.testing.assert_allclose(np.diff(polar), cam.sectors, atol=1e-12)
+            np.testing.assert_allclose(np.diff(polar), cam.sectors, rtol=0.0, atol=1e-12)
             assert math.fsum(cam.sectors) == pytest.approx(TURN, rel=1e-15)
 
 
@@ -285,12 +285,12 @@ def test_table() -> None:
     gone = np.isnan(table["x"])
     assert list(table["cam_angle"][gone]) == [40.0]  # the slot at mid-swing
     main = made.table("main_cam", samples=16)
-    np.testing.assert_allclose(table["x"][:8], main["x"][:8], atol=1e-9)
-    np.testing.assert_allclose(table["pitch_y"][:8], main["pitch_y"][:8], atol=1e-9)
+    np.testing.assert_allclose(table["x"][:8], main["x"][:8], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(table["pitch_y"][:8], main["pitch_y"][:8], rtol=0.0, atol=1e-9)
     twins = twin()
     back, late = twins.table("return_cam", samples=12), twins.table("contour", samples=36)
-    np.testing.assert_allclose(late["return_x"][16:21], back["x"][:5], atol=1e-9)
-    np.testing.assert_allclose(late["return_pitch_y"][16:28], back["pitch_y"][:12], atol=1e-9)
+    np.testing.assert_allclose(late["return_x"][16:21], back["x"][:5], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(late["return_pitch_y"][16:28], back["pitch_y"][:12], rtol=0.0, atol=1e-9)
 
 
 def test_a_turn_that_is_missed_by_little_is_said_with_its_digits() -> None:

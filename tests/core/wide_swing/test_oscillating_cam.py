@@ -115,7 +115,7 @@ def test_stops_have_no_curvature_radius() -> None:
     assert points.curvature_radius.tolist() == [0.0, 0.0, 0.0]
     np.testing.assert_allclose(np.abs(points.profile - points.pitch), 0.02, rtol=1e-13)
     near = CAM.points(np.array([2.0**-20, 0.5 - 2.0**-20, 1.0 - 2.0**-20]))
-    np.testing.assert_allclose(points.profile, near.profile, atol=1e-6)
+    np.testing.assert_allclose(points.profile, near.profile, rtol=0.0, atol=1e-6)
 
 
 def test_loop_margin_is_the_sign_of_the_curvature_at_mid_swing() -> None:
