@@ -143,7 +143,11 @@ def test_design() -> None:
 
 @pytest.mark.slow
 def test_film_turns_the_cam_under_the_roller() -> None:
-    """In the scene the roller touches the drawn profile in working and return stroke."""
+    """In the scene the roller touches the drawn profile in working and return stroke.
+
+    The nearest of points h apart stands up to t = h/2 beside the touch, and so t^2/(2 r_p) rho/(rho - r_p) farther
+    from the roller's centre, rho that of the pitch curve.
+    """
     from gearlink.cli.scenes.scene import Body
     from gearlink.cli.scenes.wide_swing_cam import Cycle, build
 
@@ -151,12 +155,15 @@ def test_film_turns_the_cam_under_the_roller() -> None:
     fraction = np.array([0.05, 0.12, 0.3, 0.38, 0.55, 0.62, 0.8, 0.88])
     scene, cycle = build(made, fraction), Cycle(made, fraction)
     centre = made.cam.rocker_radius * np.exp(1j * (cycle.swing - made.cam.arm_offset))
+    roller, rho = made.cam.roller_radius, np.abs(made.cam.points(cycle.stroke).curvature_radius)
     bodies = [part for part in scene.parts if isinstance(part, Body) and len(part.outline) > 150]
     working, returning = bodies[1], bodies[0]
     for part, rows in ((working, slice(0, 4)), (returning, slice(4, 8))):
         outline = part.place[rows, None] + np.exp(1j * part.turn[rows, None]) * part.outline[None, :]
-        reach = np.abs(outline - centre[rows, None]).min(axis=1)
-        np.testing.assert_allclose(reach, made.cam.roller_radius, rtol=0.0, atol=0.3)
+        beyond = np.abs(outline - centre[rows, None]).min(axis=1) - roller
+        aside = 0.5 * np.abs(np.diff(part.outline)).max()
+        assert np.all(beyond > -1e-9)
+        assert np.all(beyond < aside**2 / (2.0 * roller) * rho[rows] / (rho[rows] - roller))
 
 
 def test_a_heavy_slider_is_judged() -> None:
