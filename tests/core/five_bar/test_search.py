@@ -114,18 +114,20 @@ def test_distance_is_that_of_the_nearest_branch(bar):
     mostly_slow(
         [
             (Fraction(-1), DESIGN, 30.0, 0.5358976),
-            (Fraction(-1, 2), DESIGN, 30.0, None),
-            (Fraction(2), RING, 25.0, None),
+            (Fraction(-1, 2), DESIGN, 30.0, 0.7782005),
+            (Fraction(2), RING, 25.0, 2.5435683),
         ],
         1,
     ),
 )
 def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known):
+    """What was known for the first ratio came from other starts; for the others it is what the search itself found, of
+    which it may lose nothing."""
     start = replace(BAR, ratio=ratio)
     fit = fit_path(start, 60.0 + 0j, targets, math.radians(degrees))
     assert fit.bar.min_transmission_angle()[0] >= math.radians(degrees)
     assert (fit.bar.frame, fit.bar.ratio, fit.bar.assembly) == (50.0, ratio, 1)
-    assert known is None or fit.rms <= 1.0001 * known
+    assert fit.rms <= 1.0001 * known
     again = fit_path(start, 60.0 + 0j, targets, math.radians(degrees))
     assert (again.bar, again.offset) == (fit.bar, fit.offset)
 
