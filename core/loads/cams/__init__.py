@@ -1,4 +1,4 @@
-"""Rollers on cams: their contact, forces and pressures, what a machine with cams shows besides, springs that hold them.
+"""Rollers on cams: their contact, forces and pressures, and what a machine with cams shows besides.
 
 Begin with `design`; `contact` is the kernel.
 """
