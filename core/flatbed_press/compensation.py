@@ -38,12 +38,11 @@ class Segment(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """Where two segments meet: how far lift [mm], slope [mm/rad] and second derivative [mm/rad^2] jump."""
+    """Where two segments meet: how far slope [mm/rad] and second derivative [mm/rad^2] jump."""
 
     before: str
     after: str
     cam_angle: float
-    lift_step: float
     velocity_step: float
     acceleration_step: float
 
@@ -333,7 +332,7 @@ class Compensation:
         """Where a phase begins, with the jumps there."""
         before, after = self._beside(phase)
         left, right = before.lift(before.end, 2), after.lift(after.start, 2)
-        steps = (right.value - left.value, right.first - left.first, right.second - left.second)
+        steps = (right.first - left.first, right.second - left.second)
         return Joint(before.phase, after.phase, after.start, *(float(step) for step in steps))
 
     def velocity_step(self, phase: str) -> float:

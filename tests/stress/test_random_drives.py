@@ -18,6 +18,7 @@ from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS
+from gearlink.core.linkages.fourbar.loop import closing_range
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.three_gear import motion
@@ -113,7 +114,7 @@ def test_linkages_that_do_not_turn_are_no_drives(count: int) -> None:
         for refused in (motion.check_linkage, lambda x, t=train: dwells.dwell_positions(x, t)):
             with pytest.raises(NoSolution):
                 refused(linkage)
-        low, high = linkage.crank_range()
+        low, high = closing_range(linkage.reading)
         drawn.append(Design(linkage.kind(), linkage, train))
         phi.append(int(rng.choice((-1, 1))) * (low + (high - low) * float(rng.uniform(0.01, 0.99))))
     assert len(kinds) == 2

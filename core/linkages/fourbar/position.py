@@ -95,28 +95,6 @@ class FourBar:
         """
         return min(self.reading.p_0, self.reading.p_pi, self.reading.q_0, self.reading.q_pi) >= 0.0
 
-    def crank_range(self) -> tuple[float, float]:
-        """Crank angles, measured either way from the frame, between which the linkage closes.
-
-        tan^2(phi/2) = -Q_0/Q_pi  and  -P_0/P_pi
-
-        Returns
-            low, high : float, float [rad] - it closes where low <= |phi| <= high, phi reduced to [-pi, pi];
-            (0, pi) for a crank that turns fully
-        Raises
-            NoSolution - when the linkage closes nowhere
-        Example
-            >>> low, high = FourBar(150.0, 160.0, 100.0, 300.0).crank_range()
-            >>> low, round(high, 9)
-            (0.0, 1.048480077)
-
-        Source
-            own derivation: the roots of P and Q in the half angle
-        """
-        if self.kind() == "impossible":
-            raise NoSolution(f"the four-bar {never_closes(self.reading)}")
-        return closing_range(self.reading)
-
     def transmission_extremes(self) -> tuple[float, float]:
         """Transmission angle BCD at crank angles 0 and pi; between them it runs monotonically.
 

@@ -181,25 +181,18 @@ class ElasticLaw:
         return self._rate * math.sqrt(g.stroke * float(g.mean_force(np.zeros(1))[0]))
 
     @cached_property
-    def acceleration_start(self) -> float:
-        """c(0) [-]."""
-        return float(self._acceleration(np.ones(1), np.zeros(1))[0])
-
-    @cached_property
     def middle_jerk(self) -> float:
         """dc/dk at mid-swing, negative (zero for a spring mounted without stretch) [-]."""
         return float(self._jerk(np.zeros(1), np.ones(1))[0])
 
     @cached_property
-    def _peak(self) -> tuple[float, float]:
-        """Largest acceleration of the first half and sin(phi/2)/m where it is."""
+    def acceleration_peak(self) -> float:
+        """C, the largest |c| of the stroke [-]."""
         start = self.geometry.half_sine**2
         turns = self._torque_peaks(start)
         sines = np.array([1.0, *(math.sqrt(s / start) for s in turns)])
         cosines = np.array([0.0, *(math.sqrt((start - s) / start) for s in turns)])
-        accelerations = self._acceleration(sines, cosines)
-        best = int(np.argmax(accelerations))
-        return float(accelerations[best]), float(sines[best])
+        return float(np.max(self._acceleration(sines, cosines)))
 
     def _torque_peaks(self, start: float) -> list[float]:
         """Places s = sin^2(phi/2) inside the swing where the device torque is stationary."""
@@ -219,21 +212,6 @@ class ElasticLaw:
         bend = (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s)
         lever = 4.0 * g.ratio * s * (1.0 - s) * float(g.length(sine)[0])
         return float(g.force(sine)[0]) * bend + g.stiffness() * lever
-
-    @property
-    def acceleration_peak(self) -> float:
-        """C, the largest |c| of the stroke [-]."""
-        return self._peak[0]
-
-    @cached_property
-    def acceleration_peak_place(self) -> float:
-        """k of the first half where |c| is largest."""
-        return self._place(self._peak[1])
-
-    def _place(self, sine: float) -> float:
-        """k of the first half where sin(phi/2) = m * sine."""
-        angle = np.array([math.atan2(math.sqrt((1.0 - sine) * (1.0 + sine)), sine)])
-        return float(self._time_of(angle, from_middle=False)[0]) / (self.swing * self._rate)
 
     @overload
     def evaluate(self, k: float, order: int = 2) -> tuple[float, ...]: ...

@@ -29,6 +29,7 @@ from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar import refine as fourbar_refine
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar import vectors as fourbar_vectors
+from gearlink.core.linkages.fourbar.loop import closing_range
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.vectors import loop_step, unit_vector
 from gearlink.core.numerics.double_double import cos_sin, two_product, two_sum
@@ -104,7 +105,7 @@ def test_every_safe_start_converges_to_its_own_assembly(
 ) -> None:
     base = STRETCHING if stretching else FOLDING
     linkage = FourBar(base.crank, base.coupler, base.rocker, base.frame, assembly)
-    low, high = linkage.crank_range()
+    low, high = closing_range(linkage.reading)
     phi = low + share * (high - low)
     true = fourbar.solve(linkage, phi)
     g = min(true.transmission_angle, math.pi - true.transmission_angle)
@@ -140,7 +141,7 @@ def test_exact_dead_point_converges_by_halves_and_stalls_at_root_eps() -> None:
 
 @pytest.mark.parametrize("linkage", [CRANK_ROCKER, DRAG_LINK, STRETCHING, FOLDING])
 def test_sweeps_agree_with_the_closed_form(linkage: FourBar) -> None:
-    low, high = linkage.crank_range()
+    low, high = closing_range(linkage.reading)
     phi = np.linspace(-7.0, 7.0, 281) if linkage.turns_fully() else np.linspace(low, high, 203)[1:-1]
     found, closed = fourbar_newton.solve(linkage, phi), fourbar_sweep.solve(linkage, phi)
     dev = np.asarray(fourbar_refine.dead_point_distance(closed.transmission_angle))

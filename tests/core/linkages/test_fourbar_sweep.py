@@ -26,6 +26,7 @@ from sweeps import examples
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar import sweep as sweep
+from gearlink.core.linkages.fourbar.loop import closing_range
 from gearlink.core.linkages.fourbar.position import FourBar
 
 EPS = 2.0**-52
@@ -44,7 +45,7 @@ LINKAGES = [
 
 def angles_of(linkage: FourBar, count: int) -> np.ndarray:
     """Several turns of a full crank, or the inside of the range."""
-    _, high = linkage.crank_range()
+    _, high = closing_range(linkage.reading)
     if linkage.turns_fully():
         return np.linspace(-10.0, 10.0, count)
     return np.linspace(-high, high, count + 2)[1:-1]
