@@ -174,13 +174,7 @@ def _maxima(
 
 
 def minimum_over(
-    f: Function,
-    start: float = 0.0,
-    end: float = TURN,
-    *,
-    joints: Sequence[float] = (),
-    samples: int = 2048,
-    fewest: int = 33,
+    f: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
 ) -> Extreme:
     """Smallest value of a function of arrays over an interval; see maximum_over.
 
@@ -188,18 +182,16 @@ def minimum_over(
         >>> minimum_over(lambda x: np.abs(x - 0.3), 0.0, 1.0)
         Extreme(value=0.0, place=0.3)
     """
-    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples, fewest=fewest)
+    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples)
     return Extreme(0.0 - top.value, top.place)
 
 
-def least_convex_radius(
-    curvature: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
-) -> Extreme:
-    """Least convex radius of curvature, 1/max(kappa); inf where the curve is convex nowhere.
+def least_convex_radius(curvature: Function, *, joints: Sequence[float] = (), samples: int = 2048) -> Extreme:
+    """Least convex radius of curvature of a closed curve, 1/max(kappa); inf where it is convex nowhere.
 
     Parameters
         curvature : function of cam angle - kappa [1/mm], convex positive (its negative for a groove's far flank)
-        start, end, joints, samples : as of maximum_over
+        joints, samples : as of maximum_over
     Returns
         extreme : Extreme - radius [mm] and place: the profile is regular for every smaller roller
     Example
@@ -209,7 +201,7 @@ def least_convex_radius(
     Source
         own derivation: the profile's radius is rho - r_g
     """
-    return convex_radius(maximum_over(curvature, start, end, joints=joints, samples=samples))
+    return convex_radius(maximum_over(curvature, joints=joints, samples=samples))
 
 
 def convex_radius(curvature: Extreme) -> Extreme:

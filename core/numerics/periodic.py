@@ -13,6 +13,7 @@ from gearlink.core.numerics.arrays import Reals
 
 _BLOCK = 1024
 _SETTLED = 8.0 * 2.0**-52
+_MOST_NODES = 8192
 
 
 def midpoint_mean(f: Callable[[Reals], Reals], span: float, nodes: int) -> float:
@@ -83,20 +84,18 @@ class CosineSeries:
         return CosineSeries(self.span, self.coefficients * signs, self.nodes, self.difference)
 
 
-def cosine_series(
-    f: Callable[[Reals], Reals], span: float, refusal: str, *, first: int = 16, limit: int = 8192
-) -> CosineSeries:
+def cosine_series(f: Callable[[Reals], Reals], span: float, refusal: str, *, first: int = 16) -> CosineSeries:
     """Cosine series of an even, periodic, analytic function, with as many nodes as it takes.
 
     Parameters
         f : the function, vectorised; even about 0 and about span
         span : float - half of its period
         refusal : str - what is wrong, and its remedy, where the integral does not settle: the function is too sharp
-        first, limit : int - nodes to begin and to end with
+        first : int - nodes to begin with
     Returns
         series : CosineSeries
     Raises
-        NoSolution - of that text, when the integral has not settled to 8 ulp with `limit` nodes
+        NoSolution - of that text, when the integral has not settled to 8 ulp with 8192 nodes
     Notes
         The number of nodes doubles until the integral settles. The rule with n nodes errs by the coefficient
         of order 2n, so when n and 2n nodes agree, a series of 2n terms is complete to rounding.
@@ -109,7 +108,7 @@ def cosine_series(
         Trefethen and Weideman, SIAM Review 56 (2014) 385
     """
     nodes, mean = first, midpoint_mean(f, span, first)
-    while nodes < limit:
+    while nodes < _MOST_NODES:
         nodes, before = 2 * nodes, mean
         values = f(_midpoints(span, nodes))
         mean = math.fsum(values.tolist()) / nodes

@@ -13,6 +13,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.law.device import Device, DeviceGeometry, Spring, require_swing
 
 _FIXED_POINT_LIMIT = 400
+_SETTLED, _MOST_PASSES = 1e-12, 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,15 +29,7 @@ class LegacyLaw:
     passes: int
 
 
-def legacy_law(
-    device: Device,
-    swing: float,
-    *,
-    steps: int = 20,
-    tolerance: float = 1e-12,
-    exponent: int = 1,
-    max_passes: int = 100,
-) -> LegacyLaw:
+def legacy_law(device: Device, swing: float, *, steps: int = 20, exponent: int = 1) -> LegacyLaw:
     """Law of motion by the dissertation's iteration.
 
     a_{i+1} = a_i + (b_i + b_{i+1}) dk/2 from k = 0 to 1/2 with b = sqrt(N E(a)); mu = 0.5/a(1/2); N <- mu^e N
@@ -45,13 +38,11 @@ def legacy_law(
         device : Pneumatic or Spring
         swing : float [rad] - gamma, 0 to 300 deg
         steps : int - steps in half the stroke, dk = 0.5/steps
-        tolerance : float - passes end when |mu - 1| is below it
         exponent : int - e; 1 converges for every device tried, 2 is slow and fails where B exceeds 2
-        max_passes : int
     Returns
         law : LegacyLaw
     Raises
-        NoSolution - when N does not settle, or the rocker leaves its swing during a march
+        NoSolution - when |mu - 1| has not fallen to 1e-12 in 100 passes, or the rocker leaves its swing during a march
     Notes
         Starts from B = 2. The trapezoid leaves an error O(dk^2): with the device of the example N is 6.62e-4
         too large with 20 steps, 2.65e-5 with 100.
@@ -70,13 +61,13 @@ def legacy_law(
         raise NoSolution(f"{steps} steps: the march needs at least 1", key="iteration_steps")
     half = _HalfSwing(device, swing)
     parameter = (2.0 / half.velocity(0.5, 1.0)) ** 2
-    for passes in range(1, max_passes + 1):
+    for passes in range(1, _MOST_PASSES + 1):
         scale = 0.5 / _march(half, parameter, steps)
-        if abs(scale - 1.0) <= tolerance:
+        if abs(scale - 1.0) <= _SETTLED:
             return LegacyLaw(parameter, passes)
         parameter *= scale**exponent
     raise NoSolution(
-        f"the source's iteration comes to no end in {max_passes} passes with this device and swing: "
+        f"the source's iteration comes to no end in {_MOST_PASSES} passes with this device and swing: "
         f"{_otherwise(exponent)}",
         key="method",
     )

@@ -17,7 +17,7 @@ import pytest
 from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import CamProfile, profile, translating
 from gearlink.core.cams.undercut import nearest, undercut
-from gearlink.core.numerics.extremes import least_convex_radius, maximum_over
+from gearlink.core.numerics.extremes import convex_radius, maximum_over
 
 NONE = 1e-12 * 100.0
 DEPTH = 1e-9
@@ -46,10 +46,10 @@ def rise_points(roller_radius: float):  # type: ignore[no-untyped-def]
 def test_critical_roller_radius() -> None:
     exact = {key: float(value) for key, value in CASES["UND-01"]["expected"].items()}
     beta = math.radians(60.0)
-    least = least_convex_radius(lambda phi: rise_cam(phi, 0.0).curvature, beta / 2.0, beta)
+    top = maximum_over(lambda phi: rise_cam(phi, 0.0).curvature, beta / 2.0, beta)
+    least = convex_radius(top)
     assert least.value == pytest.approx(exact["r_g_crit"], rel=1e-13)
     assert least.place / beta == pytest.approx(exact["x_star"], abs=1e-7)
-    top = maximum_over(lambda phi: rise_cam(phi, 0.0).curvature, beta / 2.0, beta)
     assert top.value == pytest.approx(exact["kappa_max"], rel=1e-13)
 
 
