@@ -4,7 +4,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # as typing has it, whose import takes longer than all of this module
 if TYPE_CHECKING:
-    from typing import Literal, TypeVar
+    from typing import Any, Literal, TypeVar
 
     Kind = TypeVar("Kind", bound="GearlinkError")
 
@@ -60,6 +60,24 @@ class MissingSection(NoSolution):
     """The command needs a section that the design file does not have."""
 
     code = "GL113"
+
+
+def section_of(spec: Any, name: str, words: str) -> Any:
+    """A section of the file that a synthesis needs; `words` say what it holds.
+
+    Raises
+        MissingSection - where the file has it not
+    Example
+        >>> from types import SimpleNamespace
+        >>> section_of(SimpleNamespace(dwell=None), "dwell", "angle (deg)")
+        Traceback (most recent call last):
+        ...
+        gearlink.core.errors.MissingSection: this synthesis needs the section dwell: angle (deg)
+    """
+    value = getattr(spec, name)
+    if value is None:
+        raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
+    return value
 
 
 def anew(error: NoSolution) -> NoSolution:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gearlink.core.design import Found, Outline
-from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.errors import NoSolution, at_key, section_of
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 from gearlink.core.linkages.fourbar.position import FourBar
@@ -75,13 +75,6 @@ class Synthesis(TwoGearFourBar):
         """A frame that is sought for a back-step takes nearly a tenth of a second each time."""
         return 10
 
-    def section(self, name: str, words: str) -> Any:
-        """A section of the file that this synthesis needs."""
-        value = getattr(self.spec, name)
-        if value is None:
-            raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
-        return value
-
     @cached_property
     def family(self) -> kernel.Family:
         """Gears and links without the frame."""
@@ -113,7 +106,7 @@ class BackStepSynthesis(Synthesis):
 
     @property
     def _request(self) -> float:
-        return float(self.section("back_step", "angle (deg)").angle)
+        return float(section_of(self.spec, "back_step", "angle (deg)").angle)
 
     def sought_frame(self) -> float:
         """The root of the back-step over the frame."""
@@ -138,7 +131,7 @@ class DwellSynthesis(Synthesis):
 
     @property
     def _request(self) -> Any:
-        return self.section("dwell", "window, tolerance or both (deg)")
+        return section_of(self.spec, "dwell", "window, tolerance or both (deg)")
 
     @cached_property
     def window(self) -> float | None:

@@ -8,7 +8,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import NoSolution, at_key, section_of
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.report import Check
@@ -84,7 +84,7 @@ class BackStepSynthesis(BackStepFamily):
         """One of back-step and crank angle, met by the root of the one unknown."""
         from gearlink.core.three_gear.synthesis.families import back_step_crank_angle_of, back_step_of, solved
 
-        task = self.section("back_step", "angle or crank_angle (deg)")
+        task = section_of(self.spec, "back_step", "angle or crank_angle (deg)")
         if task.angle is not None and task.crank_angle is not None:
             raise NoSolution(
                 "with crank, frame or balanced one of angle and crank_angle can be met: leave the other out",
@@ -100,7 +100,7 @@ class BackStepSynthesis(BackStepFamily):
 
     def chosen_idler(self) -> int:
         """From angle and crank angle by thesis (4-19), rounded to teeth; else the smallest that keeps the limits."""
-        task = self.section("back_step", "angle, crank_angle (deg)")
+        task = section_of(self.spec, "back_step", "angle, crank_angle (deg)")
         if self.general or task.angle is None or task.crank_angle is None:
             return super().chosen_idler()
         if task.crank_angle == 0.0:
@@ -113,7 +113,7 @@ class BackStepSynthesis(BackStepFamily):
 
     def crank_angle_for(self, i3: float) -> float:
         """phi12 as given, or from the back-step."""
-        task = self.section("back_step", "angle, crank_angle (deg)")
+        task = section_of(self.spec, "back_step", "angle, crank_angle (deg)")
         if task.crank_angle is not None:
             return math.radians(task.crank_angle)
         with at_key("back_step.angle"):
@@ -121,7 +121,7 @@ class BackStepSynthesis(BackStepFamily):
 
     def check_back_step_target(self) -> Iterator[Check]:
         """GL304 where the file asks for a back-step besides the crank angle."""
-        asked = self.section("back_step", "angle, crank_angle (deg)").angle
+        asked = section_of(self.spec, "back_step", "angle, crank_angle (deg)").angle
         if asked is None:
             return
         got = math.degrees(self.back_step_angle or 0.0)

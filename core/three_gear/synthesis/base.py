@@ -62,13 +62,6 @@ class Synthesis(ThreeGearFourBar):
         """The links that meet the task with an idler of so many teeth."""
         raise NotImplementedError
 
-    def section(self, name: str, words: str) -> Any:
-        """A section of the file that this synthesis needs."""
-        value = getattr(self.spec, name)
-        if value is None:
-            raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
-        return value
-
     def _radii(self, idler: int) -> tuple[float, float, float]:
         gears = self.spec.gears
         return tuple(gears.transverse_module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]

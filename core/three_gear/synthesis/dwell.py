@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Found, Outline
-from gearlink.core.errors import MissingSection, NoSolution, anew, at_key
+from gearlink.core.errors import MissingSection, NoSolution, anew, at_key, section_of
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.linkages.fourbar.position import FourBar
@@ -52,7 +52,7 @@ class DwellSynthesis(BackStepFamily):
 
     @property
     def _request(self) -> Any:
-        return self.section("dwell", _WORDS)
+        return section_of(self.spec, "dwell", _WORDS)
 
     @cached_property
     def window(self) -> float | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gearlink.core.design import Outline, placed
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import NoSolution, at_key, section_of
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.remedies.ways import at_most
 from gearlink.core.report import Remedy
@@ -43,7 +43,10 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def _crank_of(self, idler: int) -> float:
         """Crank length as given, or from the frame, the gap or the balance that is."""
-        request, radii = self.section("momentary", "eccentricity, frame or gap (mm), or balanced"), self._radii(idler)
+        request, radii = (
+            section_of(self.spec, "momentary", "eccentricity, frame or gap (mm), or balanced"),
+            self._radii(idler),
+        )
         forms = internal_families if is_internal(*radii) else momentary_dwell
         if request.eccentricity is not None:
             return float(request.eccentricity)
@@ -100,7 +103,7 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
         """A crank not below the radius of gear 1 is too long with every idler."""
-        crank = self.section("momentary", "eccentricity (mm)").eccentricity
+        crank = section_of(self.spec, "momentary", "eccentricity (mm)").eccentricity
         return crank is None or crank < self._radii(LEAST_IDLER)[0]
 
     @cached_property
@@ -113,7 +116,7 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def _gap_remedy(self, missing: float) -> str:
         words = super()._gap_remedy(missing)
-        request = self.section("momentary", "eccentricity (mm)")
+        request = section_of(self.spec, "momentary", "eccentricity (mm)")
         if request.gap is not None:
             return f"set momentary.gap to at least {self.spec.limits.gear_gap:g} mm"
         if request.eccentricity is None or self._longest_crank_with_room() is None:

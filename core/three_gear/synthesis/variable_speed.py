@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.design import Found, Outline
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import NoSolution, at_key, section_of
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.real_speed import other_speed
 from gearlink.core.results import cached_property
@@ -30,7 +30,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
         """W_min/W_max = min/max, met by the root of the one unknown."""
         from gearlink.core.three_gear.synthesis.families import with_speed_quotient
 
-        speed = self.section("speed", "min, max (rev/min)")
+        speed = section_of(self.spec, "speed", "min, max (rev/min)")
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             if speed.max <= speed.min:
                 raise NoSolution(f"max ({speed.max:g}) must be greater than min ({speed.min:g})")
@@ -39,7 +39,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     @property
     def input_speed(self) -> float:
         """Input speed [1/min] at which the output swings between the two: their mean where I = 1."""
-        speed = self.section("speed", "min, max (rev/min)")
+        speed = section_of(self.spec, "speed", "min, max (rev/min)")
         greatest = self.speed_ratio_max if self.mean_ratio > 0.0 else -self.speed_ratio_min
         found = float(speed.max) / greatest if self.general else 0.5 * (speed.min + speed.max)
         if wrong := other_speed(self.spec.input_speed, found):
@@ -48,7 +48,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
 
     def frame_ratio_for(self, i3: float) -> float:
         """Thesis (4-20)."""
-        speed = self.section("speed", "min, max (rev/min)")
+        speed = section_of(self.spec, "speed", "min, max (rev/min)")
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             return family.frame_ratio_for_speed_band(i3, speed.min, speed.max)
 
@@ -67,4 +67,4 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
         if self.general:
             return dwells.dwell_positions(self.linkage, self.train)
         self.linkage  # noqa: B018 - a band without a mechanism is refused here as well
-        return [self._middle] if self.section("speed", "min, max").min == 0.0 else []
+        return [self._middle] if section_of(self.spec, "speed", "min, max").min == 0.0 else []
