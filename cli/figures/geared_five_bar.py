@@ -71,11 +71,7 @@ def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
 
 def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     """Links at the first input angle, lightly at the last; the planet and the fixed gear."""
-    scene = build(design, np.array([0.0, 0.5]))
-    first, other = scene.readouts[0].values
-    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
-    scene_axes.lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
+    scene_axes.two_positions(axes, design, build)
 
 
 def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
@@ -91,9 +87,8 @@ def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
 
 def _period(axes: Axes, design: GearedFiveBar) -> None:
     """The x axis over as many turns as bring the linkage home."""
-    turns = design.period_turns
-    axes.set_xlim(0.0, 360.0 * turns)
-    axes.set_xticks(range(0, 360 * turns + 1, 60 if turns == 1 else 180 if turns <= 3 else 360 * -(-turns // 8)))
+    axes.set_xlim(0.0, 360.0 * design.period_turns)
+    style.turns(axes, design.period_turns)
 
 
 def _velocity(axes: Axes, design: GearedFiveBar) -> None:

@@ -48,11 +48,7 @@ def draw(command: str, design: GearedSixBar) -> Figure:
 
 def mechanism(axes: Axes, design: GearedSixBar) -> None:
     """Links and gears at the start, lightly half a loop later."""
-    scene = build(design, np.array([0.0, 0.5]))
-    first, other = scene.readouts[0].values
-    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
-    scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
-    scene_axes.lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
+    scene_axes.two_positions(axes, design, build)
 
 
 def _curve(axes: Axes, design: GearedSixBar, name: str, ylabel: str, order: int) -> None:
@@ -81,9 +77,8 @@ def _closed(design: GearedSixBar, data: dict[str, Any], name: str) -> tuple[Any,
 
 
 def _ticks(axes: Axes, design: GearedSixBar) -> None:
-    turns = design.period_turns
-    if turns is not None:
-        axes.set_xticks(range(0, 360 * turns + 1, 60 if turns == 1 else 180 if turns <= 3 else 360 * -(-turns // 8)))
+    if design.period_turns is not None:
+        style.turns(axes, design.period_turns)
 
 
 def _transmission(axes: Axes, design: GearedSixBar) -> None:

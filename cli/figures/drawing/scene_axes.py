@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures.drawing import style
+from gearlink.cli.figures.drawing import panels, style
 from gearlink.cli.scenes.lettering import on_disc, shifts
 from gearlink.cli.scenes.scene import Body, Chain, Line, Part, Points, Scene, placed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
+
+    from gearlink.core.numerics.arrays import Reals
 
 _POINTS = 0.68
 """Width of a line in points for a pixel of its width in a film."""
@@ -46,6 +50,15 @@ def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> No
         for center, radius, sense, color in turning(shown, _position(ahead, 0)):
             _sense(axes, shown, center, radius, sense, color)
     _words(axes, shown)
+
+
+def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene]) -> None:
+    """Links and gears at the first input angle of a loop, lightly half a loop later."""
+    scene = build(design, np.array([0.0, 0.5]))
+    first, other = scene.readouts[0].values
+    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
+    draw(axes, scene, ahead=build(design, np.array([AHEAD])))
+    lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
 
 
 def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]:

@@ -88,6 +88,11 @@ def full_turn(axes: Axes, step: int = 60) -> None:
     numbers_at(axes, range(0, 361, step))
 
 
+def turns(axes: Axes, count: int) -> None:
+    """Numbers along an x axis over so many turns, in degrees."""
+    numbers_at(axes, range(0, 360 * count + 1, 60 if count == 1 else 180 if count <= 3 else 360 * -(-count // 8)))
+
+
 def numbers_at(axes: Axes, places: Sequence[float]) -> None:
     """Numbers along the x axis at some places within it; `set_xticks` would make them before any is drawn."""
     from matplotlib.ticker import FixedLocator
