@@ -19,7 +19,7 @@ from gearlink.core.linkages.fourbar.position import solve_inverse as solve_one_i
 from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import Extreme
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.law import SixPhaseLaw
 
@@ -167,19 +167,22 @@ class GripperLinkage:
         """Least angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
 
         Notes
-            Refined on a grid of the swing, not of the turn: every row of the motion lies within it.
+            Sought over the swing, not over the turn: every row of the motion lies within it, its very ends among them.
         """
-        total = self.law.total_swing
-        swing = np.linspace(0.0, total, 181)
-        step = swing[1]
-        for _ in range(6):
-            values = self.transmission(self.local_output(swing))
-            least = [int(np.argmin(v)) for v in values]
-            found = [Extreme(float(v[i]), float(swing[i])) for v, i in zip(values, least, strict=True)]
-            swing = np.concatenate([np.linspace(e.place - step, e.place + step, 33) for e in found])
-            swing = np.clip(swing, 0.0, total)
-            step /= 16.0
-        return found[0], found[1]
+
+        def at_d(swing: Reals) -> Reals:
+            return self.transmission(self.local_output(swing))[0]
+
+        def at_c(swing: Reals) -> Reals:
+            return self.transmission(self.local_output(swing))[1]
+
+        ends = np.array([0.0, self.law.total_swing])
+        inside = extremes_over([(at_d, False), (at_c, False)], 0.0, self.law.total_swing, samples=180)
+        d, c = (
+            min(least, *map(Extreme, values.tolist(), ends.tolist()))
+            for least, values in zip(inside, self.transmission(self.local_output(ends)), strict=True)
+        )
+        return d, c
 
     def transmission(self, direction: Reals) -> tuple[Reals, Reals]:
         """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""

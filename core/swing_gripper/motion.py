@@ -123,7 +123,6 @@ class Motion:
         import numpy as np
 
         from gearlink.core.motion_extremes import extremes
-        from gearlink.core.numerics.extremes import minimum_over
 
         joints = [math.radians(start) for start in self.law.starts]
 
@@ -137,13 +136,8 @@ class Motion:
             for order, rate in enumerate(("velocity", "acceleration"), start=1)
         }
         found: dict[str, Any] = dict(extremes(curves, 0.0, _TURN, joints=joints))
-
-        def angles(theta: Reals, joint: int) -> Reals:
-            beta = self.law.evaluate(np.degrees(theta), 0)[0]
-            return self.linkage.transmission(self.linkage.local_output(beta))[joint]
-
-        least = [minimum_over(lambda t, j=j: angles(t, j), 0.0, _TURN, joints=joints, samples=512) for j in (0, 1)]  # type: ignore[misc]
-        return found | {"min_transmission_angle_at": [each.place for each in least]}
+        least = [math.radians(self.law.reaches(each.place)) for each in self.linkage.least_transmission]
+        return found | {"min_transmission_angle_at": least}
 
     @cached_property
     def min_transmission_angle(self) -> tuple[float, float]:
