@@ -50,7 +50,7 @@ class GearPair(PitchPair):
         a_w/(a_w - a). Otherwise a few ulp. Pressure angles near 0 (a centre distance near the sum of the base
         radii) have the condition number 1/tan^2(alpha_wt).
     Example
-        >>> pair = GearPair.from_center_distance(4.0, (72, 72), 290.2912330746487)
+        >>> pair = GearPair(module=4.0, teeth=(72, 72), given_distance=290.2912330746487)
         >>> round(math.degrees(pair.working_pressure_angle), 10), round(pair.shift_sum, 10)
         (21.2076131545, 0.5895483575)
         >>> ring = GearPair(module=2.0, teeth=(21, -67), given_shift=(0.3, -0.3))
@@ -105,36 +105,6 @@ class GearPair(PitchPair):
             addendum=addendum,
             clearance=clearance,
             given_shift=profile_shift,
-        )
-
-    @classmethod
-    def from_center_distance(
-        cls,
-        module: float,
-        teeth: tuple[int, int],
-        center_distance: float,
-        pressure_angle: float = math.radians(20.0),
-        *,
-        split: float | str = "equal",
-        addendum: float = 1.0,
-        clearance: float = 0.25,
-    ) -> GearPair:
-        """Pair at a centre distance [mm]; `split` shares the shift sum: "equal", or the number x_1 [module].
-
-        Example
-            >>> GearPair.from_center_distance(2.0, (40, 72), 112.0, split=0.1).profile_shift
-            (0.1, -0.1)
-        """
-        if isinstance(split, str) and split != "equal":
-            raise NoSolution(f"shift split {split!r}: it must be 'equal' or the profile shift of gear 1")
-        return cls(
-            module=module,
-            teeth=teeth,
-            pressure_angle=pressure_angle,
-            addendum=addendum,
-            clearance=clearance,
-            given_distance=center_distance,
-            given_first_shift=None if isinstance(split, str) else split,
         )
 
     @cached_property

@@ -187,7 +187,7 @@ def test_distance_and_shifts_may_differ_by_a_millionth_of_the_module(off, fits):
         return
     # beyond it the distance decides the mesh, and what the shifts lack is backlash
     assert found.quantity("center_distance").value == exact + 3.0 * off
-    mesh = GearPair.from_center_distance(3.0, (20, 60), exact + 3.0 * off)
+    mesh = GearPair(module=3.0, teeth=(20, 60), given_distance=exact + 3.0 * off)
     assert found.quantity("shift_sum").value == pytest.approx(mesh.shift_sum, rel=1e-14)
     shortened = max(0.0, 0.4 - mesh.center_distance_modification)
     assert found.quantity("tip_shortening").value == pytest.approx(shortened, abs=1e-14)

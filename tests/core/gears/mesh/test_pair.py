@@ -104,7 +104,9 @@ def build(spec):
     alpha = math.radians(spec.get("pressure_angle", 20.0))
     teeth = tuple(spec["teeth"])
     if "center_distance" in spec:
-        return GearPair.from_center_distance(spec["module"], teeth, spec["center_distance"], alpha)
+        return GearPair(
+            module=spec["module"], teeth=teeth, given_distance=spec["center_distance"], pressure_angle=alpha
+        )
     return GearPair.from_shift(spec["module"], teeth, tuple(spec["profile_shift"]), alpha)
 
 
@@ -125,7 +127,7 @@ def test_reference_cases(case):
     data, wanted = case["input"], case["expect"]
     m, teeth = float(data["m"]), (data["z1"], data["z2"])
     if "aw" in data:
-        pair = GearPair.from_center_distance(m, teeth, data["aw"])
+        pair = GearPair(module=m, teeth=teeth, given_distance=data["aw"])
     else:
         pair = GearPair.from_shift(m, teeth, (float(data["x1"]), float(data["x2"])))
     per_gear = {name: (wanted["gear1"][name], wanted["gear2"][name]) for name in wanted["gear1"]}
@@ -144,7 +146,7 @@ def test_contact_ratios_of_the_thesis_gears():
 
 
 def test_press_report_table():
-    pair = GearPair.from_center_distance(4.0, (72, 72), math.hypot(290.0, 13.0))
+    pair = GearPair(module=4.0, teeth=(72, 72), given_distance=math.hypot(290.0, 13.0))
     assert pair.center_distance == pytest.approx(290.29, abs=0.005)
     assert pair.reference_center_distance == 288.0
     assert math.degrees(pair.working_pressure_angle) == pytest.approx(21.2076131545, abs=5e-11)
@@ -236,7 +238,7 @@ def test_from_center_distance_against_many_digits():
         # the reference distance m (z1 + z2)/2 is exact for these modules, so that a' - a is the datum's
         m = 2.0 ** rng.randint(-20, 20)
         distance = source.center_distance / source.module * m
-        pair = GearPair.from_center_distance(m, source.teeth, distance, source.pressure_angle)
+        pair = GearPair(module=m, teeth=source.teeth, given_distance=distance, pressure_angle=source.pressure_angle)
         try:
             _ = pair.tip_pressure_angle
         except NoSolution:
@@ -247,14 +249,14 @@ def test_from_center_distance_against_many_digits():
 @pytest.mark.parametrize("offset", [1e-13, -1e-13, 1e-9, 1e-6, -1e-3])
 def test_close_to_the_reference_distance_nothing_cancels(offset):
     distance = 128.0 * (1.0 + offset)  # 128.0 is the reference distance, so that the difference is exact
-    pair = GearPair.from_center_distance(4.0, (24, 40), distance)
+    pair = GearPair(module=4.0, teeth=(24, 40), given_distance=distance)
     wanted = truth(4.0, (24, 40), ALPHA, 1.0, 0.25, distance=distance)
     for name in ("shift_sum", "center_distance_modification", "tip_shortening"):
         assert getattr(pair, name) == pytest.approx(float(wanted[name]), rel=8 * EPS, abs=0.0), name
 
 
 def test_at_the_reference_distance_everything_is_exact():
-    for pair in (GearPair.from_center_distance(0.7, (17, 40), 0.7 * 57 / 2), GearPair.from_shift(0.7, (17, 40))):
+    for pair in (GearPair(module=0.7, teeth=(17, 40), given_distance=0.7 * 57 / 2), GearPair.from_shift(0.7, (17, 40))):
         assert pair.working_pressure_angle == ALPHA
         assert pair.center_distance == pair.reference_center_distance
         assert (pair.shift_sum, pair.center_distance_modification, pair.tip_shortening) == (0.0, 0.0, 0.0)
@@ -262,8 +264,8 @@ def test_at_the_reference_distance_everything_is_exact():
 
 
 def test_split_of_the_shift_sum():
-    equal = GearPair.from_center_distance(3.0, (12, 24), 56.0)
-    given_x1 = GearPair.from_center_distance(3.0, (12, 24), 56.0, split=0.5)
+    equal = GearPair(module=3.0, teeth=(12, 24), given_distance=56.0)
+    given_x1 = GearPair(module=3.0, teeth=(12, 24), given_distance=56.0, given_first_shift=0.5)
     assert equal.profile_shift[0] == equal.profile_shift[1] == equal.shift_sum / 2.0
     assert given_x1.profile_shift == (0.5, given_x1.shift_sum - 0.5)
     assert given_x1.shift_sum == equal.shift_sum
@@ -308,7 +310,7 @@ def test_span_touches_nearest_to_the_shifted_circle():
 
 def test_no_span_over_one_tooth():
     """Nearest to r + x m would be one tooth, which the planes meet at its root."""
-    pair = GearPair.from_center_distance(3.0, (19, 47), 96.0)
+    pair = GearPair(module=3.0, teeth=(19, 47), given_distance=96.0)
     assert pair.span_teeth == (2, 5)
     assert pair.form_radius[0] < pair.span_contact(0, 2) < pair.tip_radius[0]
 
@@ -371,7 +373,7 @@ def test_center_distance_leads_back_to_the_shifts(z1, z2, x1, x2):
     except NoSolution:
         assume(False)
     assume(pair.working_pressure_angle > 0.1)
-    back = GearPair.from_center_distance(1.0, (z1, z2), pair.center_distance, split=x1)
+    back = GearPair(module=1.0, teeth=(z1, z2), given_distance=pair.center_distance, given_first_shift=x1)
     # a' carries a'/m eps of y, and dx/dy = tan(alpha')/tan(alpha)
     slope = max(1.0, math.tan(pair.working_pressure_angle) / math.tan(ALPHA))
     assert abs(back.shift_sum - pair.shift_sum) <= 8.0 * EPS * pair.center_distance * slope
@@ -389,10 +391,10 @@ def test_only_what_is_asked_for_is_computed():
     ("make", "message"),
     [
         (
-            lambda: GearPair.from_center_distance(4.0, (72, 72), 270.0),
+            lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=270.0),
             r"least is the sum of the base radii, 270\.63147",
         ),
-        (lambda: GearPair.from_center_distance(4.0, (72, 72), math.nan), "does not suit"),
+        (lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=math.nan), "does not suit"),
         (lambda: GearPair.from_shift(2.0, (8, 8), (-0.8, -0.8)), r"sum must be at least -0\.327"),
         (lambda: GearPair.from_shift(2.0, (8, 8), (math.nan, 0.0)), "leave no pressure angle"),
         (lambda: GearPair.from_shift(0.0, (20, 20)), "module 0 mm"),
@@ -402,7 +404,6 @@ def test_only_what_is_asked_for_is_computed():
         (lambda: GearPair.from_shift(2.0, (True, 20)), "teeth True"),
         (lambda: GearPair.from_shift(2.0, (20, 20), pressure_angle=1.6), "between 0 and 90 deg"),
         (lambda: GearPair.from_shift(2.0, (20, 20), addendum=0.0), "addendum must be positive"),
-        (lambda: GearPair.from_center_distance(2.0, (20, 20), 40.0, split="half"), "'equal' or the profile shift"),
         (lambda: GearPair(module=2.0, teeth=(20, 20)), "either both profile shifts or"),
     ],
 )
@@ -413,13 +414,13 @@ def test_refusals_name_the_limit(make, message):
 
 def test_a_distance_that_takes_the_tips_names_what_fits_it():
     """66 teeth fill 100 mm with a module of 3.03 mm; a module of 10 um cannot, whatever the shifts."""
-    pair = GearPair.from_center_distance(1e-5, (19, 47), 100.0)
+    pair = GearPair(module=1e-5, teeth=(19, 47), given_distance=100.0)
     with pytest.raises(NoSolution, match=r"no tip is left to gear 1: .* near to 0\.00033 mm, or .* near 3\.03 mm"):
         _ = pair.tip_pressure_angle
 
 
 def test_tip_inside_the_base_circle_is_refused_with_the_remedy():
-    pair = GearPair.from_center_distance(1.0, (60, 60), 60.0, split=-3.0)
+    pair = GearPair(module=1.0, teeth=(60, 60), given_distance=60.0, given_first_shift=-3.0)
     assert pair.tip_radius[0] < pair.base_radius[0]
     with pytest.raises(NoSolution, match=r"gear 1 lies below its base radius 28\.19.* by at least 0\.191 modules"):
         _ = pair.tip_pressure_angle

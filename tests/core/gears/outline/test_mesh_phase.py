@@ -38,7 +38,7 @@ def depth(points: np.ndarray, body: np.ndarray, *, inside: bool = True) -> float
     "pair",
     [
         GearPair.from_shift(2.0, (20, 41)),
-        GearPair.from_center_distance(4.0, (72, 72), 290.2912330746487),
+        GearPair(module=4.0, teeth=(72, 72), given_distance=290.2912330746487),
         GearPair.from_shift(3.0, (14, 33), (0.4, -0.1)),
     ],
 )

@@ -102,7 +102,7 @@ def test_thickness_on_the_reference_circle(teeth, shift):
 
 
 def test_tip_thickness_is_the_pairs():
-    pair = GearPair.from_center_distance(4.0, (72, 72), 290.2912330746487)
+    pair = GearPair(module=4.0, teeth=(72, 72), given_distance=290.2912330746487)
     gear = ToothProfile.of(pair, 0)
     start = gear.pieces()[-1][1]
     assert 2 * gear.outer_radius * (math.pi / 72 - start) == pytest.approx(pair.tip_thickness[0], rel=1e-12)
@@ -222,7 +222,7 @@ def test_a_gear_without_involute_is_refused():
         profile(12, 4.0)
     # pushed apart, the tip shortened into the root: less shift is the way out
     with pytest.raises(NoSolution, match=r"no involute is left to a gear of 19 teeth: .* lower"):
-        ToothProfile.of(GearPair.from_center_distance(3.0, (19, 47), 120.0), 0)
+        ToothProfile.of(GearPair(module=3.0, teeth=(19, 47), given_distance=120.0), 0)
 
 
 def test_chord_error_must_be_reachable():
