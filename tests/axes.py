@@ -49,6 +49,15 @@ def _reasons(found: Any) -> list[str]:
     return [found.reasons[i - 1] if i else "" for i in found.refused]
 
 
+SCALES = {"speed_ratio_min": 1.0, "min_transmission_angle": 1.0}
+"""Sizes below which a value has not so many digits; all other quantities are compared relatively, however small.
+
+The least speed of an output that stands still is nothing but the rounding of the speeds whose difference it is. Of a
+transmission angle [deg] near a dead point, tan^2(mu/2) is a difference of link lengths: their last digit costs eps/mu^2
+of it, 3e-9 at 0.015 deg.
+"""
+
+
 def agree(made: Problem, *, values: float = 1e-9, median: float = 1e-12, unsure: float = 0.02) -> None:
     """Refusals and statuses of the array form are the class's; values agree; few designs are left to the class."""
     count = made.order.count
@@ -68,7 +77,8 @@ def agree(made: Problem, *, values: float = 1e-9, median: float = 1e-12, unsure:
         a, b = many.quantities[quantity].astype(float), single.quantities[quantity].astype(float)
         assert (np.isnan(a) == np.isnan(b))[sure].all(), quantity
         exists = np.isfinite(b) & sure
-        away = np.abs(a - b)[exists] / np.maximum(1.0, np.abs(b[exists]))
+        size = np.maximum(np.abs(b[exists]), SCALES.get(quantity, np.finfo(float).tiny))
+        away = np.abs(a - b)[exists] / size
         assert away.max(initial=0.0) < values, (quantity, columns[:, np.flatnonzero(exists)[away.argmax()]])
         assert not away.size or np.median(away) < median, quantity
 

@@ -249,7 +249,8 @@ def study(name: str, count: int) -> Problem:
 )
 @pytest.mark.parametrize("count", [32, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
-    agree(study(name, count), unsure=1.0 if name == "window, unequal" else 0.02)
+    # "window, unequal": of four in five designs (0.75 to 0.81 by the count) the class is asked
+    agree(study(name, count), unsure=0.82 if name == "window, unequal" else 0.02)
 
 
 @pytest.mark.slow
@@ -296,7 +297,8 @@ def test_no_bit_depends_on_the_neighbours(name: str) -> None:
 def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
     command, section, variables = TASKS[name]
     made = sampled({**BASE, **section}, command, variables, ["tolerance_dwell_start", "tolerance_dwell_angle"], 64)
-    agree(made, unsure=1.0, median=1e-11)
+    # "dwell, band": 0.72 of the designs have two starts
+    agree(made, unsure=0.75 if name == "dwell, band" else 0.02, median=1e-11)
 
 
 def test_designs_next_to_a_limit_are_left_to_the_class() -> None:
