@@ -238,6 +238,27 @@ def test_transmission_angles_of_the_example() -> None:
 
 
 @pytest.mark.parametrize(
+    ("changes", "swing"),
+    [
+        ({}, 1.0),
+        ({"links__coupler": 270.0}, 0.0),
+        ({"output_direction": 60.0}, 1.0),
+        ({"output_direction": 45.0}, None),
+    ],
+)
+def test_the_least_angle_stands_on_the_working_stroke(changes: dict[str, float], swing: float | None) -> None:
+    """At an end of the stroke it is the very end; within it (None) the cylinder angle is that of the swing."""
+    made = machine(**changes)
+    place = math.degrees(made.motion.extremes["min_transmission_angle_at"][1])
+    least, law = made.linkage.least_transmission[1], made.linkage.law
+    if swing is not None:
+        assert least.place == swing * law.total_swing
+        assert place == pytest.approx(swing * law.starts[3], rel=1e-15)
+    assert 0.0 <= place <= law.starts[3] * (1.0 + EPS)
+    assert law.evaluate(place, 0)[0][0] == pytest.approx(least.place, abs=1e-14)
+
+
+@pytest.mark.parametrize(
     ("changes", "words"),
     [
         ({"links__coupler": 115.5}, r"does not close at cylinder angle 0 deg: \|AD\| = 277.224 mm"),
