@@ -103,4 +103,4 @@ def gear_direction(design: PressLoads) -> Iterator[Check]:
     name = PLACE.checks[1]
     if off > _NEAR:
         text += f", is {wanted:.5g} deg, or {-wanted:.5g} deg as drawn"
-    yield PLACE.check("warn" if off > _NEAR else "pass", text, off, _NEAR, "deg", name=name)
+    yield PLACE.check("warn" if off > _NEAR else "pass", text, off, _NEAR, "deg", name=name, side="<=")
