@@ -158,8 +158,8 @@ def test_what_is_tried_seeks_no_advice(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zone, "_shift_that_helps", lambda _, cylinder, __: sought.append(cylinder.gear_ratio) or "")
     made = factory.design("ty460", command="press", cylinder__gear_ratio=1.4)
     (check,) = failing(made, "press", "register")
-    assert check.remedy == (("cylinder.gear_ratio", 2.0),)
-    assert set(sought) == {1.4}
+    assert check.remedy == (("cylinder.gear_ratio", 1.0),), "of two turns bed and cylinder never meet: tried in vain"
+    assert set(sought) <= {1.4}
 
 
 def test_links_for_points_with_times_are_not_sought_for_a_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
