@@ -56,12 +56,12 @@ def beside_turning_pin(place: complex, arm: complex, sweep: float) -> Near:
     return Near(*min((abs(seen * cmath.exp(-1j * turned) - length), turned) for turned in (0.0, abs(sweep))))
 
 
-def beside_line(place: complex, start: Points, end: Points) -> Reals:
+def beside_line(place: Points | complex, start: Points, end: Points | complex) -> Reals:
     """Distance of a place from the line between two joints, at every position of them.
 
     Parameters
-        place : complex [mm]
-        start, end : (N,) arrays [mm] - which never coincide
+        place : complex or (N,) array [mm]
+        start, end : (N,) arrays [mm] - which never coincide; an end that stands still may be one place
     Returns
         distance : (N,) array [mm]
     Example

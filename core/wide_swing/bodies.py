@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from gearlink.core.clearance.links import beside_line, beside_turning_arm
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.numerics.extremes import minimum_over
 from gearlink.core.report import Check, safely_above
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.fourbar.position import FourBar
-    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.design import WideSwingDesign
     from gearlink.core.wide_swing.loads.design import WideSwingLoads
     from gearlink.core.wide_swing.slider import SliderDrive
@@ -166,20 +167,12 @@ def _drive_rooms(loads: WideSwingLoads) -> dict[str, float]:
     def distance(name: str, phi: Reals) -> Reals:
         at = loads.machine.at(phi).links
         start, end = (at[name].at(place).value for place in (0j, 1e-3 * lengths[name]))
-        return 1e3 * to_line(at["rocker"].origin.value, start, end)
+        return 1e3 * beside_line(at["rocker"].origin.value, start, end)
 
     return {name: _least(lambda phi, name=name: distance(name, phi), 0.0, math.tau) for name in lengths}  # type: ignore[misc]
 
 
 # Distances
-
-
-def to_line(point: Points | complex, start: Points, end: Points | complex) -> Reals:
-    """Distances of points from lines between two ends."""
-    along = end - start
-    square = np.abs(along) ** 2
-    share = np.clip(((point - start) * np.conj(along)).real / np.where(square == 0.0, 1.0, square), 0.0, 1.0)
-    return np.asarray(np.abs(start + share * along - point))
 
 
 def _least(distance: Callable[[Reals], Reals], start: float, end: float) -> float:
@@ -203,7 +196,7 @@ def device_room(ratio: float, swing: float) -> float:
 
 def _device_from(ratio: float, swing: float, place: complex) -> float:
     """Least distance of the device from a place, in arms from D, the base pin on the real axis."""
-    return _least(lambda phi: to_line(place, np.exp(1j * phi), complex(ratio)), -0.5 * swing, 0.5 * swing)
+    return _least(lambda phi: beside_line(place, np.exp(1j * phi), complex(ratio)), -0.5 * swing, 0.5 * swing)
 
 
 def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
@@ -222,8 +215,8 @@ def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
 
     def distance(phi: Reals) -> Reals:
         pin = drive.crank * np.exp(1j * (phi + drive.middle_angle))
-        end = drive.depth(phi)[0] - 1j * drive.offset
-        return to_line(place, pin, np.asarray(end, dtype=np.complex128))
+        end: Points = drive.depth(phi)[0] - 1j * drive.offset
+        return beside_line(place, pin, end)
 
     return _least(distance, -0.5 * swing, 0.5 * swing)
 
@@ -240,9 +233,7 @@ def swept_room(length: float, aside: float, swing: float, reach: float) -> float
         >>> round(swept_room(200.0, math.pi, math.radians(270.0), 150.0), 6), swept_room(100.0, 0.0, 2.0, 150.0)
         (106.066017, 50.0)
     """
-    off = max(0.0, abs(math.remainder(aside, math.tau)) - 0.5 * swing)
-    point = cmath.rect(reach, off)
-    return abs(point - min(max(point.real, 0.0), length))
+    return beside_turning_arm(cmath.rect(reach, aside), cmath.rect(length, -0.5 * swing), swing).distance
 
 
 def coupler_room(bar: FourBar) -> float:
