@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.cams.machine import OnDiscCams
 from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.flatbed_press import bodies, checks, remedies, tables
@@ -16,7 +17,7 @@ from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantit
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.linkages.slider_crank.design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.report import Check, Report, Table
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ _EXTREMES = (
 )
 
 
-class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
+class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCams):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
     kind = "flatbed-press"
@@ -254,20 +255,6 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
 
         with at_key("input_gears"):
             return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
-
-    def require(self, command: str) -> None:
-        """Compute every quantity of a command; where a cam cannot be since the bed turns back, the refusal says so."""
-        try:
-            super().require(command)
-        except NoSolution as error:
-            raise self.cams.explained(error) from error
-
-    def report(self, command: str, **asked: Any) -> Report:
-        """The report of a command, with the same refusal."""
-        try:
-            return super().report(command, **asked)
-        except NoSolution as error:
-            raise self.cams.explained(error) from error
 
     @classmethod
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:

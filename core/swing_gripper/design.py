@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Found, Outline, placed
+from gearlink.core.cams.machine import OnDiscCams
+from gearlink.core.design import Found, Outline, placed
 from gearlink.core.errors import GearlinkError, NoSolution
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.report import Report
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper import checks, remedies, tables
 from gearlink.core.swing_gripper.cams import GripperCams
@@ -42,7 +42,7 @@ _NOT_OF_MOTION = {"name", "cam", "size"}
 _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
 
 
-class SwingGripper(WithExtremes, Design):
+class SwingGripper(WithExtremes, OnDiscCams):
     """A swing gripper, from its design file to every quantity that is asked for."""
 
     kind = "swing-gripper"
@@ -186,17 +186,3 @@ class SwingGripper(WithExtremes, Design):
         closing = ("lift-off",) if self.spec.spring is None or self.closure.refusal is not None else ()
         tables = outline.tables if cam.return_roller is not None else outline.tables[:1]
         return Outline((*chosen, *outline.quantities), (*outline.checks, *closing), tables)
-
-    def require(self, command: str) -> None:
-        """Compute every quantity of a command; where a cam cannot be, the refusal says where it can."""
-        try:
-            super().require(command)
-        except NoSolution as error:
-            raise self.cams.explained(error) from error
-
-    def report(self, command: str, **asked: Any) -> Report:
-        """The report of a command, with the same refusal."""
-        try:
-            return super().report(command, **asked)
-        except NoSolution as error:
-            raise self.cams.explained(error) from error

@@ -215,7 +215,7 @@ def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
 
     def distance(phi: Reals) -> Reals:
         pin = drive.crank * np.exp(1j * (phi + drive.middle_angle))
-        end: Points = drive.depth(phi)[0] - 1j * drive.offset
+        end = np.asarray(drive.depth(phi)[0] - 1j * drive.offset, dtype=np.complex128)
         return beside_line(place, pin, end)
 
     return _least(distance, -0.5 * swing, 0.5 * swing)
