@@ -1,4 +1,4 @@
-"""Each comparison of arrays says how near: numpy's own tolerances would stand in silently for those of a head."""
+"""Each comparison says how near: the tolerances of numpy and pytest would stand in silently for those of a head."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import re
 from pathlib import Path
 
 TESTS = Path(__file__).parent
-SILENT = {"assert_allclose": ("rtol",), "allclose": ("rtol", "atol"), "isclose": ("rtol", "atol")}
+SILENT = {"assert_allclose": ("rtol=",), "allclose": ("rtol=", "atol="), "isclose": ("rtol=", "atol=")}
 """numpy's comparisons, and what each adds when it is not told: rtol 1e-7 and atol 0, or rtol 1e-5 and atol 1e-8."""
-_CALL = re.compile(rf"\bnp(?:\.testing)?\.({'|'.join(SILENT)})\(")
+_CALL = re.compile(rf"\bnp(?:\.testing)?\.({'|'.join(SILENT)})\(|\bpytest\.approx\(")
+_TOLD = re.compile(r"\b(?:rel|abs)=|\*\*")
+"""pytest adds rel 1e-6 where neither is given, and nothing to the one that is."""
 
 
 def silent_tolerances(text: str) -> list[str]:
-    """Calls that leave a tolerance to numpy, by their text up to the closing bracket."""
+    """Calls that leave a tolerance to numpy or pytest, by their text up to the closing bracket."""
     found = []
     for call in _CALL.finditer(text):
         depth, end = 1, call.end()
@@ -20,7 +22,8 @@ def silent_tolerances(text: str) -> list[str]:
             depth += {"(": 1, ")": -1}.get(text[end], 0)
             end += 1
         whole = text[call.start() : end]
-        if any(f"{word}=" not in whole for word in SILENT[call[1]]):
+        told = all(word in whole for word in SILENT[call[1]]) if call[1] else _TOLD.search(whole)
+        if not told:
             found.append(whole)
     return found
 
@@ -31,9 +34,10 @@ def test_silence_is_seen() -> None:
     untold = "np.testing.assert_allclose(f(x), y, atol=1e-9)"
     assert silent_tolerances(f"{told}\n{untold}\n") == [untold]
     assert silent_tolerances("np.allclose(a, b, rtol=1e-9)") == ["np.allclose(a, b, rtol=1e-9)"]
+    assert silent_tolerances("a == pytest.approx(b, rel=1e-9) != pytest.approx(f(c))") == ["pytest.approx(f(c))"]
 
 
-def test_no_tolerance_is_left_to_numpy() -> None:
+def test_no_tolerance_is_left_to_the_library() -> None:
     silent = {
         path.relative_to(TESTS).as_posix(): calls
         for path in sorted(TESTS.rglob("*.py"))

@@ -96,7 +96,7 @@ def test_what_was_found_is_not_searched_again(monkeypatch: pytest.MonkeyPatch) -
     made.__dict__["function_fit"] = function_fit.FunctionFit(made.start_function, 0.5, error, ())  # as if it was found
     table = made.table("candidates")
     assert len(searched) == table.length - 1 == 2
-    assert table["structural_error"][0] == pytest.approx(math.degrees(1e-3))
+    assert table["structural_error"][0] == pytest.approx(math.degrees(1e-3), rel=1e-12)
     assert table["findings"][1] == "GL112 target.function"
 
 

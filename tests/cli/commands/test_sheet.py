@@ -133,7 +133,7 @@ def test_time_is_on_the_right_in_si() -> None:
     (right,) = velocity.child_axes
     assert right.get_ylabel() == "[m/s]"
     figure.draw_without_rendering()
-    assert right.get_ylim()[1] == pytest.approx(velocity.get_ylim()[1] * made.input_speed * 1e-3)
+    assert right.get_ylim()[1] == pytest.approx(velocity.get_ylim()[1] * made.input_speed * 1e-3, rel=1e-12)
 
 
 def test_timing_is_in_angles_of_the_input() -> None:
@@ -144,7 +144,7 @@ def test_timing_is_in_angles_of_the_input() -> None:
     cams = {phase.name: phase for phase in names["cams"]}
     assert cams["sync"].start == pytest.approx(math.degrees(made.sync_start), abs=1e-9)
     assert cams["sync"].end == pytest.approx(math.degrees(made.sync_end), abs=1e-9)
-    assert [place for _, place in marks] == pytest.approx([cams["sync"].start, cams["sync"].end])
+    assert [place for _, place in marks] == pytest.approx([cams["sync"].start, cams["sync"].end], rel=1e-12)
     turning = names["bed"][0].end
     assert abs(float(made.bed.travel(math.radians(turning), 1).first)) < 1.0  # mm/rad, of 427
 

@@ -111,10 +111,10 @@ def test_rexs_of_a_ring_and_its_pinion(gearlink: Any, tmp_path: Path) -> None:
     (ring,) = (values[i] for i, c in components.items() if c.attrib["type"] == "ring_gear")
     (stage,) = (values[i] for i, c in components.items() if c.attrib["type"] == "cylindrical_stage")
     assert (pinion["number_of_teeth"], ring["number_of_teeth"]) == ("21", "67")
-    assert float(ring["helix_angle_reference_diameter"]) == pytest.approx(15.0)  # the hand of its pinion
+    assert float(ring["helix_angle_reference_diameter"]) == pytest.approx(15.0, rel=1e-12)  # the hand of its pinion
     transverse = 3.0 / math.cos(math.radians(15.0))
     assert float(ring["reference_circle_diameter"]) == pytest.approx(67 * transverse, rel=1e-14)
-    assert float(stage["gear_ratio"]) == pytest.approx(67 / 21)
+    assert float(stage["gear_ratio"]) == pytest.approx(67 / 21, rel=1e-12)
     assert float(stage["common_face_width"]) == 38.0
     shifts = [v["addendum_modification_coefficient"] for v in values.values() if "addendum_modification" in v]
     assert shifts == ["0.3", "0.3", "-0.1", "-0.1"]
@@ -326,7 +326,9 @@ def test_helical_teeth_have_their_hands() -> None:
     assert any("15 deg left-hand" in note for note in gear.notes)
     ring = design({"kind": "gear-pair", "module": 3, "teeth": [21, -67], "profile_shift": [0, 0], "helix_angle": 15})
     pinion, mate = (parts.makers(ring)[name]() for name in ("gear1", "gear2"))
-    assert (21 * pinion.twist, 67 * mate.twist) == pytest.approx((42 * slope / 63 * math.cos(math.radians(15.0)),) * 2)
+    assert (21 * pinion.twist, 67 * mate.twist) == pytest.approx(
+        (42 * slope / 63 * math.cos(math.radians(15.0)),) * 2, rel=1e-12
+    )
     train = design({"kind": "three-gear-four-bar", "links": {"crank": 38, "frame": 158},
                     "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40, "helix_angle": 10}})  # fmt: skip
     turns = [parts.makers(train)[name]().twist for name in ("gear1", "gear3", "gear5")]
@@ -350,7 +352,7 @@ def test_dxf_has_extents_and_circles_of_tip_and_root(gearlink: Any, designs: Pat
     circles = {c.dxf.layer: c.dxf.radius for c in drawn.modelspace().query("CIRCLE")}
     assert {"TIP_CIRCLE", "ROOT_CIRCLE", "RIM", "REFERENCE_CIRCLE", "BASE_CIRCLE"} <= set(circles)
     for corner, sign in (("$EXTMIN", -1.0), ("$EXTMAX", 1.0)):
-        assert drawn.header[corner][:2] == pytest.approx((sign * circles["RIM"],) * 2)
+        assert drawn.header[corner][:2] == pytest.approx((sign * circles["RIM"],) * 2, rel=1e-12)
 
 
 def test_every_kind_with_gears_has_parts(designs: Path) -> None:

@@ -42,10 +42,10 @@ def test_the_outline_is_closed_and_has_its_teeth_and_lines(given: Any, form: Cur
     assert nodes[0] == nodes[-1]
     assert np.sum((nodes[:-1].conj() * nodes[1:]).imag) > 0.0, "counter-clockwise, as gears and cams are"
     assert (nodes.imag.max(), nodes.imag.min()) == pytest.approx((3.0, profile.root - 12.0), rel=1e-12)
-    assert np.ptp(nodes.real) == pytest.approx(30 * math.pi * 3 / math.cos(beta))
+    assert np.ptp(nodes.real) == pytest.approx(30 * math.pi * 3 / math.cos(beta), rel=1e-12)
     assert np.count_nonzero(np.diff((nodes.imag > 0.0).astype(int)) == 1) == 30
     assert set(lines["DATUM_LINE"].nodes.imag) == {0.0}
-    assert lines["PITCH_LINE"].nodes.imag == pytest.approx(0.6)
+    assert lines["PITCH_LINE"].nodes.imag == pytest.approx(0.6, rel=1e-12)
 
 
 def test_the_solid_has_the_area_of_trapezia_less_the_roundings() -> None:
@@ -92,7 +92,7 @@ def test_the_rack_goes_there_and_back_as_the_gear_rolls() -> None:
     made = design("rack_drive")
     fraction = np.linspace(0.0, 1.0, 9)
     rack, gear = build(made, fraction).parts[:2]
-    assert rack.place[0] == pytest.approx(rack.place[-1])
+    assert rack.place[0] == pytest.approx(rack.place[-1], rel=1e-12)
     travel = (rack.place - rack.place[0]).imag
     assert travel.max() > 5 * math.pi * 3.0
     assert (gear.turn - gear.turn[0]) * 31.5 == pytest.approx(travel, abs=1e-9)

@@ -68,8 +68,8 @@ def test_the_synchronous_zone_is_shaded_in_both_curves(press: Sheet) -> None:
     made, figure = press
     for title in ("Travel", "Speed"):
         box = panel(figure, title).patches[0].get_bbox()
-        assert math.degrees(made.sync_start) == pytest.approx(box.x0)
-        assert math.degrees(made.sync_end) == pytest.approx(box.x1)
+        assert math.degrees(made.sync_start) == pytest.approx(box.x0, rel=1e-12)
+        assert math.degrees(made.sync_end) == pytest.approx(box.x1, rel=1e-12)
 
 
 def test_twelve_positions_of_the_bed_chain_keep_their_links(press: Sheet) -> None:
@@ -94,7 +94,7 @@ def test_bed_arrows_are_its_speeds_to_one_scale(press: Sheet) -> None:
     assert quiver.scale == 1.0
     key = next(each for each in axes.artists if hasattr(each, "text"))
     assert key.text.get_text() == "bed: 2000 mm/s"
-    assert pytest.approx(2000.0 * scale) == key.U
+    assert pytest.approx(2000.0 * scale, rel=1e-12) == key.U
 
 
 def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
@@ -142,9 +142,9 @@ def test_phases_are_shaded_and_named(cam: Sheet) -> None:
     bounds = [patch.get_bbox().x0 for patch in axes.patches]
     follower = cam.design.follower
     starts = [math.degrees(segment.start) for segment in follower.segments]
-    assert bounds == pytest.approx([*starts, 0.0])
+    assert bounds == pytest.approx([*starts, 0.0], rel=1e-12)
     # The dwell runs through the end of the turn.
-    assert axes.patches[-1].get_bbox().x1 == pytest.approx(starts[0])
+    assert axes.patches[-1].get_bbox().x1 == pytest.approx(starts[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["main cam", "return cam"])
@@ -171,7 +171,7 @@ def test_rollers_touch_their_cams_on_the_line(cam: Sheet) -> None:
     rollers = [patch for patch in axes.patches if getattr(patch, "radius", 0.0) == 25.0]
     assert [roller.center[1] for roller in rollers] == pytest.approx([0.0, 0.0], abs=1e-12)
     right, left = (roller.center[0] for roller in rollers)
-    assert right - left == pytest.approx(cam.design.roller_center_distance)
+    assert right - left == pytest.approx(cam.design.roller_center_distance, rel=1e-12)
     for roller, name in zip(rollers, ("main cam", "return cam"), strict=True):
         line = lines(axes)[f"{name}, profile"]
         reach = np.hypot(line.get_xdata() - roller.center[0], line.get_ydata() - roller.center[1]).min()
@@ -201,7 +201,9 @@ def test_limits_are_drawn(cam: Sheet) -> None:
 def test_compensation_is_the_gap_of_the_two_travels(cam: Sheet) -> None:
     axes = panel(cam.figure, "Compensation")
     line = axes.get_lines()[0]
-    assert line.get_xdata()[[0, -1]] == pytest.approx(np.degrees([cam.design.sync_start, cam.design.sync_end]))
+    assert line.get_xdata()[[0, -1]] == pytest.approx(
+        np.degrees([cam.design.sync_start, cam.design.sync_end]), rel=1e-12
+    )
     assert line.get_ydata()[[0, -1]] == pytest.approx([0.0, cam.design.compensation], abs=1e-9)
 
 

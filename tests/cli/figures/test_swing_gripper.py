@@ -62,7 +62,7 @@ def test_phases_are_shaded_and_named(gripper: Sheet) -> None:
     names = next(child for child in axes.child_axes if child.get_xticklabels())
     wanted = ["accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell"]
     assert [label.get_text() for label in names.get_xticklabels()] == wanted
-    assert [patch.get_bbox().x0 for patch in axes.patches] == pytest.approx(list(made.law.starts[:-1]))
+    assert [patch.get_bbox().x0 for patch in axes.patches] == pytest.approx(list(made.law.starts[:-1]), rel=1e-12)
 
 
 def test_handover_is_marked_on_the_curves(gripper: Sheet) -> None:
@@ -73,7 +73,7 @@ def test_handover_is_marked_on_the_curves(gripper: Sheet) -> None:
         curve = axes.get_lines()[0]
         dot = next(line for line in axes.get_lines() if line.get_marker() == "o")
         at_handover = np.interp(made.spec.handover, curve.get_xdata(), curve.get_ydata())
-        assert (dot.get_xdata()[0], dot.get_ydata()[0]) == pytest.approx((106.0, at_handover))
+        assert (dot.get_xdata()[0], dot.get_ydata()[0]) == pytest.approx((106.0, at_handover), rel=1e-12)
 
 
 @pytest.mark.parametrize(("label", "degrees"), [("bite, 0°", 0), ("handover, 106°", 106), ("far dwell, 162°", 162)])

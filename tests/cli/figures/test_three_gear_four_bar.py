@@ -102,7 +102,7 @@ def test_letters_keep_off_the_links():
     for name, joint in zip("ABCD", joints, strict=True):
         (letter,) = [text for text in axes.texts if text.get_text() == name]
         away = complex(*letter.get_position())
-        assert abs(away) == pytest.approx(11.5)
+        assert abs(away) == pytest.approx(11.5, rel=1e-12)
         for other in joints[[abs(joints - joint).argsort()[1]]]:
             # Not over the nearest joint's link: at least 40 degrees beside it.
             assert abs(cmath.phase(away / (other - joint))) > math.radians(40.0)
@@ -149,8 +149,8 @@ def test_the_back_step_does_not_hide_the_dwell():
     for title in ("Output angle", "Dwell, magnified", "Speed ratio"):
         dwell, *_, step = panel(figure, title).patches
         wide, narrow = ((box.x0, box.x1) for box in (dwell.get_bbox(), step.get_bbox()))
-        assert wide[1] - wide[0] == pytest.approx(135.0)
-        assert narrow[1] - narrow[0] == pytest.approx(math.degrees(made.back_step.crank_angle))
+        assert wide[1] - wide[0] == pytest.approx(135.0, rel=1e-12)
+        assert narrow[1] - narrow[0] == pytest.approx(math.degrees(made.back_step.crank_angle), rel=1e-12)
         assert not step.get_fill() or step.get_facecolor()[3] == 0.0
         assert step.get_hatch()
 

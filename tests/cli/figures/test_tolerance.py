@@ -23,7 +23,7 @@ def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
     x, y = outline.get_xy().T
     assert 0.5 * abs(float(np.dot(x[:-1], y[1:]) - np.dot(x[1:], y[:-1]))) == pytest.approx(1.0, rel=1e-9)
     verticals = [float(line.get_xdata()[0]) for line in axes.lines]
-    assert 20.4 in [pytest.approx(place) for place in verticals]
+    assert 20.4 in [pytest.approx(place, rel=1e-12) for place in verticals]
     assert design.nominal["back_step_angle"] in verticals
     assert design.result.values["back_step_angle"].size == 128  # every sample, where there are few
 
@@ -34,8 +34,8 @@ def test_bars_are_the_linear_shares() -> None:
     table = design.table_contributions()
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
     wanted = sorted(row["linear"] for row in rows if row["quantity"] == "back_step_angle")
-    assert [bar.get_width() for bar in axes.patches] == pytest.approx(wanted)
-    assert math.fsum(wanted) == pytest.approx(1.0)
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx(wanted, rel=1e-12)
+    assert math.fsum(wanted) == pytest.approx(1.0, rel=1e-12)
 
 
 def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
@@ -43,8 +43,8 @@ def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
     axes = next(axes for axes in figure.axes if "over the cycle" in axes.get_title(loc="left"))
     table = design.table_band()
     middle = next(line for line in axes.lines if line.get_label() == "50 %")
-    assert np.asarray(middle.get_xdata()) == pytest.approx(np.append(table["input"], 360.0))
-    assert np.asarray(middle.get_ydata()) == pytest.approx(np.append(table["q50"], table["q50"][0]))
+    assert np.asarray(middle.get_xdata()) == pytest.approx(np.append(table["input"], 360.0), rel=1e-12)
+    assert np.asarray(middle.get_ydata()) == pytest.approx(np.append(table["q50"], table["q50"][0]), rel=1e-12)
     begins = next(line for line in axes.lines if line.get_label() == "the dwell begins")
     assert begins.get_xdata()[0] == pytest.approx(224.849, abs=0.01)
 
@@ -73,7 +73,7 @@ def test_band_over_the_dwell_is_that_of_the_budget() -> None:
     design, figure = sheet("candy_feed_tolerances", "register")
     axes: Any = figure.axes[0]
     line = next(line for line in axes.lines if line.get_label() == "99.73 % torque +1")
-    assert np.asarray(line.get_ydata()) == pytest.approx(design.budgets[0].band)
+    assert np.asarray(line.get_ydata()) == pytest.approx(design.budgets[0].band, rel=1e-12)
 
 
 def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
@@ -84,7 +84,7 @@ def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
     assert len(named) == 6
     for line in named:
         one = gains[line.get_label()]
-        assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]))
+        assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]), rel=1e-12)
 
 
 def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:

@@ -134,9 +134,9 @@ def test_the_rim_of_the_file_is_drawn_and_exported():
     assert circles["RIM"] == 90.0
     scene = import_module("gearlink.cli.scenes.two_gear_four_bar").build(made, np.zeros(1))
     rims = [part for part in scene.parts if isinstance(part, Body) and part.repeats == 0]
-    assert max(abs(rims[0].outline)) == pytest.approx(90.0)
+    assert max(abs(rims[0].outline)) == pytest.approx(90.0, rel=1e-12)
     ring = next(gear for gear in made.layout.gears if gear.axis == "A")
-    assert (ring.outer, ring.inner) == (90.0, pytest.approx(abs(made.raw("tip_radius")[1])))
+    assert (ring.outer, ring.inner) == (90.0, pytest.approx(abs(made.raw("tip_radius")[1]), rel=1e-12))
 
 
 @pytest.mark.quick(3)

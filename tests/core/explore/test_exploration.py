@@ -217,8 +217,8 @@ def test_definitions_of_many_operations_are_computed() -> None:
         checks={"must_pass": "none"},
     )
     table = made.report("explore").tables[0]
-    assert sorted(table["x250"]) == [pytest.approx(250.0 - z / 40.0) for z in (50, 40)]
-    assert sorted(table["y"]) == [pytest.approx(-250.0 * z / 40.0) for z in (50, 40)]
+    assert sorted(table["x250"]) == [pytest.approx(250.0 - z / 40.0, rel=1e-12) for z in (50, 40)]
+    assert sorted(table["y"]) == [pytest.approx(-250.0 * z / 40.0, rel=1e-12) for z in (50, 40)]
 
 
 @pytest.mark.parametrize(

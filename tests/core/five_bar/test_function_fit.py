@@ -250,7 +250,7 @@ def test_timed_design() -> None:
     for x, y, angle, distance in zip(table["x"], table["y"], table["input_angle"], table["distance"], strict=True):
         at = complex(points(bar, np.array([math.radians(angle)]), made.offset)[0])
         assert abs(at - complex(x, y)) == pytest.approx(distance, abs=1e-9)
-    assert table["input_angle"][0] == pytest.approx(math.degrees(first))
+    assert table["input_angle"][0] == pytest.approx(math.degrees(first), rel=1e-12)
     assert [check.status for check in made.check("target")] == ["pass"]
     assert made.table("search").length == 1
 

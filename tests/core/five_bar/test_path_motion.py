@@ -322,7 +322,7 @@ def test_ratio_period_and_table():
     table = made.table("path")
     assert len(table.data[0]) == 3 * 360
     data = dict(zip(table.columns, table.data, strict=True))
-    assert data["output_angle"][-1] == pytest.approx(90.0 - 2.0 / 3.0 * 1079.0)
+    assert data["output_angle"][-1] == pytest.approx(90.0 - 2.0 / 3.0 * 1079.0, rel=1e-12)
     internal = path_design(gears={"module": 2.5, "input": 20, "output": 60, "mesh": "internal"})
     assert (internal.ratio, internal.frame_length) == (Fraction(1, 3), 50.0)
 

@@ -291,7 +291,12 @@ def test_base_radius_below_the_dip_of_the_lead_in_breaks_the_constant_sum():
 def test_print_longer_than_the_zone_fails_and_the_advice_repairs():
     short = press(sync={"length": 300.0, "print_length": 320.0})
     (check,) = short.findings("press", "sync-length")
-    assert (check.code, check.status, check.value, check.limit) == ("GL502", "fail", pytest.approx(300.0), 320.0)
+    assert (check.code, check.status, check.value, check.limit) == (
+        "GL502",
+        "fail",
+        pytest.approx(300.0, rel=1e-12),
+        320.0,
+    )
     assert check.remedy == (("sync.length", 320.0),)
     by_end = press(sync={"end": 100.0, "print_length": 320.0})
     (check,) = by_end.findings("press", "sync-length")

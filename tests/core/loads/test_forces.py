@@ -201,8 +201,10 @@ def test_least_transmission_angle_of_a_slider_crank_is_that_of_its_rod() -> None
 def test_shafts_in_each_other_load_the_frame_together(base: str, axis: str, other: str) -> None:
     joints = factory.design(base, command="loads").table("joints", samples=90)
     for part in ("_x", "_y"):
-        assert joints[f"{axis}_sum{part}"] == pytest.approx(joints[f"{axis}{part}"] + joints[f"{other}{part}"])
-    assert joints[f"{axis}_sum"] == pytest.approx(np.hypot(joints[f"{axis}_sum_x"], joints[f"{axis}_sum_y"]))
+        assert joints[f"{axis}_sum{part}"] == pytest.approx(
+            joints[f"{axis}{part}"] + joints[f"{other}{part}"], rel=1e-12
+        )
+    assert joints[f"{axis}_sum"] == pytest.approx(np.hypot(joints[f"{axis}_sum_x"], joints[f"{axis}_sum_y"]), rel=1e-12)
 
 
 def test_parts_of_the_torque_are_counted_by_their_sizes() -> None:

@@ -91,7 +91,7 @@ def test_all_joints_stand_where_the_picture_has_them() -> None:
     travel = 1e3 * (links["bed"].origin.value.imag - links["bed"].origin.value.imag[0])
     assert travel == pytest.approx(drawn.bed_travel - drawn.bed_travel[0], abs=1e-9)
     over, under = (links[name].origin.value.real - links["carriage"].origin.value.real for name in ("bed", "rack"))
-    assert -over == pytest.approx(press.pinion_radius) == under
+    assert -over == pytest.approx(press.pinion_radius, rel=1e-12) == under
     n, axis = (complex(links[name].origin.value[0]) for name in ("MN", "cylinder"))
     upwards, picture = -1j * (axis - n), drawn.cylinder_axis - complex(drawn.cylinder_joints[3][0])
     assert upwards.real < 0.0 < upwards.imag

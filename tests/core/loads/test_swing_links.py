@@ -303,7 +303,9 @@ def test_a_lighter_slider_lets_both_change_sides_together() -> None:
     assert (found.code, found.status) == ("GL514", "fail")
     assert "a lighter slider" in found.message
     ways = list(swing_remedies.candidates(heavy, "side-change"))
-    assert ways == [(("slider.mass", pytest.approx(share * heavy.spec.slider.mass)),) for share in (0.5, 0.2, 0.1)]
+    assert ways == [
+        (("slider.mass", pytest.approx(share * heavy.spec.slider.mass, rel=1e-12)),) for share in (0.5, 0.2, 0.1)
+    ]
     found = [
         factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, slider__mass=mass, unloader=HEAVY)
         for ((_, mass),) in ways[:2]
@@ -322,10 +324,10 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
     arm, reserve, mass = ("slider.middle_angle", 73.18), apart.spec.unloader.reserve, apart.spec.slider.mass
     assert ways[:3] == [
         (arm,),
-        (arm, ("unloader.reserve", pytest.approx(reserve + 0.25))),
-        (arm, ("unloader.reserve", pytest.approx(reserve + 1.0))),
+        (arm, ("unloader.reserve", pytest.approx(reserve + 0.25, rel=1e-12))),
+        (arm, ("unloader.reserve", pytest.approx(reserve + 1.0, rel=1e-12))),
     ]
-    assert ways[3] == (arm, ("slider.mass", pytest.approx(0.5 * mass)))
+    assert ways[3] == (arm, ("slider.mass", pytest.approx(0.5 * mass, rel=1e-12)))
     assert list(swing_load_checks.candidates(apart, "resonance")) == []
 
 

@@ -84,7 +84,7 @@ def test_a_roller_over_the_axis_of_its_own_rocker_is_warned_of(arm: float, radiu
     )
     found = {text: value for text, value in warned(made).items() if " roller " in text and "rocker's axis" in text}
     found = {text: value for text, value in found.items() if text.startswith("the main roller")}
-    assert list(found.values()) == ([pytest.approx(arm - radius)] if reaches else [])
+    assert list(found.values()) == ([pytest.approx(arm - radius, rel=1e-12)] if reaches else [])
 
 
 def test_the_thinnest_shaft_that_would_be_built_takes_the_place_of_the_roller() -> None:
@@ -115,7 +115,7 @@ def test_room_beside_the_arm(sense: int) -> None:
         if room < 0.0:
             over += 1
             assert nearest < 0.8
-            assert room == pytest.approx(radius - 300.0)
+            assert room == pytest.approx(radius - 300.0, rel=1e-12)
         else:
             assert nearest == pytest.approx(room, abs=0.8)
     assert over

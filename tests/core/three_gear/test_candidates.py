@@ -34,11 +34,11 @@ def test_every_row_is_a_synthesis_of_its_own(command, name, keys):
         codes = {f"{c.status} {c.code}" for c in own.report(command).checks if c.status != "pass"}
         assert set(row["findings"].split(", ")) == (codes or {"pass"})
         reach = own.spec.gears.module * (own.crank_teeth + own.output_teeth + 4) / 2.0
-        assert row["length"] == pytest.approx(own.crank_length + own.frame_length + reach)
+        assert row["length"] == pytest.approx(own.crank_length + own.frame_length + reach, rel=1e-12)
 
 
 def test_dwell_is_phi13():
-    assert design("candy_feed", command="synth dwell").table("candidates")["dwell"] == pytest.approx(135.0)
+    assert design("candy_feed", command="synth dwell").table("candidates")["dwell"] == pytest.approx(135.0, rel=1e-12)
 
 
 @pytest.mark.slow

@@ -185,7 +185,7 @@ def test_a_shaft_lags_under_the_load_of_either_kind_of_train() -> None:
         assert made.output_torque(1.0) == 2.0
         way = math.copysign(1.0, made.design.mean_ratio)
         (twist,) = (row for row in made.contributions(np.array([1.0]), 1) if row.source.startswith("wind-up"))
-        assert twist.gain[0] * way == pytest.approx(-made.drive.radius * 2.0 / 500.0)
+        assert twist.gain[0] * way == pytest.approx(-made.drive.radius * 2.0 / 500.0, rel=1e-12)
 
 
 def test_a_torque_of_inertia_needs_a_speed() -> None:

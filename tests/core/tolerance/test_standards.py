@@ -38,14 +38,16 @@ def test_grades_are_the_printed_ones() -> None:
 @pytest.mark.parametrize("letter", "defgh")
 def test_a_hole_is_the_shaft_turned_about(size: float, letter: str) -> None:
     lower, upper = limit_deviations(size, f"{letter}8")
-    assert limit_deviations(size, f"{letter.upper()}8") == pytest.approx((-upper, -lower))
-    assert upper - lower == pytest.approx(standard_tolerance(size, 8))
+    assert limit_deviations(size, f"{letter.upper()}8") == pytest.approx((-upper, -lower), rel=1e-12)
+    assert upper - lower == pytest.approx(standard_tolerance(size, 8), rel=1e-12)
 
 
 @pytest.mark.parametrize(("size", "letter"), [(40.0, "n"), (40.0, "p"), (100.0, "k"), (10.0, "s")])
 def test_equal_fits_of_hole_basis_and_shaft_basis(size: float, letter: str) -> None:
     """ISO 286-1: H7/p6 and P7/h6 have the same clearances; that is what the step of the grades is for."""
-    assert fit_clearances(size, f"H7/{letter}6") == pytest.approx(fit_clearances(size, f"{letter.upper()}7/h6"))
+    assert fit_clearances(size, f"H7/{letter}6") == pytest.approx(
+        fit_clearances(size, f"{letter.upper()}7/h6"), rel=1e-12
+    )
 
 
 @pytest.mark.parametrize(
@@ -76,7 +78,7 @@ def test_the_pitch_tolerance_is_not_extrapolated(grade: int, module: float, diam
 def test_bearing_clearances_are_the_printed_ones() -> None:
     (case,) = _cases("bearing")
     found = radial_clearance(case["input"]["bore"], case["input"]["group"])
-    assert [1000.0 * value for value in found] == pytest.approx(case["expected"])
+    assert [1000.0 * value for value in found] == pytest.approx(case["expected"], rel=1e-12)
 
 
 LAWS = [

@@ -285,7 +285,9 @@ def test_sizes_that_scatter_as_one_add_up_in_the_register() -> None:
     assert one.rss[0] == pytest.approx(gains.sum(), rel=1e-14)
     assert against.rss[0] == pytest.approx(0.0, abs=1e-9)  # the root of a difference that is rounding
     assert one.worst == alone.worst
-    assert sum(row["share"] for row in rows(one.table_budget()) if row["torque_sign"] == 1) == pytest.approx(1.0)
+    assert sum(row["share"] for row in rows(one.table_budget()) if row["torque_sign"] == 1) == pytest.approx(
+        1.0, rel=1e-12
+    )
 
 
 @pytest.mark.slow
