@@ -133,16 +133,16 @@ def stroke_sheet(design: Any) -> Figure:
 
 def stroke_forces(axes: Axes, design: Any) -> None:
     """Force of the roller on the cam of each stroke; empty where it touches nothing."""
-    _stroke(axes, design, "Force of the roller on its cam", "force [N]", "{}_force")
+    _stroke(axes, design, "Force of the roller on its cam", "force [N]", "{}_force", lambda rest: rest.force)
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
 
 
 def stroke_pressures(axes: Axes, design: Any) -> None:
     """Hertzian pressure over each stroke, and what is allowed."""
-    _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "{}_pressure")
+    _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "{}_pressure", lambda rest: rest.pressure)
     _allowed(axes, design)
     axes.set_ylim(bottom=0.0)
-    panels.legend_above(axes, 3)
+    panels.legend_above(axes, 4)
 
 
 def stroke_profile(axes: Axes, stroke: Any) -> None:
@@ -158,7 +158,10 @@ def stroke_profile(axes: Axes, stroke: Any) -> None:
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 
 
-def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> None:
+def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_rest: Any = None) -> None:
+    """A column of each stroke over the cam angle, and a function of the rests, in which the rollers press as well."""
+    import numpy as np
+
     table = design.table("contact_stroke", samples=400)
     style.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel)
     panels.small_ticks(axes)
@@ -168,8 +171,15 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> No
         values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
         x = table[f"{later}cam_angle"]
         axes.plot(x, values, color=color, linewidth=1.5, linestyle=line, label=stroke.words)
+    rests = design.pressing.rests if in_rest is not None else ()
+    for number, rest in enumerate(rests):
+        phi = np.linspace(rest.start, rest.start + rest.width, 61)
+        label = None if number else "rests"
+        axes.plot(
+            np.degrees(phi), in_rest(rest)(phi), color=style.GREEN, linewidth=1.5, linestyle=style.CHAIN, label=label
+        )
     axes.set_xlim(0.0, _TURN if design.whole else math.degrees(design.cam.cycle_angle))
     if design.whole:
         style.numbers_at(axes, [30.0 * i for i in range(13)])
     if len(design.strokes) > 1:
-        panels.legend_above(axes, 2)
+        panels.legend_above(axes, 3)

@@ -45,6 +45,11 @@ class SwingRest:
         found: Reals = self.stroke.loads.machine.reactions(inside).unknowns["roller"][0]
         return found
 
+    def pressure(self, phi: Reals) -> Reals | None:
+        """Pressure there [N/mm^2]; None without a width."""
+        contact = self.stroke.contact_of(self.force(phi), np.full_like(phi, self.relative_radius))
+        return None if contact is None else contact.pressure
+
     @property
     def relative_radius(self) -> float:
         """R = r_g (1 -+ r_g/rho) of roller and arc [mm], + of an internal profile; rho the pitch radius of the arc."""

@@ -78,3 +78,18 @@ def test_curves_of_a_panel_are_told_apart_in_grey() -> None:
         dashes = [str(line._unscaled_dash_pattern) for line in curves]
         assert all(one != other for one, other in itertools.pairwise(dashes)), title
         assert len({(dash, line.get_color()) for dash, line in zip(dashes, curves, strict=True)}) == len(curves)
+
+
+def test_the_rests_of_a_cycle_are_drawn_where_the_roller_presses_hardest() -> None:
+    design, figure = sheet("loaded_swing_cycle", "loads")
+    titles = {
+        "Force of the roller on its cam": design.contact_force_max,
+        "Hertzian pressure": design.hertz_pressure_max,
+    }
+    for axes in figure.axes:
+        if (greatest := titles.pop(axes.get_title(loc="left"), None)) is not None:
+            drawn = [line for line in axes.lines if line.get_label() != "allowed 1200"]
+            most = max(float(np.nanmax(np.asarray(line.get_ydata(), dtype=float))) for line in drawn)
+            assert most == pytest.approx(greatest, rel=1e-9)
+            assert [text.get_text() for text in axes.get_legend().get_texts()].count("rests") == 1
+    assert not titles
