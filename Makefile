@@ -85,7 +85,7 @@ bench-guard: $(READY)
 
 # Tests that share nothing: each goes to the next free process.
 stress: $(READY)
-	$(PYTEST) -n auto --maxprocesses 4 --dist load -m stress tests/stress -rP
+	$(PYTEST) -n auto --maxprocesses 4 --dist worksteal -m stress tests/stress -rP
 
 docs: $(READY)
 	$(BIN)/python docs/generate.py

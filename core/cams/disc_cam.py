@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from gearlink.core.numerics.extremes import (
     maximum_over,
     minimum_over,
 )
-from gearlink.core.numerics.together import Function
+from gearlink.core.numerics.together import Function, kept_last
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
@@ -68,15 +67,8 @@ def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, s
 
 def _kept(path: Callable[[Reals, int], RollerPath], order: int = 2) -> Callable[[Reals, int], RollerPath]:
     """A path that keeps what it last gave, with as many derivatives as any will ask for, for the very same array."""
-    last: list[Any] = [None, None]
-
-    def again(cam_angle: Reals, _order: int) -> RollerPath:
-        if cam_angle is not last[0]:
-            last[:] = cam_angle, path(cam_angle, order)
-        found: RollerPath = last[1]
-        return found
-
-    return again
+    kept = kept_last(lambda cam_angle: path(cam_angle, order))
+    return lambda cam_angle, _order: kept(cam_angle)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import chain, combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,11 +15,12 @@ from gearlink.core.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaf
 from gearlink.core.clearance.reach import Reach, constant
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.six_bar.loop import pins
 from gearlink.core.six_bar.spec import PINS
 
 if TYPE_CHECKING:
-    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.six_bar.design import GearedSixBar
 
 
@@ -75,13 +76,7 @@ def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
 
 def _sought(design: GearedSixBar, moving: Sequence[tuple[str, int, int]]) -> dict[str, Reach]:
     """Reaches of pins that are not on one link, searched together."""
-    last: list[Any] = [None, None]
-
-    def placed(phi: Reals) -> Points:
-        if phi is not last[0]:
-            last[:] = phi, pins(design.bar, phi, design.course.angles(phi))
-        found: Points = last[1]
-        return found
+    placed = kept_last(lambda phi: pins(design.bar, phi, design.course.angles(phi)))
 
     def distance(i: int, j: int) -> Callable[[Reals], Reals]:
         return lambda phi: np.asarray(np.abs(placed(phi)[i] - placed(phi)[j]))

@@ -20,6 +20,7 @@ from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.law import SixPhaseLaw
 
@@ -170,17 +171,13 @@ class GripperLinkage:
             Sought over the swing, not over the turn: every row of the motion lies within it, its very ends among them.
         """
 
-        def at_d(swing: Reals) -> Reals:
-            return self.transmission(self.local_output(swing))[0]
-
-        def at_c(swing: Reals) -> Reals:
-            return self.transmission(self.local_output(swing))[1]
-
+        both = kept_last(lambda swing: self.transmission(self.local_output(swing)))
         ends = np.array([0.0, self.law.total_swing])
-        inside = extremes_over([(at_d, False), (at_c, False)], 0.0, self.law.total_swing, samples=180)
+        wanted = [(lambda swing, i=i: both(swing)[i], False) for i in (0, 1)]
+        inside = extremes_over(wanted, 0.0, self.law.total_swing, samples=180)
         d, c = (
             min(least, *map(Extreme, values.tolist(), ends.tolist()))
-            for least, values in zip(inside, self.transmission(self.local_output(ends)), strict=True)
+            for least, values in zip(inside, both(ends), strict=True)
         )
         return d, c
 

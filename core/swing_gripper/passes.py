@@ -9,12 +9,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from gearlink.core.clearance.links import beside_line, beside_turning_arm, beside_turning_pin
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.together import kept_last
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -131,8 +133,8 @@ class Passes:
     def _coupler(self) -> Iterator[Pass]:
         from gearlink.core.numerics.extremes import extremes_over
 
-        total, kept = self.linkage.law.total_swing, _Kept(self.linkage)
-        wanted = [(lambda swing, place=axis.place: beside_line(place, *kept.ends(swing)), False) for axis in self.axes]
+        total, ends = self.linkage.law.total_swing, kept_last(partial(_coupler_ends, self.linkage))
+        wanted = [(lambda swing, place=axis.place: beside_line(place, *ends(swing)), False) for axis in self.axes]
         found = extremes_over(wanted, 0.0, total, samples=_SAMPLES)
         for axis, least in zip(self.axes, found, strict=True):
             yield Pass("coupler CD", 0.0, axis, least.value, least.place)
@@ -171,22 +173,12 @@ class Passes:
         return 0.5 * (low + high)
 
 
-class _Kept:
-    """The joints of the coupler, kept for the axes that ask at the same swing."""
-
-    def __init__(self, linkage: GripperLinkage) -> None:
-        self._linkage, self._swing = linkage, np.empty(0)
-        self._ends: tuple[Points, Points] = np.empty(0, complex), np.empty(0, complex)
-
-    def ends(self, swing: Reals) -> tuple[Points, Points]:
-        """C and D [mm] at swing angles [rad]."""
-        if swing is not self._swing:
-            linkage = self._linkage
-            motion = linkage.at(swing, (swing,))
-            c = linkage.input_pivot + linkage.input * np.exp(1j * motion.input_angle)
-            d = linkage.output_pivot + linkage.output * np.exp(1j * motion.output_angle)
-            self._swing, self._ends = swing, (c, d)
-        return self._ends
+def _coupler_ends(linkage: GripperLinkage, swing: Reals) -> tuple[Points, Points]:
+    """C and D [mm] at swing angles [rad]."""
+    motion = linkage.at(swing, (swing,))
+    c = linkage.input_pivot + linkage.input * np.exp(1j * motion.input_angle)
+    d = linkage.output_pivot + linkage.output * np.exp(1j * motion.output_angle)
+    return c, d
 
 
 def _input_angle(linkage: GripperLinkage, swing: Reals) -> Reals:
