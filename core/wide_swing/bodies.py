@@ -242,7 +242,8 @@ def coupler_room(bar: FourBar) -> float:
     l4 sin(mu_min), mu_min there the angle of coupler and rocker; l4 where that is blunt, l1 - l2 beyond the crank's pin
 
     Notes
-        The distance grows with mu in all three cases, and mu with the distance of crank pin and pivot.
+        The distance grows with mu in all three cases, and mu with the distance of crank pin and pivot. In a
+        crank-rocker mu_min is above 0: what is kept from below 0 under the root is rounding.
     Example
         >>> from gearlink.core.linkages.fourbar.position import FourBar
         >>> round(coupler_room(FourBar(crank=40.0, coupler=400.0, rocker=96.0, frame=409.0)), 6)
