@@ -49,6 +49,7 @@ _WORDS: dict[str, Any] = {
 }
 _BASES = {"0o": 8, "0x": 16}
 _EXACT_LENGTH = 15
+_TOO_DEEP = f"nested deeper than {MAX_DEPTH} levels"
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,8 +153,10 @@ def compose(source: Source, start: int = 0) -> Tree:
     try:
         return composer.run()
     except yaml.YAMLError as error:
-        from gearlink.cli.reading.yaml_remedies import syntax_error
+        from gearlink.cli.reading.yaml_remedies import nested_too_deep, syntax_error
 
+        if (at := nested_too_deep(error)) is not None:
+            raise _fatal(source, "GL110", _TOO_DEEP, start + at) from None
         wrong = syntax_error(source, start, error)
         raise DesignFileError([*composer.duplicates, wrong]) from None
 
@@ -293,7 +296,7 @@ class _Composer:
     def _check_size(self, at: int, nodes: int, height: int) -> None:
         self._nodes += nodes
         if len(self._frames) + height > MAX_DEPTH:
-            raise _fatal(self.source, "GL110", f"nested deeper than {MAX_DEPTH} levels", at)
+            raise _fatal(self.source, "GL110", _TOO_DEEP, at)
         if self._nodes > MAX_NODES:
             raise _fatal(self.source, "GL110", f"more than {MAX_NODES} values (aliases written out)", at)
 

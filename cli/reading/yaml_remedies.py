@@ -62,6 +62,17 @@ def odd_remedy(char: str) -> str:
     return f"type {plain} in its place"
 
 
+def nested_too_deep(error: YAMLError) -> int | None:
+    """Where the YAML parser came to its own limit of nesting, in the text that it was given; None for another error.
+
+    PyYAML has one (1000 levels) from 6.0.4 on. It may be met before the parser gives any event, so that the levels
+    cannot be counted: it looks ahead for the ends of keys.
+    """
+    if not isinstance(error, MarkedYAMLError) or error.problem_mark is None:
+        return None
+    return error.problem_mark.index if "nesting" in (error.problem or "") else None
+
+
 def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
     """The diagnostic of an exception of the YAML parser; `base` is where the parsed text begins."""
     if not isinstance(error, MarkedYAMLError) or error.problem_mark is None:

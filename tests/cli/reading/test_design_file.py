@@ -19,16 +19,19 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 from sweeps import examples, mostly_slow
 
+from gearlink.cli.reading import yaml_reader
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, parse, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import parse_path
 from gearlink.cli.reading.value_words import number_remedy
+from gearlink.cli.reading.yaml_reader import MAX_DEPTH
 from gearlink.core.errors import NoSolution
 
 KINDS = ("three-gear-four-bar", "gear-pair", "slider-crank")
@@ -595,12 +598,23 @@ def test_overrides_are_told_together_with_the_file() -> None:
     ]
 
 
-def test_override_caps() -> None:
-    for argument in (".".join("a" * 50) + "=1", "a=" + "[" * 50_000, "a='" + "x" * (1 << 20) + "'"):
-        with pytest.raises(DesignFileError) as caught:
-            data(argument, text="b: 1\n")
-        assert caught.value.diagnostics[0].code == "GL110"
-        assert len(str(caught.value)) < 1_000
+OVERRIDES = {
+    "path": ".".join("a" * 50) + "=1",
+    "levels": "a=" + "[" * (MAX_DEPTH + 1),
+    "levels beyond the parser's own limit": "a=" + "[" * 50_000,
+    "characters": "a='" + "x" * (1 << 20) + "'",
+}
+
+
+@pytest.mark.parametrize("loader", ["CSafeLoader", "SafeLoader"])
+@pytest.mark.parametrize("name", OVERRIDES)
+def test_override_caps(name: str, loader: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the parser that is installed, whether it limits nesting itself or not, and with the pure Python one."""
+    monkeypatch.setattr(yaml_reader, "EventParser", getattr(yaml, loader, yaml.SafeLoader))
+    with pytest.raises(DesignFileError) as caught:
+        data(OVERRIDES[name], text="b: 1\n")
+    assert caught.value.diagnostics[0].code == "GL110"
+    assert len(str(caught.value)) < 1_000
 
 
 def test_parse_path() -> None:

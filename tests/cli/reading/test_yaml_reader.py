@@ -299,6 +299,29 @@ def test_depth_cap_is_exact_and_counts_what_aliases_hold(parser: Any) -> None:
     assert first(f"a: &a {nested(half)}\nb: {nested(half, '*a')}\n")[:2] == ("GL110", 2)
 
 
+def _limited(context: str) -> type:
+    """A parser that ends with the words of PyYAML 6.0.4 in front of its 1001st bracket, before it gives any event."""
+
+    class Limited:
+        def __init__(self, text: str) -> None:
+            self.text = text
+
+        def get_event(self) -> Any:
+            start, end = (yaml.Mark("f", at, 0, at, None, None) for at in (0, self.text.index("[") + 1000))
+            raise yaml.scanner.ScannerError(context, start, "exceeded maximum nesting depth", end)
+
+    return Limited
+
+
+@pytest.mark.parametrize("context", ["while increasing flow level", "while increasing block level"])
+def test_a_parser_s_own_limit_of_nesting_is_ours(context: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """PyYAML 6.0.4 has one, 6.0.3 has none: files and --set are refused alike, for the same reason."""
+    monkeypatch.setattr(yaml_reader, "EventParser", _limited(context))
+    (wrong,) = errors("a: 1\nb: " + "[" * 2000)
+    assert (wrong.code, wrong.message) == ("GL110", f"nested deeper than {MAX_DEPTH} levels")
+    assert (wrong.line, wrong.column) == (2, 1004)
+
+
 def test_node_cap_is_exact() -> None:
     data("a: [" + "1," * (MAX_NODES - 2) + "]\n")
     assert first("a: [" + "1," * (MAX_NODES - 1) + "]\n")[0] == "GL110"
