@@ -129,6 +129,33 @@ def test_ends_count() -> None:
     assert (top.value, top.place) == (pytest.approx(4.0, abs=1e-13), 2.0)
 
 
+def _rounded_up_inside(x: np.ndarray, end: float) -> np.ndarray:
+    """1 at the end and a slope of 0.1 towards it; all but the places within 20 ulp of the end are rounded up by 4 ulp.
+
+    Only sums and products of doubles, so that every machine has the same values.
+    """
+    away = np.abs(x - end)
+    return 1.0 - 0.1 * away + np.where(away > 20.0 * math.ulp(end), 8.0 * EPS / 2.0, 0.0)
+
+
+@pytest.mark.parametrize("end", [0.6832964021557801, 2.0, 5.5])
+def test_an_end_that_is_as_good_but_for_rounding_is_the_place(end: float) -> None:
+    top = maximum_over(lambda x: _rounded_up_inside(x, end), 0.0, end, samples=180)
+    assert top == (pytest.approx(1.0, abs=8 * EPS), end)
+    bottom = minimum_over(lambda x: -_rounded_up_inside(x, end), end, end + 1.0, samples=180)
+    assert bottom == (pytest.approx(-1.0, abs=8 * EPS), end)
+    joint = maximum_over(lambda x: np.where(x < end, _rounded_up_inside(x, end), 0.0), 0.0, 6.0, joints=[end])
+    assert joint == (pytest.approx(1.0, abs=8 * EPS), end)
+
+
+def test_a_place_beside_an_end_that_is_better_by_more_than_rounding_stays() -> None:
+    top = maximum_over(lambda x: np.cos(x - 1.9999), 0.0, 2.0, samples=180)
+    assert top.place == pytest.approx(1.9999, abs=PLACE)
+    kink = 2.0 - 1e-12
+    top = maximum_over(lambda x: 1.0 - np.abs(x - kink), 0.0, 2.0, samples=180)
+    assert top.place == pytest.approx(kink, abs=4 * EPS)
+
+
 def test_no_convex_part_has_no_least_radius() -> None:
     assert least_convex_radius(lambda x: -0.01 + 0.0 * x).value == math.inf
     assert least_convex_radius(lambda x: 0.01 * np.cos(x)).value == pytest.approx(100.0, rel=4 * EPS)
