@@ -225,8 +225,9 @@ def standard_input(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 @pytest.fixture
 def gearlink(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Run a command line in this process: `gearlink("crank", path)`."""
-    monkeypatch.delenv("NO_COLOR", raising=False)
+    """Run a command line in this process, whatever the terminal of the tests: `gearlink("crank", path)`."""
+    for name in ("NO_COLOR", "COLUMNS", "LINES"):
+        monkeypatch.delenv(name, raising=False)
 
     def call(*arguments: object) -> Ended:
         capsys.readouterr()

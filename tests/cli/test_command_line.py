@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -30,8 +31,13 @@ def crank(tmp_path: Path) -> Path:
     return path
 
 
+PROGRAM = [sys.executable, "-m", "gearlink.cli.main"]
+TYPED = shlex.join(PROGRAM)
+"""The same on a line of a shell."""
+
+
 def shell(*arguments: str, **options: Any) -> subprocess.CompletedProcess[bytes]:
-    command = [sys.executable, "-m", "gearlink.cli.main", *arguments]
+    command = [*PROGRAM, *arguments]
     return subprocess.run(command, capture_output=True, cwd=ROOT, check=False, **options)
 
 
@@ -273,7 +279,7 @@ def test_ascii_terminal() -> None:
 
 
 def test_closed_pipe_is_no_error() -> None:
-    program = f"{sys.executable} -m gearlink.cli.main cam designs/ty460.yaml --format csv"
+    program = f"{TYPED} cam designs/ty460.yaml --format csv"
     command = f"{program} | head -n 1; exit ${{PIPESTATUS[0]}}"
     done = subprocess.run(["bash", "-c", command], capture_output=True, cwd=ROOT, check=False)
     assert done.stderr == b""
@@ -322,7 +328,7 @@ _FAILS = "designs/thesis_example_3_as_printed.yaml"
     ),
 )
 def test_a_reader_that_leaves_early_does_not_change_the_status(line: str, status: int) -> None:
-    pipe = f"set -o pipefail; {sys.executable} -m gearlink.cli.main {line} | true"
+    pipe = f"set -o pipefail; {TYPED} {line} | true"
     ended = subprocess.run(["bash", "-c", pipe], capture_output=True, cwd=ROOT, check=False)
     assert (ended.returncode, ended.stderr) == (status, b"")
 
@@ -332,7 +338,7 @@ def test_a_reader_that_leaves_early_does_not_change_the_status(line: str, status
     mostly_slow([("crank nosuch.yaml", 2), ("nosuch", 2), (f"analyze {_FAILS} --plot --out OUT", 1)], 1),
 )
 def test_notes_that_cannot_be_written_do_not_change_the_status(line: str, status: int, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "gearlink.cli.main", *line.replace("OUT", str(tmp_path)).split()]
+    command = [*PROGRAM, *shlex.split(line.replace("OUT", shlex.quote(str(tmp_path))))]
     with open("/dev/full", "w") as full:
         ended = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=full, cwd=ROOT, check=False)
     assert ended.returncode == status
@@ -392,7 +398,7 @@ def test_a_share_is_written_in_plain_digits(gearlink: Any, crank: Path, share: s
 
 @pytest.mark.parametrize("line", mostly_slow(["--version", "crank designs/ty460_slider_crank.yaml"], 1))
 def test_a_full_disk_is_said_without_traceback(line: str) -> None:
-    command = [sys.executable, "-m", "gearlink.cli.main", *line.split()]
+    command = [*PROGRAM, *line.split()]
     with open("/dev/full", "w") as full:
         ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, cwd=ROOT, check=False)
     assert (ended.returncode, ended.stderr) == (
@@ -408,7 +414,7 @@ def test_a_full_disk_is_said_without_traceback(line: str) -> None:
     ),
 )
 def test_closed_streams(line: str, status: int) -> None:
-    shell = f"{sys.executable} -m gearlink.cli.main {line}"
+    shell = f"{TYPED} {line}"
     ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
     assert ended.returncode == status
     assert b"fault" not in ended.stderr
@@ -472,7 +478,7 @@ class TestBatch:
 
 def test_a_process_with_too_little_memory_says_so() -> None:
     """Below the limit libraries would end the process with status 1, which says that a check failed."""
-    line = f"ulimit -v 200000; {sys.executable} -m gearlink.cli.main check {_FAILS}"
+    line = f"ulimit -v 200000; {TYPED} check {_FAILS}"
     ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)
     assert (ended.returncode, ended.stdout) == (2, b"")
     assert ended.stderr.startswith(b"error: the memory of this process is limited to 195 MB")
@@ -481,7 +487,7 @@ def test_a_process_with_too_little_memory_says_so() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("line", ["crank designs/ty460_slider_crank.yaml", "report designs/ty460.yaml --out OUT -q"])
 def test_the_least_memory_suffices(line: str, tmp_path: Path) -> None:
-    command = f"{sys.executable} -m gearlink.cli.main {line.replace('OUT', str(tmp_path))}"
+    command = f"{TYPED} {line.replace('OUT', shlex.quote(str(tmp_path)))}"
     shell = f"ulimit -v {500 << 10}; {command}"
     ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
     assert (ended.returncode, ended.stderr) == (0, b"")

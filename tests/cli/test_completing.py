@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -22,9 +23,14 @@ from gearlink.core.kinds import FILES, KINDS, SUMMARIES
 BIN = Path(sys.executable).parent
 
 
+def typed(path: Path) -> str:
+    """A path as it stands on a line that is being typed."""
+    return shlex.quote(str(path))
+
+
 @pytest.fixture
 def line(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
-    monkeypatch.setenv("COMP_WORDS", f"gearlink press {DESIGNS / 'ty460.yaml'} --quantity cr")
+    monkeypatch.setenv("COMP_WORDS", f"gearlink press {typed(DESIGNS / 'ty460.yaml')} --quantity cr")
     return monkeypatch
 
 
@@ -70,7 +76,7 @@ def test_parts_sheets_and_places_are_those_of_the_design(monkeypatch: pytest.Mon
     """The names that Tab offers are written down; here each comes from the design itself."""
     loaded, kind = open_design(str(path), Options())
     design = whole_design(kind, read_spec(loaded, kind, str(path)))
-    monkeypatch.setenv("COMP_WORDS", f"gearlink export {path} ")
+    monkeypatch.setenv("COMP_WORDS", f"gearlink export {typed(path)} ")
     if kind.name in kinds() and getattr(design.spec, "cam", True) is not None:
         assert set(makers(design)) <= set(words(completing.parts("")))
     elif kind.name not in kinds():
@@ -95,12 +101,12 @@ def test_families_and_commands() -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "start", "wanted"), [("sy", "sy", "synth"), ("synth ", "", "dwell"), ("synth b", "b", "back-step")]
+    ("begun", "start", "wanted"), [("sy", "sy", "synth"), ("synth ", "", "dwell"), ("synth b", "b", "back-step")]
 )
 def test_help_offers_commands_and_those_of_a_group(
-    line: pytest.MonkeyPatch, typed: str, start: str, wanted: str
+    line: pytest.MonkeyPatch, begun: str, start: str, wanted: str
 ) -> None:
-    line.setenv("COMP_WORDS", f"gearlink help {typed}")
+    line.setenv("COMP_WORDS", f"gearlink help {begun}")
     assert wanted in words(completing.commands(start))
 
 
@@ -111,7 +117,7 @@ def test_names_of_designs_are_offered_without_heavy_libraries() -> None:
         "completing.parts(''), completing.sheets(''), completing.places(''), completing.commands(''); "
         "print([name for name in ('numpy', 'scipy', 'matplotlib', 'pydantic') if name in sys.modules])"
     )
-    env = {**os.environ, "COMP_WORDS": f"gearlink export {DESIGNS / 'ty460.yaml'} "}
+    env = {**os.environ, "COMP_WORDS": f"gearlink export {typed(DESIGNS / 'ty460.yaml')} "}
     done = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
 
@@ -120,7 +126,7 @@ def test_a_fault_offers_nothing(line: pytest.MonkeyPatch, tmp_path: Path) -> Non
     assert completing.offered("nonsense", "") == []
     folder = tmp_path / "x.yaml"
     folder.write_bytes(b"\xff\xfekind: gear-pair\x00")
-    line.setenv("COMP_WORDS", f"gearlink gear {folder}")
+    line.setenv("COMP_WORDS", f"gearlink gear {typed(folder)}")
     assert completing.offered("quantities", "contact_r")
 
 
@@ -130,7 +136,7 @@ def test_every_kind_has_keys_and_quantities_to_offer(
 ) -> None:
     path = tmp_path / "x.yaml"
     path.write_text(f"# a comment\nkind: {name}\n")
-    monkeypatch.setenv("COMP_WORDS", f"gearlink analyze {path} ")
+    monkeypatch.setenv("COMP_WORDS", f"gearlink analyze {typed(path)} ")
     assert completing.settings("")
     assert completing.quantities("")
 
@@ -139,11 +145,11 @@ LINES = [
     ("gearlink sy", "synth"),
     ("gearlink new wide", "wide-swing-cam"),
     ("gearlink explain GL30", "GL301"),
-    (f"gearlink analyze {DESIGNS / 'ty460.yaml'} --set cylinder.ra", "cylinder.radius="),
+    (f"gearlink analyze {typed(DESIGNS / 'ty460.yaml')} --set cylinder.ra", "cylinder.radius="),
     ("gearlink laws --law modified-s", "modified-sine"),
-    (f"gearlink sheet {DESIGNS / 'ty460.yaml'} ti", "timing"),
-    (f"gearlink export {DESIGNS / 'gear_pair.yaml'} --part blo", "blocking_contour"),
-    (f"gearlink register {DESIGNS / 'ty460_register.yaml'} --at z", "zone"),
+    (f"gearlink sheet {typed(DESIGNS / 'ty460.yaml')} ti", "timing"),
+    (f"gearlink export {typed(DESIGNS / 'gear_pair.yaml')} --part blo", "blocking_contour"),
+    (f"gearlink register {typed(DESIGNS / 'ty460_register.yaml')} --at z", "zone"),
     ("gearlink bench inv", "involute"),
     ("gearlink help synth mom", "momentary-dwell"),
 ]
@@ -171,7 +177,7 @@ def _script(shell: str) -> str:
         f"print({shell.upper()} % dict(complete_func='_gearlink_completion', prog_name='gearlink', "
         "autocomplete_var='_GEARLINK_COMPLETE'))"
     )
-    return f'{sys.executable} -c "{code}"'
+    return shlex.join([sys.executable, "-c", code])
 
 
 @pytest.mark.quick(1)

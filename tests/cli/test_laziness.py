@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import subprocess
 import sys
 from functools import cache
@@ -17,7 +18,7 @@ from sweeps import ALL
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
-import io, json, sys
+import io, json, shlex, sys
 from contextlib import redirect_stdout, redirect_stderr
 from gearlink.cli import process
 from gearlink.cli.main import run
@@ -25,7 +26,7 @@ process.runs_the_command_alone = True
 found = []
 for line in sys.argv[1:]:
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        status = run(line.split())
+        status = run(shlex.split(line))
     found.append([int(status), sorted(sys.modules)])
 if "matplotlib.figure" in sys.modules:
     from matplotlib.artist import kwdoc
@@ -103,7 +104,7 @@ def ladder() -> dict[str, set[str]]:
         *PICTURES,
     ]
     with TemporaryDirectory() as folder:
-        found = modules_after(*(line.replace("OUT", folder) for line in lines))
+        found = modules_after(*(line.replace("OUT", shlex.quote(folder)) for line in lines))
     return dict(zip(lines, found, strict=True))
 
 
