@@ -1,20 +1,36 @@
-# Everything a machine needs beyond Python 3.11 and make is installed from PyPI into .venv by these targets.
+# Everything a machine needs beyond Python 3.11 and make is installed from PyPI into .venv by these targets: the very
+# versions and files of the lock file, which `make lock` renews.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+LOCK := locks/development.txt
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 # Bytecode is kept, or every process would compile every test anew.
 PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q
 # Long runs: tests of a module stay in one process, which keeps what they share.
 LONG := $(PYTEST) -n auto --maxprocesses 4 --dist loadfile
 
-.PHONY: demo test test-core test-rest test-least check check-full format lint types docs bench bench-guard stress clean
+.PHONY: demo test test-core test-rest test-least test-newest test-elsewhere check check-full format lint types lock docs
+.PHONY: bench bench-guard stress clean
 
-$(READY): pyproject.toml
+# VERSIONS: other ones than those of the lock file, as pip takes them.
+ifdef VERSIONS
+define INSTALL
+	$(PIP) --editable '.[dev]' $(VERSIONS)
+endef
+else
+define INSTALL
+	$(PIP) --require-hashes --requirement $(LOCK)
+	$(PIP) --no-deps --no-build-isolation --editable .
+endef
+endif
+
+$(READY): pyproject.toml $(LOCK)
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip uninstall --quiet --yes gearlink 2>/dev/null  # as it was called in older checkouts
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]' $(EXACTLY)
+	$(INSTALL)
 	mkdir -p .types/gearlink
 	ln -sfn ../../cli/door/__init__.py .types/gearlink/__init__.py
 	ln -sfn ../../cli/door/py.typed .types/gearlink/py.typed
@@ -45,18 +61,31 @@ test: $(READY)
 test-core: TESTS = tests/core
 test-rest: TESTS = tests --ignore=tests/core
 test-core test-rest: $(READY)
-	$(PYTEST) -p no:logging $(TESTS) --patience 200 $(WARNINGS)
+	$(PYTEST) -p no:logging $(TESTS) --patience 200 $(OPTIONS)
 
 # The same tests with the least versions of the libraries that pyproject.toml promises, in an environment of their own.
 # Old libraries use names that the newer ones beside them will drop one day: their deprecations are not ours.
 test-least:
 	@exactly=$$($(PYTHON) tests/least_versions.py) && echo "With $$exactly:" && \
-	$(MAKE) --no-print-directory test VENV=.venv-least EXACTLY="$$exactly" WARNINGS='-W ignore::DeprecationWarning'
+	$(MAKE) --no-print-directory test VENV=.venv-least VERSIONS="$$exactly" OPTIONS='-W ignore::DeprecationWarning'
+
+# With the newest versions that pyproject.toml allows, looked up anew each time.
+NEWEST := --no-print-directory VENV=.venv-newest VERSIONS='--upgrade --upgrade-strategy eager'
+test-newest:
+	rm -f .venv-newest/.ready
+	@$(MAKE) $(NEWEST) .venv-newest/.ready
+	.venv-newest/bin/python -m pip freeze --exclude-editable
+	@$(MAKE) $(NEWEST) test
+
+# The same tests where little is as usual: the folder, the locale, the time zone, the processor, their order.
+test-elsewhere: $(READY)
+	$(BIN)/python tests/elsewhere.py
 
 check: lint types test
 
 check-full: lint types $(READY)
 	GEARLINK_EXAMPLES=all $(LONG) -m 'not stress'
+	$(MAKE) test-elsewhere
 	$(MAKE) bench-guard
 
 lint: $(READY)
@@ -87,8 +116,20 @@ bench-guard: $(READY)
 stress: $(READY)
 	$(PYTEST) -n auto --maxprocesses 4 --dist worksteal -m stress tests/stress -rP
 
+# The newest versions that pyproject.toml allows, for every Python and platform that it names, with the hashes of their
+# files: of all that the Makefile installs, and of what the program alone needs (action.yml).
+COMPILE := .venv-lock/bin/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
+--custom-compile-command 'make lock' --group build pyproject.toml
+lock: .venv-lock/bin/uv
+	$(COMPILE) --extra dev --output-file $(LOCK)
+	$(COMPILE) --constraint $(LOCK) --output-file locks/program.txt
+
+.venv-lock/bin/uv:
+	$(PYTHON) -m venv .venv-lock
+	.venv-lock/bin/python -m pip install --quiet --disable-pip-version-check uv
+
 docs: $(READY)
 	$(BIN)/python docs/generate.py
 
 clean:
-	rm -rf $(VENV) .venv-least bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-least .venv-newest .venv-lock bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

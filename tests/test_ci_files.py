@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -18,22 +19,63 @@ from gearlink.cli.commands.schema import PATTERNS
 ROOT = Path(__file__).parents[1]
 
 
+def _text(name: str) -> str:
+    return (ROOT / name).read_text()
+
+
 def _read(name: str) -> Any:
-    return yaml.safe_load((ROOT / name).read_text())
+    return yaml.safe_load(_text(name))
+
+
+def _run(job: Any) -> list[str]:
+    return [step["run"] for step in job["steps"] if "run" in step]
+
+
+def _pythons(job: Any) -> list[str]:
+    return [step["with"]["python-version"] for step in job["steps"] if "python-version" in step.get("with", {})]
 
 
 def test_the_workflow_runs_the_checks_on_every_python() -> None:
     job = _read(".github/workflows/check.yml")["jobs"]["check"]
-    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13"]
-    assert [step["run"] for step in job["steps"] if "run" in step] == ["make check"]
+    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13", "3.14"]
+    assert _run(job) == ["make check"]
     least = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
     assert least == ">=3.11"
 
 
-def test_the_workflow_tries_the_least_versions_on_the_least_python() -> None:
-    job = _read(".github/workflows/check.yml")["jobs"]["least"]
-    assert [step["run"] for step in job["steps"] if "run" in step] == ["make test-least"]
-    assert [step["with"]["python-version"] for step in job["steps"] if "with" in step] == ["3.11"]
+@pytest.mark.parametrize("workflow", ["check", "versions"])
+def test_the_least_versions_are_tried_on_the_least_python(workflow: str) -> None:
+    job = _read(f".github/workflows/{workflow}.yml")["jobs"]["least"]
+    assert (_run(job), _pythons(job)) == (["make test-least"], ["3.11"])
+
+
+def test_the_newest_versions_are_tried_every_week() -> None:
+    """On the least Python, whose libraries are others, and on the newest."""
+    workflow = _read(".github/workflows/versions.yml")
+    (when,) = workflow[True]["schedule"]  # YAML 1.1 reads the word `on` so
+    assert len(when["cron"].split()) == 5
+    assert when["cron"].split()[2:] == ["*", "*", "1"]
+    job = workflow["jobs"]["newest"]
+    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.14"]
+    assert _run(job) == ["make test-newest"]
+
+
+def test_the_tests_are_run_where_little_is_as_usual() -> None:
+    job = _read(".github/workflows/check.yml")["jobs"]["elsewhere"]
+    assert _run(job)[-1] == "make test-elsewhere"
+    full = (ROOT / "Makefile").read_text().partition("\ncheck-full:")[2].partition("\n\n")[0]
+    assert "$(MAKE) test-elsewhere" in full
+
+
+def test_files_that_the_workflows_name_are_there() -> None:
+    named = re.findall(r"(?:cache-dependency-path: |\$SOURCE/)([\w/.]+)", _text("action.yml"))
+    for workflow in sorted((ROOT / ".github" / "workflows").glob("*.yml")):
+        text = workflow.read_text()
+        named += re.findall(r"cache-dependency-path: (\S+)", text)
+        for target in re.findall(r"- run: make (\S+)", text):
+            assert re.search(rf"^{target}:", _text("Makefile"), re.MULTILINE), target
+    assert len(named) == 4
+    assert [name for name in named if not (ROOT / name).is_file()] == []
 
 
 @pytest.mark.slow

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
 import tomllib
 from pathlib import Path
 
 import pytest
 from least_versions import _least, least_versions
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -45,6 +49,66 @@ def test_every_library_has_a_least_version() -> None:
     for requirement in ("numpy", "numpy<3", "numpy~=2.0", "numpy>=2.0.*"):
         with pytest.raises(ValueError, match="has no lower bound"):
             _least(requirement)
+
+
+# The lock files
+
+LOCKS = ("development", "program")
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+
+
+def locked(name: str) -> list[Requirement]:
+    """What a lock file names, without the hashes."""
+    text = (ROOT / "locks" / f"{name}.txt").read_text().replace("\\\n", " ")
+    return [Requirement(line.partition("--hash")[0]) for line in text.splitlines() if line[:1] not in ("", "#", " ")]
+
+
+def asked_for(name: str) -> list[Requirement]:
+    """What pyproject.toml asks for, of the libraries that a lock file is made for."""
+    project = PROJECT["project"]
+    dev = project["optional-dependencies"]["dev"] if name == "development" else []
+    return [Requirement(each) for each in (*project["dependencies"], *dev, *PROJECT["dependency-groups"]["build"])]
+
+
+@pytest.mark.parametrize("python", PYTHONS)
+@pytest.mark.parametrize("name", LOCKS)
+def test_the_lock_has_one_version_of_each_library_that_is_allowed(name: str, python: str) -> None:
+    """`make lock` renews it after a change of pyproject.toml."""
+    here = {"python_version": python, "python_full_version": f"{python}.0", "sys_platform": "linux"}
+    found = {}
+    for each in locked(name):
+        if each.marker is None or each.marker.evaluate(here):
+            assert canonicalize_name(each.name) not in found
+            (found[canonicalize_name(each.name)],) = (pin.version for pin in each.specifier)
+    for wanted in asked_for(name):
+        assert wanted.specifier.contains(found[canonicalize_name(wanted.name)]), wanted
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_every_file_of_the_lock_has_a_hash_and_comes_from_the_usual_index(name: str) -> None:
+    text = (ROOT / "locks" / f"{name}.txt").read_text()
+    entries = [line for line in text.replace("\\\n", " ").splitlines() if line[:1] not in ("", "#", " ")]
+    entry = re.compile(r"[\w.-]+==[\w.+!-]+( ; .+?)?( +--hash=sha256:[0-9a-f]{64})+")
+    assert [line for line in entries if not entry.fullmatch(line)] == []
+    assert len(entries) == len(locked(name)) > 20
+    assert not re.search(r"://|index|find-links", text)
+
+
+def test_the_program_is_installed_with_the_versions_that_the_tests_have() -> None:
+    assert {str(each) for each in locked("program")} < {str(each) for each in locked("development")}
+    assert "pytest" not in {each.name for each in locked("program")}
+
+
+def test_what_builds_the_project_is_locked_too() -> None:
+    """The editable installation takes it from the environment: build isolation would fetch what nobody has tried."""
+    assert PROJECT["dependency-groups"]["build"] == PROJECT["build-system"]["requires"]
+
+
+def test_a_changed_lock_renews_the_environment() -> None:
+    usual = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
+    rules = subprocess.run(["make", "-pn", "demo"], cwd=ROOT, env=usual, capture_output=True, text=True, check=True)
+    (ready,) = re.findall(r"^\.venv/\.ready: (.+)$", rules.stdout, re.MULTILINE)
+    assert ready.split() == ["pyproject.toml", "locks/development.txt"]
 
 
 def test_nobody_is_told_to_install_another_project_s_package() -> None:

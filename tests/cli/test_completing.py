@@ -160,9 +160,9 @@ def asked(shell: str, line: str) -> str:
     env = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
     env.pop("_GEARLINK_COMPLETE", None)
     if shell == "bash":
-        as_typed = shlex.join(shlex.split(line, posix=False))  # with the quotes of each word, as bash hands them on
+        given = shlex.join(shlex.split(line, posix=False))  # with the quotes of each word, as bash hands them on
         script = subprocess.run(
-            ["bash", "-c", f"source <({_script('bash')}); COMP_WORDS=({as_typed}); COMP_CWORD=$((${{#COMP_WORDS[@]}}-1)); "
+            ["bash", "-c", f"source <({_script('bash')}); COMP_WORDS=({given}); COMP_CWORD=$((${{#COMP_WORDS[@]}}-1)); "
              '_gearlink_completion gearlink; printf "%s\\n" "${COMPREPLY[@]}"'],
             env=env, capture_output=True, text=True, check=False,
         )  # fmt: skip
