@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 Offer: TypeAlias = list[tuple[str, str]]
 _KIND = re.compile(r"^\W*kind\W+([\w-]+)", re.MULTILINE)
+_CASE = re.compile(r"^  - id: (\S+)", re.MULTILINE)
 _ENOUGH = 65_536
 _LINES = ("COMP_WORDS", "_TYPER_COMPLETE_ARGS")
 
@@ -97,6 +98,14 @@ def places(incomplete: str) -> Offer:
     kind, _ = _design()
     known = _PLACES.values() if kind is None else [_PLACES[kind.name]] if kind.name in _PLACES else []
     return _beginning(incomplete, ((name, "") for name in known))
+
+
+def published_cases(incomplete: str) -> Offer:
+    """Cases that `verify` computes, by the lines that name them: to read their files takes longer."""
+    from gearlink.cli.verification.cases import FOLDER, names
+
+    texts = ((FOLDER / f"{name}.yaml").read_text(encoding="utf-8").partition("\ndiffers:")[0] for name in names())
+    return _beginning(incomplete, ((name, "") for text in texts for name in _CASE.findall(text)))
 
 
 def families(incomplete: str) -> Offer:

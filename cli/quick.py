@@ -1,6 +1,7 @@
 """Plain command lines of the commands that are used most, read without Typer, whose import takes longer than most.
 
-Only what is certain is taken: a design command or `report`, one design file, options spelled out with proper values.
+Only what is certain is taken: a design command or `report`, one design file, options spelled out with proper values;
+and `check`, `explain`, `new`, `schema` and `verify` without options.
 For all else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
 A test holds the two readings to the same result.
 """
@@ -41,7 +42,7 @@ def plain_line(arguments: list[str]) -> Line | None:
 
 
 def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
-    """Command and words of a plain line of `check`, `explain`, `new` and `schema`; None where Typer has to read it.
+    """Command and words of a plain line of `check`, `verify`, `explain`, `new` and `schema`; None where Typer reads it.
 
     Example
         >>> plain_reference(["explain", "GL301"])
@@ -50,9 +51,10 @@ def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
         True
     """
     command, *words = arguments or [""]
-    if not words or any(not word or word.startswith("-") for word in words):
+    if any(not word or word.startswith("-") for word in words):
         return None
-    return (command, *words) if command == "check" or (command in REFERENCE and len(words) == 1) else None
+    served = command == "verify" or (command == "check" and words) or (command in REFERENCE and len(words) == 1)
+    return (command, *words) if served else None
 
 
 REFERENCE = ("explain", "new", "schema")
@@ -64,6 +66,10 @@ def run_reference(command: str, *words: str) -> int:
         from gearlink.cli.commands.check import run_check
 
         return run_check(words, Options())
+    if command == "verify":
+        from gearlink.cli.commands.verify import run_verify
+
+        return run_verify(words, Options())
     if command == "explain":
         from gearlink.cli.commands.explain import run_explain
 

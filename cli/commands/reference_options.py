@@ -1,4 +1,4 @@
-"""Commands around the design files: new, schema, explain, check, diff. Each imports what it runs when it runs."""
+"""Commands around the design files: new, schema, explain, check, diff, verify. Each imports what it runs when it runs."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ def register(app: typer.Typer) -> None:
         ("new", _new),
         ("schema", _schema),
         ("explain", _explain),
+        ("verify", _verify),
     ):
         app.command(name)(command)
 
@@ -139,3 +140,25 @@ def _diff(
     from gearlink.cli.commands.diff import run_diff
 
     raise typer.Exit(run_diff(old, new, options._replace(format=Format(format.value)), tolerance))
+
+
+@takes("format", "color", "quiet")
+def _verify(
+    options: Options,
+    prefixes: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="CASE-PREFIX", help="cases that begin so; default: all", autocompletion=offers("published_cases")
+        ),
+    ] = None,
+    everything: Annotated[bool, typer.Option("--all", help="show every number, not a line for each case")] = False,
+) -> None:
+    """Compute published cases with this installation and compare each number with its source.
+
+    Books, standards and reports, kept with the program. Exit status 0: every number is met, 1: one is not.
+
+    Example: gearlink verify khurmi
+    """
+    from gearlink.cli.commands.verify import run_verify
+
+    raise typer.Exit(run_verify(prefixes or (), options, everything=everything))
