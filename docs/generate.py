@@ -1,14 +1,19 @@
-"""Writes docs/nomenclature.md and what `explain`, `schema` and `new` read; run by `make docs`, checked by the tests."""
+"""Writes docs/nomenclature.md, docs/validation.md and what `explain`, `schema` and `new` read.
+
+Run by `make docs`, checked by the tests.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from gearlink.cli.texts import indexing, known
+from gearlink.cli.verification import page
 from gearlink.core.kinds import FILES
 from gearlink.core.nomenclature import TERMS
 
 TARGET = Path(__file__).parent / "nomenclature.md"
+VALIDATION = Path(__file__).parent / "validation.md"
 _HEAD = """# Nomenclature
 
 A quantity has one name, the same in design files, results, code and messages. Gears follow ISO 21771,
@@ -44,5 +49,6 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 
 if __name__ == "__main__":
     TARGET.write_text(text())
+    VALIDATION.write_text(page.text(), encoding="utf-8")
     known.SCHEMAS.write_text(indexing.schemas_text(), encoding="utf-8")
     known.INDEX.write_text(indexing.index_text(), encoding="utf-8")

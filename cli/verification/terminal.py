@@ -21,14 +21,14 @@ def as_text(outcomes: Sequence[Outcome], *, everything: bool = False) -> str:
         everything : bool - every number; else a line for each case, and the numbers that are off
     """
     lines: list[str] = []
+    column = max(len(each.case.id) for each in outcomes)
     for source, group in groupby(outcomes, key=lambda each: each.case.source):
-        lines += [hanging(source), *_cases(list(group), everything), ""]
+        lines += [hanging(source), *_cases(list(group), column, everything), ""]
     met = sum(each.met for each in outcomes)
     return "\n".join([*lines, f"{met} of {len(outcomes)} numbers met"])
 
 
-def _cases(outcomes: Sequence[Outcome], everything: bool) -> Iterator[str]:
-    column = max(len(each.case.id) for each in outcomes)
+def _cases(outcomes: Sequence[Outcome], column: int, everything: bool) -> Iterator[str]:
     for _, group in groupby(outcomes, key=lambda each: each.case.id):
         own = list(group)
         yield _case(own[0].case, own, column)
@@ -45,7 +45,7 @@ def _case(case: Case, outcomes: Sequence[Outcome], column: int) -> str:
     met = sum(each.met for each in outcomes)
     worst = max(outcomes, key=lambda each: each.share)
     count = f"{met} of {len(outcomes)}"
-    line = f"  {case.id:<{column}}  {count:>10}  {digits.share(worst):>6} of the limit"
+    line = f"  {case.id:<{column}}  {count:>8}  {digits.share(worst):>5} of the limit"
     named = f"{line}: {worst.number.name}"
     return named if len(named) <= width() else line
 
