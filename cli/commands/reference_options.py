@@ -1,4 +1,7 @@
-"""Commands around the design files: new, schema, explain, check, diff, verify. Each imports what it runs when it runs."""
+"""Commands around the design files: new, schema, explain, check, diff; and verify.
+
+Each imports what it runs when it runs.
+"""
 
 from __future__ import annotations
 

@@ -12,12 +12,13 @@ _DOUBLE = 15
 
 
 def computed(outcome: Outcome) -> str:
-    """The computed number with a digit more than is published, none of which is rounding of doubles."""
+    """The computed number with a digit more than is published, but none far below its limit, where rounding begins."""
     value = outcome.computed
     if value is None:
         return "-"
     size = 0 if value == 0.0 else math.floor(math.log10(abs(value))) + 1
-    places = min(1 - decimals(outcome.number.published), _DOUBLE - size - 1)
+    below = 1 - math.floor(math.log10(outcome.number.limit))
+    places = min(1 - decimals(outcome.number.published), below, _DOUBLE - size - 1)
     return f"{value:.{max(places, 0)}f}"
 
 

@@ -13,11 +13,11 @@ from gearlink.cli.verification.computing import Outcome, computed
 _HEAD = """# Validation
 
 Published numbers, and what gearlink computes for them. `gearlink verify` computes all of them again where it is
-installed: {cases} cases with {numbers} numbers, of which {met} are met. This page is written by `make docs` from the files in
-cli/verification/cases, which go with the program.
+installed: {cases} cases with {numbers} numbers, of which {met} are met. This page is written by `make docs` from the
+files in cli/verification/cases, which go with the program.
 
-A number is met where the difference is at most half a unit of the last digit that its source prints. Where a wider limit
-is taken, the reason stands below the table. Computed values are shown with a digit more than the published ones.
+A number is met where the difference is at most half a unit of the last digit that its source prints. Where another
+limit is taken, the reason stands below the table. Computed values are shown with a digit more than the published ones.
 
 | source | cases | numbers | met |
 | --- | --- | --- | --- |

@@ -10,7 +10,7 @@ from gearlink.cli.verification import digits
 from gearlink.cli.verification.cases import Case
 from gearlink.cli.verification.computing import Outcome
 
-_NAME_AT_LEAST = 18
+_NAME_AT_LEAST = 8
 _HEADS = ("published", "computed", "difference", "limit")
 
 
@@ -66,7 +66,7 @@ def _numbers(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield _line("", _HEADS, wide, name_column, "")
     for name, cells, mark in rows:
         if len(name) > name_column:
-            yield f"    {name}"
+            yield hanging(name, "      ", "    ")
             name = ""
         yield _line(name, cells, wide, name_column, mark)
 

@@ -1,7 +1,7 @@
-"""The lift of the compensation follower: the report's numbers, its erratum, and a second calculation in 40 digits.
+"""The lift of the compensation follower: the report's erratum, and a second calculation in 40 digits.
 
 Tolerances
-* published (TY-460 report): half a unit of the last printed digit. Where the report divides by the input's speed in
+* published (TY-460 report): its right numbers are cases of `gearlink verify`. Where the report divides by the input's speed in
   place of the cam's (slope 12.049 in place of 17.515, rise 0.778 in place of 1.118), the program must miss the printed
   number and give the right one.
 * oracle (tests/oracles/press.py): 1e-13 of the peak of the lift or its derivative over the turn, from the
@@ -75,9 +75,6 @@ def peaks(lift: Compensation):
 
 def test_zone_of_whole_degrees_as_in_the_report():
     snapped, lift = EXPECTED["sync_snapped"], follower(TY460, start=34.0, end=155.0, transition="arc")
-    assert math.degrees(lift.cam_sync_start) == pytest.approx(32.319, abs=5e-4)
-    assert math.degrees(lift.cam_sync_end) == pytest.approx(117.517, abs=5e-4)
-    assert lift.compensation == pytest.approx(14.147, abs=5e-4)
     assert lift.compensation == pytest.approx(snapped["compensation"], rel=1e-12)
     assert lift.end_slope == pytest.approx(snapped["slope_mm_per_rad"], rel=1e-12)
 

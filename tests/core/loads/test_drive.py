@@ -44,8 +44,6 @@ def test_textbook_torque_of_two_waves() -> None:
     assert energy.fluctuation == pytest.approx(expected["exact"]["energy_fluctuation"], rel=1e-12)
     found = energy.flywheel_for(0.01, speed)
     assert found == pytest.approx(expected["exact"]["flywheel_inertia"], rel=1e-12)
-    assert found == pytest.approx(expected["flywheel_inertia"], rel=1e-3)
-    assert 20000.0 * speed / 1e3 == pytest.approx(expected["power_kW"], abs=0.5)
 
 
 def test_textbook_torque_of_three_waves() -> None:
@@ -54,9 +52,6 @@ def test_textbook_torque_of_three_waves() -> None:
     speed = 300.0 * RPM
     one = Energy.from_functions(lambda a: -1500.0 * np.sin(3.0 * a), np.zeros_like, TURN)
     assert one.fluctuation == pytest.approx(expected["exact"]["energy_fluctuation_constant_load"], rel=1e-12)
-    assert 100.0 * one.fluctuation / (1000.0 * speed**2) == pytest.approx(
-        expected["fluctuation_percent_constant_load"], abs=0.05
-    )
     two = Energy.from_functions(lambda a: 600.0 * np.sin(a) - 1500.0 * np.sin(3.0 * a), np.zeros_like, TURN)
     assert two.fluctuation == pytest.approx(expected["exact"]["energy_fluctuation_load_600_sin"], rel=1e-11)
     share = two.fluctuation / (1000.0 * speed**2)

@@ -1,4 +1,4 @@
-"""Limits, tooth tolerances and bearings: printed values."""
+"""Limits, tooth tolerances and laws; their printed values are cases of `gearlink verify`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.tolerance.bearings import radial_clearance
 from gearlink.core.tolerance.iso_286 import fit_clearances, limit_deviations, standard_tolerance
 from gearlink.core.tolerance.iso_1328 import cumulative_pitch
 from gearlink.core.tolerance.laws import Law, normal_between
@@ -20,18 +19,6 @@ CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read
 
 def _cases(what: str) -> list[dict[str, Any]]:
     return [case for case in CASES if case["input"]["what"] == what]
-
-
-@pytest.mark.parametrize("case", _cases("iso286"), ids=lambda case: str(case["name"]))
-def test_limits_are_the_printed_ones(case: dict[str, Any]) -> None:
-    found = limit_deviations(case["input"]["size"], case["input"]["class"])
-    assert [1000.0 * value for value in found] == pytest.approx(case["expected"], abs=1e-9)
-
-
-def test_grades_are_the_printed_ones() -> None:
-    (case,) = _cases("it")
-    found = [1000.0 * standard_tolerance(case["input"]["size"], grade) for grade in case["input"]["grades"]]
-    assert found == pytest.approx(case["expected"], abs=1e-9)
 
 
 @pytest.mark.parametrize("size", [0.5, 3.0, 3.001, 24.0, 50.0, 120.0, 260.0, 500.0])
@@ -59,13 +46,6 @@ def test_what_the_standard_does_not_have_is_refused(size: float, name: str) -> N
         limit_deviations(size, name)
 
 
-def test_the_pitch_of_teeth_has_the_printed_tolerance() -> None:
-    (case,) = _cases("gear-grade")
-    given = case["input"]
-    found = cumulative_pitch(given["class"], given["module"], given["diameter"], given["width"])
-    assert 1000.0 * found == pytest.approx(case["expected"][1], abs=1e-9)
-
-
 @pytest.mark.parametrize(
     ("grade", "module", "diameter", "width"),
     [(0, 3, 120, 30), (12, 3, 120, 30), (6, 0.4, 120, 30), (6, 3, 4, 30), (6, 3, 120, 2)],
@@ -73,12 +53,6 @@ def test_the_pitch_of_teeth_has_the_printed_tolerance() -> None:
 def test_the_pitch_tolerance_is_not_extrapolated(grade: int, module: float, diameter: float, width: float) -> None:
     with pytest.raises(NoSolution):
         cumulative_pitch(grade, module, diameter, width)
-
-
-def test_bearing_clearances_are_the_printed_ones() -> None:
-    (case,) = _cases("bearing")
-    found = radial_clearance(case["input"]["bore"], case["input"]["group"])
-    assert [1000.0 * value for value in found] == pytest.approx(case["expected"], rel=1e-12)
 
 
 LAWS = [

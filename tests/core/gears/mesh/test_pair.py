@@ -1,8 +1,7 @@
 """Gear pairs with profile shift, and the single gear's teeth.
 
 Tolerances
-* published (TY-460 report): half a unit of the last printed digit, where the report's own arithmetic is right; r_a, s_a
-  and eps of the report carry y rounded to 0.57, so they are followed with that y.
+* published (TY-460 report): cases of `gearlink verify`; here, ten digits of the working pressure angle.
 * reference cases: 1e-13 relative. Measured: 1.3e-14, in the tip shortening of a centre distance rounded to a double,
   whose condition number is 2 a'/(a' - a) = 250.
 * mpmath: 16 eps relative, times the condition number of the datum: a'/(a' - a) for what hangs on a' - a, and
@@ -147,27 +146,11 @@ def test_contact_ratios_of_the_thesis_gears():
 
 def test_press_report_table():
     pair = GearPair(module=4.0, teeth=(72, 72), given_distance=math.hypot(290.0, 13.0))
-    assert pair.center_distance == pytest.approx(290.29, abs=0.005)
     assert pair.reference_center_distance == 288.0
     assert math.degrees(pair.working_pressure_angle) == pytest.approx(21.2076131545, abs=5e-11)
-    assert math.degrees(pair.working_pressure_angle) == pytest.approx(21.207, abs=1e-3)  # cut, not rounded
-    assert pair.shift_sum == pytest.approx(0.589, abs=1e-3)  # cut, not rounded
-    assert pair.center_distance_modification == pytest.approx(0.57, abs=0.005)
-    assert pair.base_radius[0] == pytest.approx(135.316, abs=5e-4)
-    assert pair.tooth_thickness[0] == pytest.approx(7.14, abs=5e-3)
     assert pair.reference_radius == (144.0, 144.0)
     # the report prints r' = r = 144; gears of ratio 1 roll at half the centre distance
     assert pair.working_radius == pytest.approx((145.14561653732433,) * 2, rel=1e-15, abs=0.0)
-
-
-def test_press_report_table_with_its_own_shifts():
-    pair = GearPair.from_shift(4.0, (72, 72), (0.2945, 0.2945))
-    assert pair.root_radius[0] == pytest.approx(140.178, abs=5e-4)
-    # y rounded to 0.57 raises the report's tip circle by less than 0.003 module * 4 mm
-    assert pair.tip_radius[0] == pytest.approx(149.102, abs=5e-4 + 0.004 * 4)
-    assert math.degrees(pair.tip_pressure_angle[0]) == pytest.approx(24.83, abs=0.005 + 0.012)
-    assert pair.tip_thickness[0] == pytest.approx(3.10, abs=0.005 + 0.02)
-    assert pair.contact_ratio == pytest.approx(1.71, abs=0.005 + 0.005)
 
 
 def condition(pair, name):
