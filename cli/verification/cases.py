@@ -33,7 +33,7 @@ class Number(NamedTuple):
         limit : float - greatest difference that is met
         because : str - reason of a limit that is not half a unit of the last printed digit
         quantity : str - name of a quantity; of a kernel, name of a result
-        index : place in the quantity's list, and within that
+        places : place in the quantity's list, and within that; `index` in the data
         table, column, where : the row and column of a table instead
         scale : float - the program's value times this is compared
         unit : str - empty: that of the program
@@ -44,7 +44,7 @@ class Number(NamedTuple):
     limit: float
     because: str = ""
     quantity: str = ""
-    index: tuple[int, ...] = ()
+    places: tuple[int, ...] = ()
     table: str = ""
     column: str = ""
     where: Mapping[str, float | str] = {}
@@ -159,19 +159,20 @@ def _base(like: str, made: Mapping[str, Case]) -> Mapping[str, Any]:
     return found
 
 
-def _numbers(row: dict[str, Any], index: tuple[int, ...] = ()) -> Iterator[Number]:
+def _numbers(row: Mapping[str, Any], places: tuple[int, ...] = ()) -> Iterator[Number]:
     """The numbers of a row of data; those of a list carry their places, counted from 1, behind the name."""
     published = row["published"]
     if isinstance(published, list):
         for place, each in enumerate(published):
-            if each is not None:
-                yield from _numbers({**row, "published": each}, (*index, place))
+            yield from _numbers({**row, "published": each}, (*places, place))
         return
-    given = row.get("index", ())
-    places = index or (tuple(given) if isinstance(given, list) else (given,) if isinstance(given, int) else ())
-    name = row["name"] + (f" ({', '.join(str(place + 1) for place in index)})" if index else "")
-    limit = float(row["limit"]) if "limit" in row else half_unit(published)
-    yield Number(**{**row, "name": name, "limit": limit, "index": places, "scale": float(row.get("scale", 1.0))})
+    fields = {key: value for key, value in row.items() if key != "index"}
+    if places:
+        fields["name"] = f"{row['name']} ({', '.join(str(place + 1) for place in places)})"
+    elif "index" in row:
+        places = (row["index"],)
+    fields |= {"limit": float(row.get("limit", half_unit(published))), "scale": float(row.get("scale", 1.0))}
+    yield Number(**fields, places=places)
 
 
 def half_unit(published: str) -> float:

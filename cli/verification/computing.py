@@ -53,7 +53,7 @@ def computed(cases: Iterable[Case]) -> Iterator[Outcome]:
         >>> from gearlink.cli.verification.cases import read
         >>> case = next(case for case in read("khurmi").cases if case.id == "khurmi-12.7-internal")
         >>> [(round(each.computed, 3), each.met) for each in computed([case])]
-        [(28.041, True)]
+        [(28.035, True)]
     """
     from gearlink.core.errors import GearlinkError
 
@@ -82,7 +82,7 @@ class _Kernel:
         self._results = KERNELS[case.kernel](case.given)
 
     def value(self, number: Number) -> tuple[Any, str]:
-        return _at(self._results[number.quantity], number.index), ""
+        return _at(self._results[number.quantity], number.places), ""
 
 
 class _Designed:
@@ -99,7 +99,7 @@ class _Designed:
         if number.table:
             return self._cell(number)
         found = self._design.quantity(number.quantity)
-        return (None, "") if found is None else (_at(found.value, number.index), found.unit)
+        return (None, "") if found is None else (_at(found.value, number.places), found.unit)
 
     def _cell(self, number: Number) -> tuple[Any, str]:
         if number.table not in self._tables:
@@ -108,7 +108,7 @@ class _Designed:
         columns, rows, units = self._tables[number.table]
         at = columns.index(number.column)
         found = [row[at] for row in rows if _stands(dict(zip(columns, row, strict=True)), number.where)]
-        return _at(found[0], number.index) if len(found) == 1 else None, units[at]
+        return _at(found[0], number.places) if len(found) == 1 else None, units[at]
 
 
 def _stands(row: Mapping[str, Any], where: Mapping[str, float | str]) -> bool:
@@ -121,7 +121,7 @@ def _stands(row: Mapping[str, Any], where: Mapping[str, float | str]) -> bool:
     )
 
 
-def _at(value: Any, index: tuple[int, ...]) -> Any:
-    for place in index:
+def _at(value: Any, places: tuple[int, ...]) -> Any:
+    for place in places:
         value = None if value is None else value[place]
     return value

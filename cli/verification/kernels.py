@@ -20,8 +20,8 @@ def four_bar(given: Given) -> Results:
     """
     from gearlink.core.linkages.fourbar.position import FourBar, solve
 
-    lengths = (float(given[key]) for key in ("crank", "coupler", "rocker", "frame"))
-    linkage = FourBar(*lengths, given.get("assembly", 1))
+    crank, coupler, rocker, frame = (float(given[link]) for link in ("crank", "coupler", "rocker", "frame"))
+    linkage = FourBar(crank, coupler, rocker, frame, given.get("assembly", 1))
     state = solve(linkage, math.radians(given["angle"]), 2, velocity=given.get("speed", 1.0))
     return {
         f"{link}_{rate}": getattr(state, f"{link}_{rate}")

@@ -28,7 +28,7 @@ def report_of(outcomes: Sequence[Outcome]) -> Verification:
         "numbers": (len(outcomes), "published numbers in them"),
         "met": (sum(each.met for each in outcomes), "numbers within their limit"),
     }
-    columns = {
+    columns: dict[str, Sequence[object]] = {
         "case": [each.case.id for each in outcomes],
         "source": [", ".join(filter(None, (each.case.source, each.case.place))) for each in outcomes],
         "name": [each.number.name for each in outcomes],
