@@ -114,6 +114,8 @@ REFERENCES = [
     ["new", "no-such"],
     ["schema", "gear-pair"],
     ["schema", "no-such"],
+    ["verify", "khurmi-12.7"],
+    ["verify", "no-such-book"],
     ["check", "ty460_slider_crank.yaml"],
     ["check", "ty460_slider_crank.yaml", "no_such.yaml"],
 ]
