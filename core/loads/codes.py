@@ -8,7 +8,8 @@ POWER_IDENTITY = Rule(
     "GL601",
     "power identity",
     "The input torque by virtual power and that by the forces of all joints differ.",
-    "Both follow from the same links; where they differ, none of the forces can be trusted.",
+    "Both follow from the same links, and losses of friction are counted from the motion of the joints; where they "
+    "differ, none of the forces can be trusted.",
     "Move the mechanism away from a dead point: near one the forces grow beyond all digits.",
     "|M_NE - M_VP| <= 1e-9 max |M|",
     "virtual power against Newton and Euler",

@@ -137,7 +137,7 @@ class Friction(Spec):
     )
     guides: Coefficient = Field(0.0, description="coefficient of friction in all guides")
     meshes: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="efficiency of all gear meshes"
+        1.0, description="efficiency of all gear meshes, output over input power whichever gear drives"
     )
     joints: dict[str, Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]] = Field(
         {}, description="coefficient of a pin or guide, or efficiency of a mesh, by its name"
@@ -151,7 +151,7 @@ class Flywheel(Spec):
         None, description="its moment of inertia"
     )
     fluctuation: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="(greatest - least)/mean speed allowed; alone, the inertia is sought"
+        None, description="(greatest - least)/mean speed allowed, the mean of these two; alone, the inertia is sought"
     )
 
     @model_validator(mode="after")

@@ -1,8 +1,9 @@
 """Friction in pins, guides and meshes, as a fixed point on the reactions.
 
 Pins: a couple mu r |F| against the relative turning; guides: mu |N| against the motion; meshes: a couple
-(1 - eta) |F_t| r against the rolling, that is the turning against the link that carries the axes, which takes the
-opposite.
+(1 - eta) |F_t| r on the driven gear against its rolling, that is its turning against the link that carries the axes,
+which takes the opposite: so the driven gear gives eta of the power that the driving one puts in, in the carrier's
+frame. Which gear is driven follows from the signs of tooth force and rolling, row by row.
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.forces.dynamics import Applied, Masses, Reactions, System
 from gearlink.core.loads.forces.kinematics import dot, sense_of
 from gearlink.core.loads.forces.mechanism import (
-    FRAME,
     Act,
     Connection,
     Contact,
@@ -82,7 +82,7 @@ class Coefficients:
         return [each.name for each in mechanism.connections if self.of(each)]
 
     def units(self, mechanism: Mechanism, speed: float) -> Iterator[Unit]:
-        """The friction of every joint that has some."""
+        """The friction of every joint that has some; of a mesh two, of which one is 0: each gear as the driven one."""
         for each in mechanism.connections:
             share = self.of(each)
             if not share:
@@ -91,18 +91,19 @@ class Coefficients:
             if isinstance(each, Guide):
                 at = mechanism.links[each.second].origin.value
                 yield Unit(each.name, [Act(each.second, -direction * each.along, at, 0.0)], share)
-                continue
-            if isinstance(each, Pin):
-                pairs = ((each.second, -1.0), (each.first, 1.0))
+            elif isinstance(each, Pin):
+                yield Unit(each.name, _against(each.second, each.first, direction), share)
+            elif isinstance(each, Rack):
+                turned = direction * dot(each.along, -1j * each.normal)  # the way of the pitch point along the rack
+                yield Unit(each.name, _against(each.second, each.carrier, direction), share * each.mate_radius, turned)
+                along, at = turned * each.along, each.pitch_point
+                acts = [Act(each.first, -along, at, 0.0), Act(each.carrier, along, at, 0.0)]
+                yield Unit(each.name, acts, share, -turned)
             else:
-                assert isinstance(each, (Mesh, Rack)), "no other joint has a coefficient"
-                gear = each.second if isinstance(each, Rack) else each.first
-                share *= each.mate_radius if isinstance(each, Rack) else each.radius
-                pairs = ((gear, -1.0), (each.carrier, 1.0))
-            nowhere = np.zeros(mechanism.rows, dtype=np.complex128)
-            yield Unit(
-                each.name, [Act(name, 0j, nowhere, sign * direction) for name, sign in pairs if name != FRAME], share
-            )
+                assert isinstance(each, Mesh), "no other joint has a coefficient"
+                mate = direction if each.internal else -direction
+                yield Unit(each.name, _against(each.second, each.carrier, mate), share * each.mate_radius, direction)
+                yield Unit(each.name, _against(each.first, each.carrier, direction), share * each.radius, -direction)
 
     def rate(self, mechanism: Mechanism, name: str) -> Reals:
         """Relative speed of a connection, per input angle, whose sign its friction has."""
@@ -171,7 +172,10 @@ def solution_of(
         free = _with_separation(solved, places[: len(meshes)], place) < 0.0
         used[name] = free if pulled is None else pulled[name]
         _exchange(solved, k, place, used[name])
-    found = Rubbing(solved[0], solved[1:count], shares, np.array(places, dtype=np.intp).reshape(-1, 2))
+    of_side = np.zeros((len(shares), mechanism.rows))
+    for k, unit in enumerate(rubbing, len(meshes)):
+        of_side[k] = 0.0 if unit.side is None else unit.side
+    found = Rubbing(solved[0], solved[1:count], shares, np.array(places, dtype=np.intp).reshape(-1, 2), of_side)
     return Solution(mechanism, system, found, used)
 
 
@@ -283,11 +287,15 @@ def passes_ratio(
 
 
 class Unit(NamedTuple):
-    """The friction of a joint for a unit of its size: where it acts, its coefficient, and the joint it is read from."""
+    """The friction of a joint for a unit of its size: where it acts, its coefficient, and the joint it is read from.
+
+    Its size is that of the joint's force; with `side`, (N,) array of +-1, of the force on that side alone, else 0.
+    """
 
     name: str
     acts: list[Act]
     share: float
+    side: Reals | None = None
 
     def places(self, system: System) -> tuple[int, int]:
         """The unknowns whose magnitude its size is."""
@@ -296,21 +304,57 @@ class Unit(NamedTuple):
         is_pin = any(each.name == self.name and isinstance(each, Pin) for each in system.mechanism.connections)
         return (first, first + 1) if is_pin and names[-1] == self.name else (first, first)
 
+    def size(self, values: Reals) -> Reals:
+        """Its size at the unknowns of its joint, (N,)."""
+        if self.side is not None:
+            return np.asarray(self.share * np.maximum(self.side * values[0], 0.0))
+        return np.asarray(self.share * np.linalg.norm(values, axis=0))
+
+
+def _against(gear: str, carrier: str, direction: Reals) -> list[Act]:
+    """A unit couple on a link against its turning, and the opposite on the link that it turns on."""
+    nowhere = np.zeros(len(direction), dtype=np.complex128)
+    return [Act(gear, 0j, nowhere, -direction), Act(carrier, 0j, nowhere, direction)]
+
 
 def losses(found: Reactions, friction: Coefficients, speed: float) -> Reals:
-    """Power that friction turns into heat [W], never negative."""
+    """Power that friction turns into heat [W], never negative.
+
+    Notes
+        That of a mesh is (1 - eta) of the power that its driving gear puts in, and that is counted from all that the
+        mesh does to this gear: where the friction lies on the wrong gear, the power does not balance.
+    """
     mechanism = found.mechanism
     total = np.zeros(mechanism.rows)
+    joints = {each.name: each for each in mechanism.connections}
+    taken: dict[str, dict[str, Reals]] = {}
     for unit in friction.units(mechanism, speed):
-        size = unit.share * np.hypot(*_parts(found, unit.name))
+        joint = joints[unit.name]
+        values = found.unknowns[unit.name][: 2 if isinstance(joint, Pin) else 1]
+        size, is_mesh = unit.size(values), isinstance(joint, (Mesh, Rack))
+        if is_mesh and unit.name not in taken:
+            (column,) = joint.columns()
+            force = values[0] * column.force
+            pairs = ((column.second, force), (column.first, -force))
+            taken[unit.name] = {on: _power(joint, mechanism, Act(on, f, column.at, 0.0)) for on, f in pairs}
         for act in unit.acts:
-            link = mechanism.links[act.on]
-            rate = dot(act.force, link.origin.first) + act.couple * link.turn.first
-            total -= speed * size * rate
+            power = size * _power(joint, mechanism, act)
+            if not is_mesh:
+                total -= speed * power
+            elif act.on in taken[unit.name]:
+                taken[unit.name][act.on] = taken[unit.name][act.on] + power
+    for name, powers in taken.items():
+        put_in = -np.minimum(*(speed * power for power in powers.values()))
+        total += friction.of(joints[name]) * put_in
     return total
 
 
-def _parts(found: Reactions, name: str) -> tuple[Reals, Reals]:
-    values = found.unknowns[name]
-    is_pin = any(each.name == name and isinstance(each, Pin) for each in found.mechanism.connections)
-    return values[0], values[1] if is_pin else np.zeros_like(values[0])
+def _power(joint: Connection, mechanism: Mechanism, act: Act) -> Reals:
+    """Power of a force and a couple on a link per input angle; of teeth as seen from the link that holds the axes."""
+    total = np.zeros(mechanism.rows)
+    seen = ((act.on, 1.0), (joint.carrier, -1.0)) if isinstance(joint, (Mesh, Rack)) else ((act.on, 1.0),)
+    for name, sign in seen:
+        if (link := mechanism.link(name)) is not None:
+            rate = link.origin.first + 1j * link.turn.first * (act.at - link.origin.value)
+            total += sign * (dot(act.force, rate) + act.couple * link.turn.first)
+    return total

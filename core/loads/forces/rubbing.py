@@ -29,19 +29,21 @@ class SelfLocking(NoSolution):
 class Rubbing:
     """What friction and separating forces do: each has the size of a joint's force, and acts by a response.
 
-    x = x_0 + sum f_j S_j,  f_j = mu_j |F_j(x)|
+    x = x_0 + sum f_j S_j,  f_j = mu_j |F_j(x)|, or mu_j max(s_j F_j(x), 0) of one side
 
     Fields
         free : (n, N) array - x_0, the unknowns without them
         responses : (m, n, N) array - S_j, the unknowns that a unit makes
         shares : (m,) array - mu_j: mu r, mu, (1 - eta) r, and 1 of a mesh's separating force
         places : (m, 2) array of int - unknowns whose magnitude F_j is; the same twice where it is one
+        sides : (m, N) array - s_j, +-1 where the size is that of the force on one side, 0 where of either
     """
 
     free: Reals
     responses: Reals
     shares: Reals
     places: Any
+    sides: Reals | float = 0.0
 
     @cached_property
     def _read(self) -> tuple[Reals, Reals]:
@@ -55,13 +57,16 @@ class Rubbing:
         return self.places[:, 0] == self.places[:, 1]
 
     def forces(self, sizes: Reals) -> Reals:
-        """Parts of the joint forces at sizes (N, m), as (N, m, 2); of one unknown the second part is 0."""
+        """Parts of the joint forces at sizes (N, m), as (N, m, 2), 0 on the other side than a size is of.
+
+        Of one unknown the second part is 0.
+        """
         base, response = self._read
         count = len(self.shares)
         flat = response.reshape(len(sizes), 2 * count, count)  # none where friction vanishes in rounding
         found = base + (flat @ sizes[..., None]).reshape(base.shape)
         found[:, self._single, 1] = 0.0
-        return np.asarray(found)
+        return np.asarray(np.where((np.asarray(self.sides).T * found[..., 0] < 0.0)[..., None], 0.0, found))
 
     def rates(self, forces: Reals) -> Reals:
         """Change of the sizes by the sizes, (N, m, m)."""

@@ -24,6 +24,9 @@ from gearlink.core.loads.forces.mechanism import FRAME, Contact, Guide, Mesh, Pi
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["cases"]
 STEP = 1e-3
+PASSES = 60
+"""Friction makes forces that make friction: each pass leaves less than 0.6 of the change of the one before."""
+RUBBING = {"pins": 0.04, "pin_radius": 5.0, "meshes": 0.9}
 TINY = 1e-30
 
 
@@ -150,8 +153,59 @@ class Augmented:
         square = machine.speed**2
         size = len(gamma)
         matrix = np.block([[np.diag(self.mass), -jacobian.T], [jacobian, np.zeros((size, size))]])
-        whole = np.linalg.solve(matrix, np.concatenate([load, gamma * square]))
+        rubbed, whole = np.zeros(n), np.zeros(n + size)
+        for _ in range(PASSES if machine.friction else 1):
+            whole = np.linalg.solve(matrix, np.concatenate([load + rubbed, gamma * square]))
+            rubbed = self.rubbed(whole[n:])
         return whole[:n] / square, whole[n:]
+
+    # Friction, from the multipliers and the rates of the coordinates
+
+    def rubbed(self, multipliers: Any) -> Any:
+        """What friction puts on the coordinates: of pins mu r |F|, of teeth what makes P_out = eta P_in."""
+        load, values = np.zeros(len(self.q)), iter(multipliers)
+        friction = self.machine.friction
+        for each in self.mechanism.connections if friction else ():
+            own = [next(values) for _ in each.columns()]
+            if isinstance(each, Pin):
+                turning = self._turn(each.second) - self._turn(each.first)
+                size = friction.pins * friction.pin_radius * np.hypot(*own)
+                self._put(load, each.second, each.first, couple=-size * np.sign(turning * self.machine.speed))
+            elif isinstance(each, (Mesh, Rack)):
+                force = own[0] / np.hypot(1.0, each.tangent) * (-1.0 if isinstance(each, Mesh) else 1.0)
+                self._put_on_driven(load, each, force * complex(np.ravel(each.columns()[0].force)[0]), friction.meshes)
+        return load
+
+    def _put_on_driven(self, load: Any, teeth: Any, force: complex, efficiency: float) -> None:
+        """Take from the gear that the teeth drive, as seen from the link with the axes, what the mesh loses."""
+        at = complex(teeth.pitch_point[0])
+        rolling = self._velocity(teeth.second, at) - self._velocity(teeth.carrier, at)
+        power = (force.conjugate() * rolling).real * self.machine.speed
+        driven = teeth.second if power > 0.0 else teeth.first
+        lost = (1.0 - efficiency) * abs(power) / self.machine.speed
+        if isinstance(teeth, Rack) and driven == teeth.first:
+            self._put(load, driven, teeth.carrier, force=-lost * rolling / abs(rolling) ** 2, at=at)
+        else:
+            self._put(load, driven, teeth.carrier, couple=-lost / (self._turn(driven) - self._turn(teeth.carrier)))
+
+    def _turn(self, name: str) -> float:
+        return 0.0 if name == FRAME else float(self.rate[3 * self.names.index(name) + 2])
+
+    def _velocity(self, name: str, at: complex) -> complex:
+        if name == FRAME:
+            return 0j
+        k = 3 * self.names.index(name)
+        return complex(self.rate[k], self.rate[k + 1]) + 1j * self.rate[k + 2] * (
+            at - complex(self.q[k], self.q[k + 1])
+        )
+
+    def _put(self, load: Any, on: str, off: str, couple: float = 0.0, force: complex = 0j, at: complex = 0j) -> None:
+        """Add a couple and a force at a place to a link, and the opposite to another."""
+        for name, sign in ((on, 1.0), (off, -1.0)):
+            if name != FRAME:
+                k = 3 * self.names.index(name)
+                arm = at - complex(self.q[k], self.q[k + 1])
+                load[k : k + 3] += sign * np.array([force.real, force.imag, couple + float(cross(arm, force))])
 
 
 def _angle_beyond(sine: Any, cosine: Any, tangent: float) -> Any:
@@ -184,6 +238,27 @@ def test_press_against_the_augmented_system(degrees: float) -> None:
 def test_six_bars_against_the_augmented_system(name: str) -> None:
     """Rings, free gears and carriers of every kind, at one input angle each."""
     _compare(Augmented(factory.design(SIX_BARS[name], command="loads"), 0.9))
+
+
+@pytest.mark.quick(10)
+@pytest.mark.parametrize("name", [*(str(case["name"]) for case in CASES if "gears" in case["spec"]), *SIX_BARS])
+@pytest.mark.parametrize("speed", [70.0, -70.0])
+def test_friction_against_the_augmented_system(name: str, speed: float) -> None:
+    """Teeth lose on the gear that they drive, whichever it is and however the carrier moves; pins beside them."""
+    specs: dict[str, Any] = SIX_BARS | {case["name"]: case["spec"] for case in CASES}
+    spec = {key: value for key, value in specs[name].items() if key != "at"}
+    if spec["kind"] == "geared-five-bar":
+        spec["coupler_point"] = {"along": 60.0}
+    keys: dict[str, Any] = {"loads__friction": RUBBING, "loads__speed": speed}
+    _compare(Augmented(factory.design(spec, command="loads", **keys), 1.3))
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("degrees", [20.0, 80.0, 160.0, 250.0, 310.0])
+def test_friction_of_racks_against_the_augmented_system(degrees: float) -> None:
+    """The pinion drives the bed and is driven by it, the lower rack likewise."""
+    friction = RUBBING | {"pins": 0.0}
+    _compare(Augmented(factory.design("loaded_press", command="loads", loads__friction=friction), np.radians(degrees)))
 
 
 def _compare(augmented: Augmented) -> None:
