@@ -49,6 +49,16 @@ class Valley(NamedTuple):
             return left if abs(f_left) < abs(f_right) else right
         return bracketed_root(lambda phi: self.angle(phi) - level, left, right, ends=(f_left, f_right))
 
+    def before(self, level: float) -> float:
+        """Crank angle where the output last passes a level before its standstills."""
+        beyond = level < self.angle(self.low)
+        return self.reach(level, self.second - _TURN, self.low) if beyond else self.reach(level, self.low, self.first)
+
+    def after(self, level: float) -> float:
+        """Crank angle where the output first passes a level after its standstills."""
+        beyond = level > self.angle(self.high)
+        return self.reach(level, self.high, self.first + _TURN) if beyond else self.reach(level, self.second, self.high)
+
 
 def least_band(valley: Valley, window: float) -> float:
     """Least tolerance of a window that holds both standstills.
@@ -57,7 +67,7 @@ def least_band(valley: Valley, window: float) -> float:
 
     Parameters
         valley : Valley - of an output with at most one back-step a turn
-        window : float [rad] - at least that of equal ripple, which has no room to either side
+        window : float [rad] - at least that of equal ripple, which has no room to either side; see `band_of_window`
     Returns
         tolerance : float [rad]
     Notes
@@ -67,8 +77,7 @@ def least_band(valley: Valley, window: float) -> float:
         own derivation
     """
     top, bottom = valley.angle(valley.first), valley.angle(valley.second)
-    first = max(valley.low, valley.reach(top, valley.second, valley.high) - window)
-    last = min(valley.reach(bottom, valley.low, valley.first), valley.high - window)
+    first, last = valley.after(top) - window, valley.before(bottom)
 
     def gain(left: float) -> float:
         return valley.speed(left + window) - valley.speed(left)
@@ -80,6 +89,35 @@ def least_band(valley: Valley, window: float) -> float:
     else:
         left = bracketed_root(gain, first, last, ends=(least, most))
     return 0.5 * max(valley.angle(left + window) - valley.angle(left), top - bottom)
+
+
+def band_of_window(valley: Valley, window: float) -> float:
+    """Least tolerance of a window that holds both standstills, or one where the back-step is wider than its band.
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        window : float [rad] - positive
+    Returns
+        tolerance : float [rad]
+    Notes
+        The inverse of `longest_in_band`, whose window jumps where the back-step fills the band: windows inside of the
+        jump have its tolerance.
+
+    Source
+        own derivation
+    """
+    half, limit = 0.5 * (valley.angle(valley.first) - valley.angle(valley.second)), math.pi * valley.mean
+    if half > 0.0 and (half >= limit or window <= longest_in_band(valley, half).crank_angle):
+
+        def lack(tolerance: float) -> float:
+            return longest_in_band(valley, tolerance).crank_angle - window
+
+        least, most = 1e-14 * half, min(half, limit) * (1.0 - 1e-9)
+        ends = lack(least), lack(most)
+        if ends[1] <= 0.0:
+            return half
+        return least if ends[0] >= 0.0 else bracketed_root(lack, least, most, ends=ends)
+    return least_band(valley, window)
 
 
 def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
@@ -96,8 +134,9 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     Raises
         NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
     Notes
-        Bracketed roots inside a bracketed root, all monotone between the greatest speeds before and after the
-        least one. Where W(L) = W(R) cannot hold with both standstills inside, the end that binds is taken. At
+        Bracketed roots inside a bracketed root; the angle rises outside of the standstills, and what the window leaves
+        of the turn has one greatest speed. Where W(L) = W(R) cannot hold with both standstills inside, the end that
+        binds is taken: of long windows with both ends beyond the greatest speed, too. At
         tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
     Example
         >>> eased = Valley(lambda x: x - math.sin(x), lambda x: 1.0 - math.cos(x), 0.0, 0.0, -math.pi, math.pi, 1.0)
@@ -128,24 +167,20 @@ def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, 
     bottom = valley.angle(valley.second)
     spare = max(0.0, 2.0 * tolerance - drop)
     top = bottom + drop
-    most_left = bottom - valley.angle(valley.low)
-    most_right = valley.angle(valley.high) - top
 
     def ends(p: float) -> tuple[float, float]:
-        left = valley.reach(bottom - p, valley.low, valley.first)
-        return left, valley.reach(top + spare - p, valley.second, valley.high)
+        return valley.before(bottom - p), valley.after(top + spare - p)
 
     def gain(p: float) -> float:
         left, right = ends(p)
         return valley.speed(right) - valley.speed(left)
 
-    low, high = max(0.0, spare - most_right), min(spare, most_left)
-    if (first := gain(low)) <= 0.0:
-        p = low
-    elif (last := gain(high)) >= 0.0:
-        p = high
+    if (first := gain(0.0)) <= 0.0:
+        p = 0.0
+    elif (last := gain(spare)) >= 0.0:
+        p = spare
     else:
-        p = bracketed_root(gain, low, high, ends=(first, last))
+        p = bracketed_root(gain, 0.0, spare, ends=(first, last))
     left, right = ends(p)
     return left, right, bottom - p + tolerance
 

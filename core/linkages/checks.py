@@ -61,6 +61,8 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
         interval : list of 2 float [mm] - frames between which the request is met, where there is one
     """
     text = f"the back-step takes {share:.5g} of the band"
+    if share > 1.0 + WINDOW_FIT:
+        text = f"the back-step is {share:.5g} times the band: the output dwells about one of its standstills"
     width = None if interval is None else interval[1] - interval[0]
     if width is not None:
         text += f"; the frame may lie within {width:.4g} mm"

@@ -22,16 +22,13 @@ from dataclasses import dataclass
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, least_band, longest_in_band
-from gearlink.core.linkages.fourbar.loop import rates_of
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.report import safely_above, safely_below
 
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
-_AT_CHANGE_POINT = 1e-10  # for limits of the teeth, which approach theirs with the root of this share
 _PROBES = (1e-3, 1e-2, 0.1)  # shares of the way to the momentary dwell at which a hump shows
 _PROBED = 1e-9
 _TURN = 2.0 * math.pi
@@ -150,7 +147,9 @@ def momentary_frame(family: Family) -> float:
     """
     found = stationary_frames(family)
     if not found:
-        raise NoSolution(_never(family), key="gears.ring" if family.ring else "gears.sun")
+        from gearlink.core.planet_linkages.two_gear_refusals import never
+
+        raise NoSolution(never(family), key="gears.ring" if family.ring else "gears.sun")
     return found[0]
 
 
@@ -162,9 +161,14 @@ def stepping(family: Family) -> tuple[float, float]:
     Raises
         NoSolution - see `momentary_frame`
     """
+    return momentary_frame(family), steep_end(family)
+
+
+def steep_end(family: Family) -> float:
+    """The frame [mm] just before the change point at which the back-step is greatest."""
     low, high = frame_range(family)
     margin = _BEFORE_CHANGE_POINT * (high - low)
-    return momentary_frame(family), low + margin if family.ring else high - margin
+    return low + margin if family.ring else high - margin
 
 
 def quiet_end(family: Family) -> float:
@@ -214,10 +218,10 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
     Notes
         See `gearlink.core.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
-    return longest_in_band(_valley(drive), tolerance)
+    return longest_in_band(valley(drive), tolerance)
 
 
-def _valley(drive: PlanetLinkage) -> Valley:
+def valley(drive: PlanetLinkage) -> Valley:
     """The part of the turn around the least speed."""
     extremes, step = turnings(drive), back_step(drive)
     at = min(range(len(extremes)), key=lambda i: extremes[i].value)
@@ -277,8 +281,9 @@ def solved(
     quiet, steep = stepping(family)
     most = measure(family.drive(steep))
     if not target <= most:
-        limit = safely_below(math.degrees(share * most))
-        raise NoSolution(f"{what} is more than these gears and links reach, {limit} deg; ask for less")
+        from gearlink.core.planet_linkages.two_gear_refusals import beyond_reach
+
+        raise NoSolution(beyond_reach(what, share * most, family.drive(steep)))
     ends = (-target, most - target)  # at the momentary dwell itself rounding may leave a back-step
     return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)
 
@@ -344,8 +349,8 @@ def flattest(family: Family, window: float, what: str, *, beyond: bool = False) 
     except NoSolution as error:
         if not beyond:
             raise
-        frame, least, refusal = steep, least_band(_valley(family.drive(steep)), window), error
-    better = _better(family, lambda other: -least_band(_valley(family.drive(other)), window), frame, -least)
+        frame, least, refusal = steep, least_band(valley(family.drive(steep)), window), error
+    better = _better(family, lambda other: -least_band(valley(family.drive(other)), window), frame, -least)
     if better is not None:
         return better[0], -better[1]
     if refusal is not None:
@@ -362,35 +367,3 @@ def _better(
     if not any(probe - value > _PROBED * abs(value) for probe in probes):
         return None
     return maximum(measure, frame, quiet)
-
-
-def _never(family: Family) -> str:
-    """Why gears and links have no momentary dwell, and the teeth that have."""
-    low, high = frame_range(family)
-    margin = _AT_CHANGE_POINT * (high - low)
-    limits = f"frames between {low:.9g} and {high:.9g} mm"
-    teeth = abs(1.0 / family.ratio)
-    if not family.ring:
-        reach = max(t.value for t in coupler_turnings(family.drive(high - margin))) - 1.0
-        return (
-            f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
-            "with links of these lengths; take fewer teeth on the sun or more on the planet"
-        )
-    reach, least = (
-        1.0 - min(t.value for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
-    )
-    if teeth < least:
-        return (
-            f"with {limits} the output steps back always, with no momentary dwell to start from: z5/z2 = {teeth:.6g} "
-            f"must be above {safely_above(least)} with links of these lengths; take more teeth on the ring gear"
-        )
-    return (
-        f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} with "
-        "links of these lengths; take fewer teeth on the ring gear or more on the planet"
-    )
-
-
-def coupler_turnings(drive: PlanetLinkage) -> list[Turning]:
-    """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
-    links = drive.linkage.reading
-    return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])

@@ -8,12 +8,15 @@ from typing import Any
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import NoSolution, at_key, section_of
+from gearlink.core.linkages.always_stepping import AlwaysStepping
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
+from gearlink.core.planet_linkages.two_gear_always import always_stepping, keeping
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
+from gearlink.core.planet_linkages.two_gear_refusals import beyond_reach
 from gearlink.core.real_speed import per_time
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
@@ -82,6 +85,14 @@ class Synthesis(TwoGearFourBar):
         return kernel.Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
 
     @cached_property
+    def always(self) -> AlwaysStepping | None:
+        """The frames, where the output steps back with each of them; else the search starts at a momentary dwell."""
+        return always_stepping(self.family)
+
+    def _transmission_angle(self, frame: float) -> float:
+        return self.family.drive(frame).linkage.min_transmission_angle()
+
+    @cached_property
     def linkage(self) -> FourBar:
         """The four-bar with the frame that meets the task."""
         if self.spec.links.frame is not None:
@@ -112,7 +123,23 @@ class BackStepSynthesis(Synthesis):
         """The root of the back-step over the frame."""
         with at_key("back_step.angle"):
             words = f"a back-step of {self._request:g} deg"
+            if self.always is not None:
+                return self._of_always(self.always, math.radians(self._request), words)
             return kernel.solved(self.family, kernel.back_step_of, math.radians(self._request), words)
+
+    def _of_always(self, always: AlwaysStepping, angle: float, words: str) -> float:
+        """Of the frames with that back-step, to either side of the least one, that of the better transmission angle."""
+        least, most = always.least_step[1], always.step(always.low)
+        if angle < least:
+            limit = safely_above(math.degrees(least))
+            raise NoSolution(
+                f"{words} is less than the least of crank-rockers with these gears and links, {limit} deg: their "
+                "output steps back with every frame; ask for more, or take more teeth on the ring gear"
+            )
+        frames = always.with_step(angle)
+        if not frames:
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+        return max(frames, key=self._transmission_angle)
 
     def check_target(self) -> Check:
         """GL307: the back-step of the finished design, measured on its motion."""
@@ -150,7 +177,7 @@ class DwellSynthesis(Synthesis):
         self._refuse_wide_band()
         with at_key("dwell.tolerance" if self.window is None else "dwell.window"):
             if self.window is None:
-                return self._filled_frame()
+                return self._longest_frame() if self.always is not None else self._filled_frame()
             self._refuse_even_motion(self.window)
             frame, least = self._flattest
             self._refuse_narrow_band(least)
@@ -161,15 +188,46 @@ class DwellSynthesis(Synthesis):
         """The frame for the window, and its tolerance [rad]."""
         assert self.window is not None
         words = f"a window of {self._request.window:g} deg"
+        if self.always is not None:
+            return self._flattest_of(self.always, words)
         try:
             return kernel.flattest(self.family, self.window, words, beyond=self._longest is not None)
         except NoSolution:
             self._refuse_long_window(self.window)
             raise
 
+    # Where the output steps back with every frame
+
+    @property
+    def _parts(self) -> list[AlwaysStepping]:
+        """The frames that keep the limit of the transmission angle, where there are some, and all of them."""
+        assert self.always is not None
+        kept = keeping(self.always, self.family, math.radians(self.spec.limits.transmission_angle))
+        return [self.always] if kept is None else [kept, self.always]
+
+    def _flattest_of(self, always: AlwaysStepping, words: str) -> tuple[float, float]:
+        """Of frames that keep the limit of the transmission angle, unless those do not meet the tolerance."""
+        assert self.window is not None
+        if self.window > (most := always.ripple(always.low)):
+            self._refuse_long_window(self.window)
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+        for part in self._parts:
+            frame, least = part.flattest(self.window)
+            if self.asked_tolerance is None or least <= self.asked_tolerance:
+                break
+        return frame, least
+
+    def _longest_frame(self) -> float:
+        """The frame of the longest dwell in the band but for its margin, with the asked transmission angle if any."""
+        return self._parts[0].longest(self._aimed_at)[0]
+
+    # The limits
+
     @cached_property
     def _longest(self) -> tuple[float, float] | None:
         """Frame [mm] and length [rad] of the longest window within the asked tolerance, where it can be filled."""
+        if self.always is not None and self.asked_tolerance is not None:
+            return self.always.longest(self.asked_tolerance)
         return None if self.asked_tolerance is None else kernel.longest(self.family, self.asked_tolerance)
 
     @property
@@ -218,7 +276,8 @@ class DwellSynthesis(Synthesis):
             return
         raise NoSolution(
             f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
-            f"with these gears and links: at most over {safely_below(math.degrees(longest))} deg; ask for that"
+            f"with these gears and links: at most over {safely_below(math.degrees(longest))} deg{self._there()}; ask "
+            "for that"
         )
 
     def _refuse_narrow_band(self, least: float) -> None:
@@ -228,18 +287,26 @@ class DwellSynthesis(Synthesis):
         longest = safely_below(math.degrees(limit))
         raise NoSolution(
             f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
-            f"with these gears and links: at most over {longest} deg, or within "
+            f"with these gears and links: at most over {longest} deg{self._there()}, or within "
             f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
         )
+
+    def _there(self) -> str:
+        """With what transmission angle the longest window is had."""
+        assert self._longest is not None
+        return f" (with a transmission angle of {math.degrees(self._transmission_angle(self._longest[0])):.3g} deg)"
 
     # What is reached
 
     @property
     def dwell_tolerance(self) -> float | None:
-        """Half of what the output covers in the window [rad], which is half the back-step unless that is shorter."""
+        """Half of what the output covers in the window [rad], which is half the back-step unless that is shorter, or
+        too wide for the band."""
         if self.back_step is None:
             return None
         half = 0.5 * self.back_step.angle
+        if self.always is not None:
+            return min(half, self._aimed_at) if self.window is None else self._flattest[1]
         return half if self.window is None else max(half, self._flattest[1])
 
     @cached_property
@@ -276,6 +343,8 @@ class DwellSynthesis(Synthesis):
         if window is None or band is None:
             return None
         family, frame = self.family, self.linkage.frame
+        if self.always is not None:
+            return self.always.interval(frame, window, band)
         edge = kernel.filling(family, band) or kernel.stepping(family)[1]
 
         def spare(other: float) -> float:
