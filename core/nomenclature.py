@@ -264,7 +264,9 @@ _LOADS = {
     "reflected_inertia_max": Term("J_max", "kg m^2", "greatest inertia of all links as the input feels it"),
     "reflected_inertia_mean": Term("J_m", "kg m^2", "mean over the input angle of the reflected inertia"),
     "torque_reversals": Term("", "1", "changes of sign of the input torque over the period"),
-    "energy_fluctuation": Term("dW", "J", "greatest less least surplus of a constant drive torque over the load; links' masses not in it"),
+    "energy_fluctuation": Term(
+        "dW", "J", "greatest less least surplus of a constant drive torque over the load, masses left out"
+    ),
     "flywheel_inertia": Term("J_F", "kg m^2", "flywheel at the input for the allowed fluctuation of its speed"),
     "speed_min": Term("n_min", "1/min", "least speed of the input with its flywheel or motor"),
     "speed_max": Term("n_max", "1/min", "greatest speed of the input with its flywheel or motor"),

@@ -17,6 +17,7 @@ from gearlink.core.linkages.band_dwell import Valley, band_of_window, longest_in
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 
 _NODES = 24
+_INSIDE = math.radians(1e-3)  # beside a limit of the transmission angle, for the digits of a printed frame
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class AlwaysStepping:
         """Length with the longest window within a tolerance [rad], and that window [rad]."""
         filled = [(length, self.ripple(length)) for length in self.with_step(2.0 * tolerance)]
         return max(
-            filled + [self._best(lambda length: self.window(length, tolerance), self._nodes)], key=lambda at: at[1]
+            [*filled, self._best(lambda length: self.window(length, tolerance), self._nodes)], key=lambda at: at[1]
         )
 
     def flattest(self, window: float) -> tuple[float, float]:
@@ -113,3 +114,27 @@ class AlwaysStepping:
         values = [measure(node) for node in nodes]
         at = max(range(len(nodes)), key=values.__getitem__)
         return maximum(measure, nodes[max(0, at - 1)], nodes[min(len(nodes) - 1, at + 1)])
+
+
+def keeping(always: AlwaysStepping, crank: float, coupler: float, rocker: float, angle: float) -> list[AlwaysStepping]:
+    """The frames of crank-rockers whose transmission angle is nowhere less than an angle, if any, and then all frames.
+
+    d - a >= sqrt(b^2 + c^2 - 2 b c cos mu),   d + a <= sqrt(b^2 + c^2 + 2 b c cos mu)
+
+    Parameters
+        always : AlwaysStepping - of the frames
+        crank, coupler, rocker : float [mm] - a, b, c
+        angle : float [rad] - mu
+    """
+    squares, both = coupler**2 + rocker**2, 2.0 * coupler * rocker * math.cos(angle + _INSIDE)
+    kept = always.within(math.sqrt(squares - both) + crank, math.sqrt(squares + both) - crank)
+    return [always] if kept is None else [kept, always]
+
+
+def flattest_of(parts: list[AlwaysStepping], window: float, band: float | None) -> tuple[float, float]:
+    """Length and tolerance [rad] of a window [rad] in the first part that holds it within a band [rad], or the last."""
+    for part in parts:
+        length, least = part.flattest(window)
+        if band is None or least <= band:
+            break
+    return length, least

@@ -101,23 +101,39 @@ def band_of_window(valley: Valley, window: float) -> float:
         tolerance : float [rad]
     Notes
         The inverse of `longest_in_band`, whose window jumps where the back-step fills the band: windows inside of the
-        jump have its tolerance.
+        jump have its tolerance, by `least_band`.
 
     Source
         own derivation
     """
-    half, limit = 0.5 * (valley.angle(valley.first) - valley.angle(valley.second)), math.pi * valley.mean
-    if half > 0.0 and (half >= limit or window <= longest_in_band(valley, half).crank_angle):
+    found = [each for each in (_about_top(valley, window), _about_bottom(valley, window)) if each is not None]
+    return min(found) if found else least_band(valley, window)
 
-        def lack(tolerance: float) -> float:
-            return longest_in_band(valley, tolerance).crank_angle - window
 
-        least, most = 1e-14 * half, min(half, limit) * (1.0 - 1e-9)
-        ends = lack(least), lack(most)
-        if ends[1] <= 0.0:
-            return half
-        return least if ends[0] >= 0.0 else bracketed_root(lack, least, most, ends=ends)
-    return least_band(valley, window)
+def _about_top(valley: Valley, window: float) -> float | None:
+    """Least tolerance of a window about phi(1) that ends before phi(2); None where it is too long for that."""
+    first, last = valley.first - window, min(valley.first, valley.second - window)
+    left = _of_one_level(valley, window, first, last)
+    return None if left is None else 0.5 * (valley.angle(valley.first) - valley.angle(left))
+
+
+def _about_bottom(valley: Valley, window: float) -> float | None:
+    """The same about phi(2), begun after phi(1)."""
+    first, last = max(valley.second - window, valley.first), valley.second
+    left = _of_one_level(valley, window, first, last)
+    return None if left is None else 0.5 * (valley.angle(left) - valley.angle(valley.second))
+
+
+def _of_one_level(valley: Valley, window: float, first: float, last: float) -> float | None:
+    """Start of a window, between two places, at whose ends the output stands alike."""
+
+    def gain(left: float) -> float:
+        return valley.angle(left + window) - valley.angle(left)
+
+    ends = gain(first), gain(last)
+    if valley.first == valley.second or ends[0] * ends[1] > 0.0:
+        return None
+    return bracketed_root(gain, first, last, ends=ends)
 
 
 def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:

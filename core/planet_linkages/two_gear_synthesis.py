@@ -8,13 +8,13 @@ from typing import Any
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import NoSolution, at_key, section_of
-from gearlink.core.linkages.always_stepping import AlwaysStepping
+from gearlink.core.linkages.always_stepping import AlwaysStepping, flattest_of, keeping
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
-from gearlink.core.planet_linkages.two_gear_always import always_stepping, keeping
+from gearlink.core.planet_linkages.two_gear_always import always_stepping
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
 from gearlink.core.planet_linkages.two_gear_refusals import beyond_reach
 from gearlink.core.real_speed import per_time
@@ -77,6 +77,11 @@ class Synthesis(TwoGearFourBar):
     def trials(self) -> int:
         """A frame that is sought for a back-step takes nearly a tenth of a second each time."""
         return 10
+
+    @property
+    def effort(self) -> int:
+        """A search over the whole range of frames takes as long as some others."""
+        return 2 if self.__dict__.get("always") else 0
 
     @cached_property
     def family(self) -> kernel.Family:
@@ -202,8 +207,8 @@ class DwellSynthesis(Synthesis):
     def _parts(self) -> list[AlwaysStepping]:
         """The frames that keep the limit of the transmission angle, where there are some, and all of them."""
         assert self.always is not None
-        kept = keeping(self.always, self.family, math.radians(self.spec.limits.transmission_angle))
-        return [self.always] if kept is None else [kept, self.always]
+        a, b, c = self.family.crank, self.family.coupler, self.family.rocker
+        return keeping(self.always, a, b, c, math.radians(self.spec.limits.transmission_angle))
 
     def _flattest_of(self, always: AlwaysStepping, words: str) -> tuple[float, float]:
         """Of frames that keep the limit of the transmission angle, unless those do not meet the tolerance."""
@@ -211,11 +216,7 @@ class DwellSynthesis(Synthesis):
         if self.window > (most := always.ripple(always.low)):
             self._refuse_long_window(self.window)
             raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
-        for part in self._parts:
-            frame, least = part.flattest(self.window)
-            if self.asked_tolerance is None or least <= self.asked_tolerance:
-                break
-        return frame, least
+        return flattest_of(self._parts, self.window, self.asked_tolerance)
 
     def _longest_frame(self) -> float:
         """The frame of the longest dwell in the band but for its margin, with the asked transmission angle if any."""

@@ -58,11 +58,12 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
         own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
     """
     ahead = forward(linkage, train)
-    found = longest_in_band(_valley(linkage, ahead), tolerance)
+    found = longest_in_band(valley(linkage, ahead), tolerance)
     return found._replace(output_angle=train.sense * ahead.sense * found.output_angle)
 
 
-def _valley(linkage: FourBar, train: GearTrain) -> Valley:
+def valley(linkage: FourBar, train: GearTrain) -> Valley:
+    """The part of the turn around the least speed, of a train whose output gains angle over a turn."""
     extremes = speed_extremes(linkage, train)
     first = second = extremes.least_angle
     if len(dwell_positions(linkage, train)) == 2:

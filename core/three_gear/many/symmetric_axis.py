@@ -21,7 +21,7 @@ from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP
 from gearlink.core.three_gear.many import symmetric as many
 from gearlink.core.three_gear.many.batch import Batch
 from gearlink.core.three_gear.many.general import wrapped
-from gearlink.core.three_gear.synthesis.dwell import MARGIN
+from gearlink.core.three_gear.synthesis.dwell_task import MARGIN
 
 _PLAIN_TOLERANCE, _MISSED = 1.0, 0.5
 _SMALL, _STEEP = 1e-3, 1e-4

@@ -4,34 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.design import Found, Outline
-from gearlink.core.errors import MissingSection, NoSolution, anew, at_key, section_of
+from gearlink.core.errors import MissingSection, NoSolution, anew, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
-from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.report import Check, safely_above, safely_below
+from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.dwell.momentary_dwell import wrap
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
-from gearlink.core.three_gear.motion import GearTrain, output_angle
+from gearlink.core.three_gear.motion import output_angle
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
-from gearlink.core.three_gear.synthesis.back_step import BackStepFamily
 from gearlink.core.three_gear.synthesis.base import with_analysis
+from gearlink.core.three_gear.synthesis.dwell_task import DwellTask
 from gearlink.core.three_gear.synthesis.forms import forms_for
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.synthesis.families import Family
+    from gearlink.core.linkages.always_stepping import AlwaysStepping
 
-MARGIN = 0.01
 _ROUNDING = 1e-9
+_EFFORT = 7  # of a search over the whole range of frames, in trials
 _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
 
-_WORDS = "angle, or window and tolerance (deg)"
 _DWELL = (
     "dwell_tolerance",
     "window_limit",
@@ -40,43 +38,12 @@ _DWELL = (
 )
 
 
-class DwellSynthesis(BackStepFamily):
+class DwellSynthesis(DwellTask):
     """`synth dwell`: phi13 is given, or a window, a tolerance, or both."""
 
-    task = "dwell"
     outlines = with_analysis(
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))
     )
-
-    # The request
-
-    @property
-    def _request(self) -> Any:
-        return section_of(self.spec, "dwell", _WORDS)
-
-    @cached_property
-    def window(self) -> float | None:
-        """Crank angle [rad] over which the output is to stay within the tolerance."""
-        return None if self._request.window is None else math.radians(self._request.window)
-
-    @cached_property
-    def asked_tolerance(self) -> float | None:
-        """Tolerance of the output to either side [rad] that the file names."""
-        if self._request.tolerance is not None:
-            return math.radians(self._request.tolerance)
-        return super().output_tolerance
-
-    @property
-    def _band(self) -> float | None:
-        """The tolerance that the links are designed for; a phi13 is designed for none."""
-        return None if self._request.angle is not None else self.asked_tolerance
-
-    @cached_property
-    def general(self) -> bool:
-        """Unequal gears that ask for a window are balanced where the file does not say otherwise."""
-        gears, request = self.spec.gears, self.spec.dwell
-        unequal = request is not None and request.angle is None and gears.crank != gears.output
-        return unequal or super().general
 
     def completion(self) -> Iterator[Found]:
         """The tolerance besides the links, so that an analysis measures the dwell by it."""
@@ -86,114 +53,10 @@ class DwellSynthesis(BackStepFamily):
         if self._request.window is not None and self._band is not None:
             yield Found("dwell_window", float(self._request.window), "from dwell.window")
 
-    def _key(self) -> str:
-        return "dwell.tolerance" if self._request.window is None else "dwell.window"
-
-    # The links
+    # The idler
 
     _no_idler: NoSolution | None = None
     """Why no idler was found: another check of the same design does not try some hundred of them again."""
-
-    def crank_angle_for(self, i3: float) -> float:
-        """phi12 that meets the request in the symmetric family."""
-        if self._request.angle is not None:
-            with at_key("dwell.angle"):
-                return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(self._request.angle))
-        from gearlink.core.three_gear.symmetric import window_dwell
-
-        with at_key(self._key()):
-            if self.window is None:
-                window_dwell.check_tolerance(i3, self.asked_tolerance or 0.0)  # of which `window_limit` tells too
-                return window_dwell.crank_angle_for_tolerance(i3, self._aimed_at())
-            self._refuse_even_motion(1.0)
-            if self._band is not None:
-                window_dwell.check_reach(i3, self.window, self._band)
-            return symmetric_back_step.crank_angle_for_window(i3, self.window)
-
-    def in_family(self, family: Family, train: GearTrain) -> FourBar:
-        """phi13, the window of equal ripple, or the back-step that fills the band: the root of the one unknown."""
-        from gearlink.core.three_gear.synthesis.families import dwell_angle_of, ripple, solved, window_of
-
-        request = self._request
-        if request.angle is not None:
-            with at_key("dwell.angle"):
-                words = f"a dwell angle of {request.angle:g} deg"
-                return solved(family, dwell_angle_of(train), math.radians(request.angle), words)
-        with at_key(self._key()):
-            if self.window is None:
-                return self._fills(family, train)
-            self._refuse_even_motion(abs(train.ratio))
-            if self.spec.gears.idler is None:
-                self._refuse_short_reach(family, train)
-            words = f"a window of {request.window:g} deg"
-            try:
-                linkage = solved(family, window_of(train), self.window, words)
-            except NoSolution:
-                self._refuse_short_reach(family, train)  # which names the longest within the tolerance
-                raise
-            self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
-            return linkage
-
-    def _fills(self, family: Family, train: GearTrain) -> FourBar:
-        """The linkage whose back-step fills the band but for its margin; the whole band limits the tolerance."""
-        from gearlink.core.three_gear.synthesis.families import back_step_of, solved
-
-        whole, aimed = self.asked_tolerance or 0.0, self._aimed_at()
-        words = f"a tolerance of {math.degrees(whole):.9g} deg"
-        most = back_step_of(train)(family.linkage(family.stepping()[1]))
-        target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
-        return solved(family, back_step_of(train), target, words, share)
-
-    def _aimed_at(self) -> float:
-        tolerance = self.asked_tolerance
-        assert tolerance is not None
-        return tolerance * (1.0 - (MARGIN if self._request.margin is None else self._request.margin))
-
-    def _refuse_even_motion(self, ratio: float) -> None:
-        band, window = self._band, self.window
-        if band is not None and window is not None and ratio * window <= 2.0 * band:
-            raise NoSolution(
-                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
-                "ask for a longer window or a smaller tolerance"
-            )
-
-    def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:
-        """While an idler is sought: the window that fills the band tells sooner than the band that a window takes."""
-        band, window = self._band, self.window
-        if band is None or window is None:
-            return
-        from gearlink.core.three_gear.synthesis.families import filling, ripple
-
-        try:
-            filled = filling(family, train, band)
-        except NoSolution:
-            return  # every back-step of this family is wider
-        if filled is None:
-            return
-        longest = ripple(filled, train).crank_angle
-        if longest < window * (1.0 - _ROUNDING):
-            remedy = "; ask for that"
-            if self.spec.gears.idler is None:  # the least one: the limits are not looked at yet
-                remedy = f", with an idler of {train.idler:g} teeth where the limits allow it; ask for less"
-            raise NoSolution(
-                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-                f"these gears: at most over {safely_below(math.degrees(longest))} deg{remedy}"
-            )
-
-    def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
-        band = self._band
-        if band is None or least <= band:
-            return
-        from gearlink.core.three_gear.synthesis.families import filling, ripple
-
-        filled = filling(family, train, band)
-        assert filled is not None  # a back-step of twice the least is wider than the band
-        longest = ripple(filled, train).crank_angle
-        raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-            f"these gears: at most over {safely_below(math.degrees(longest))} deg, or within "
-            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
-        )
 
     def chosen_idler(self) -> int:
         """The smallest that keeps the limits; a refusal names the longest window that one within them reaches."""
@@ -253,8 +116,9 @@ class DwellSynthesis(BackStepFamily):
 
     @property
     def effort(self) -> int:
-        """Where no idler serves, all of them were tried, which takes as long as two other trials."""
-        return 0 if self._no_idler is None else 1
+        """Where no idler serves, all of them were tried, which takes as long as two other trials; a search over the
+        whole range of frames takes as long as several."""
+        return (0 if self._no_idler is None else 1) + (_EFFORT if self._searched else 0)
 
     @property
     def costly(self) -> bool:
@@ -271,8 +135,31 @@ class DwellSynthesis(BackStepFamily):
 
     @property
     def dwell_tolerance(self) -> float | None:
-        """Half of what the output covers in the window, which is half the back-step [rad]."""
-        return None if self.back_step is None else 0.5 * self.back_step.angle
+        """Half of what the output covers in the window, which is half the back-step [rad], or less of a dwell about
+        one standstill."""
+        if self.back_step is None:
+            return None
+        return 0.5 * self.back_step.angle if self._narrower is None else self._narrower
+
+    @cached_property
+    def _frames(self) -> AlwaysStepping | None:
+        """The frames, where the output steps back with each of them and a window or a tolerance is asked for."""
+        if not self.general or self._request.angle is not None:
+            return None
+        return self._always(self._family(self.idler_teeth), self.train)
+
+    @cached_property
+    def _narrower(self) -> float | None:
+        """The tolerance [rad] of a dwell about one standstill, narrower than half the back-step; None without one."""
+        if self._frames is None or self.back_step is None:
+            return None
+        if self.window is None:
+            found = self._aimed_at()
+        else:
+            from gearlink.core.linkages.band_dwell import band_of_window
+
+            found = band_of_window(self._frames.valley(self.linkage.frame), self.window)
+        return found if found < (1.0 - _ROUNDING) * 0.5 * self.back_step.angle else None
 
     @property
     def output_tolerance(self) -> float | None:
@@ -285,6 +172,10 @@ class DwellSynthesis(BackStepFamily):
         step = self.back_step
         if self.asked_tolerance is not None or step is None:
             return super().tolerance_dwell
+        if self._narrower is not None:
+            from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
+
+            return tolerance_dwell(self.linkage, self.train, self._narrower)
         if self.general:
             from gearlink.core.three_gear.synthesis.families import ripple
 
@@ -308,6 +199,8 @@ class DwellSynthesis(BackStepFamily):
                 return None
             with at_key(self._key()):
                 return window_dwell.longest_window(self.i3, band)
+        if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
+            return self._frames.longest(band)[1]
         from gearlink.core.three_gear.synthesis.families import filling, ripple
 
         filled = filling(self._family(self.idler_teeth), self.train, band)
@@ -335,6 +228,8 @@ class DwellSynthesis(BackStepFamily):
         window, band = self.window, self._band
         if window is None or band is None:
             return None
+        if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
+            return self._frames.interval(self.linkage.frame, window, band)
         from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
         from gearlink.core.three_gear.synthesis.families import filling
 

@@ -183,10 +183,16 @@ def solved(
     if most <= 0.0:
         raise NoSolution(f"{what} cannot be had: no linkage with this crank or frame makes the output step back")
     if not target <= most:
-        raise NoSolution(f"{what} is more than these gears reach, {_deg(share * most)} deg; ask for less")
+        angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
+        raise NoSolution(
+            f"{what} is more than these gears reach, {_deg(share * most)} deg, and that with a "
+            f"transmission angle of {angle} deg; ask for less"
+        )
     if not target >= least:
-        limit = _deg(share * least)
-        raise NoSolution(f"{what} is less than the least of these linkages, {limit} deg; take a shorter crank")
+        raise NoSolution(
+            f"{what} is less than that of any crank-rocker with this crank: its output steps back with every frame, "
+            f"and the least is {_deg(share * least)} deg; take a shorter crank"
+        )
     ends = (least - target, most - target)
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))
 

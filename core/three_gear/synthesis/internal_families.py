@@ -34,11 +34,10 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
 
     found = shape(r1, r3, r5)
     least, high = (short, long) if found.sigma > 0 else (long, short)
-    if not found.low < crank < found.high:
-        why = (
-            f"a crank of {crank:.9g} mm never just stops the output: it must lie between {found.low:.9g} and "
-            f"{found.high:.9g} mm"
-        )
+    if crank >= found.high:  # steps back with every frame
+        return Family(linkage, least, least, high)
+    if not found.low < crank:
+        why = f"a crank of {crank:.9g} mm never stops the output: it must be longer than {found.low:.9g} mm"
         return Family(linkage, least, None, high, why)
     touching = tangency(r1, r3, r5, crank)
     assert touching is not None, "a crank in the range has a frame that just stops the output"
@@ -133,6 +132,11 @@ def momentary_linkage(r1: float, r3: float, r5: float, crank: float, assembly: i
     family, found = with_crank(r1, r3, r5, crank, assembly), shape(r1, r3, r5)
     if family.low is None:
         raise NoSolution(family.why)
+    if crank >= found.high:
+        raise NoSolution(
+            f"a crank of {crank:.9g} mm never just stops the output: it must lie between {found.low:.9g} and "
+            f"{found.high:.9g} mm"
+        )
     if family.low == family.least:
         raise NoSolution(
             f"a crank of {crank:.9g} mm cannot turn with the frame of its momentary dwell: choose another between "
