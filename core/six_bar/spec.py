@@ -109,7 +109,9 @@ class GearedSixBarSpec(DrivenSpec):
     )
     start: SixStart
     assembly: Assembly = Field(
-        1, description="+1: of the two links that start leaves out the first points left of the second; -1: right"
+        1,
+        description="+1: of the two links that start leaves out, both taken on the way from A to F (the output E->F, "
+        "against its direction in start), the first points left of the second; -1: right",
     )
     range: InputRange | None = Field(
         None, description="input angles, where the input swings; left out: it turns until all is back in place"

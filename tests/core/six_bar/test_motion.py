@@ -7,7 +7,7 @@ of a rate; 40-digit values come from the loop and the trains' rolling alone.
 from __future__ import annotations
 
 import math
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import mpmath
@@ -24,6 +24,7 @@ from gearlink.core.six_bar.course import Course
 from gearlink.core.six_bar.following import Follower
 from gearlink.core.six_bar.loop import SixBar, pins
 from gearlink.core.six_bar.relations import reduced, train_relation
+from gearlink.core.six_bar.spec import GearedSixBarSpec, SixStart
 
 EPS = 2.0**-52
 CLOSED, FOLLOWED = "geared_six_bar", "six_bar_swing"
@@ -347,3 +348,24 @@ def test_the_certain_step_is_that_of_the_least_singular_value() -> None:
     k, k_rate = length @ size**2, length @ (size * np.abs(turned))
     reach = 1.0 / (beta * (math.sqrt(k * (length @ turned**2 + bar.lengths[1])) + k_rate))
     assert place.reach == pytest.approx(reach, rel=1e-13)
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("left_out", list(combinations(("coupler_1", "coupler_2", "coupler_3", "output"), 2)))
+def test_the_words_of_assembly_are_those_of_the_linkage(left_out: tuple[str, str], assembly: int) -> None:
+    """Taken on the way from A to F, +1 has the first of the two closing links to the left of the second.
+
+    `start` counts the output the other way, F->E, by which words the sides of half of these pairs would be exchanged.
+    """
+    names = ("coupler_1", "coupler_2", "coupler_3", "output")
+    known = dict(zip(names, np.degrees(six_bar(FOLLOWED).start_directions).tolist(), strict=True))
+    start = {name: angle for name, angle in known.items() if name not in left_out}
+    found = six_bar(FOLLOWED, start=start, assembly=assembly)
+    ahead = dict(zip(names, found.start_directions, strict=True))
+    ahead["output"] += math.pi  # E->F
+    first, second = (ahead[name] for name in left_out)
+    assert math.copysign(1.0, math.sin(first - second)) == assembly
+    words = GearedSixBarSpec.model_fields["assembly"].description or ""
+    assert "on the way from A to F (the output E->F" in words
+    assert "the first points left of the second; -1: right" in words
+    assert SixStart.model_fields["output"].description == "direction F->E"
