@@ -94,6 +94,13 @@ def _words(body: Gear | Shaft) -> str:
 def _overlap(pair: Clearance) -> str:
     """A shaft of the file that is not clear."""
     text = f"{_words(pair.one)} comes {-pair.gap:.4g} mm into {_words(pair.other)}{_place(pair)}"
+    if pair.one.inner >= 0.0 and pair.angle is not None:  # the two may meet at other places too, and less deep
+        within = pair.gap == pair.one.inner - (pair.distance + pair.other.outer)
+        side = "within" if within else "without"
+        text = (
+            f"{_words(pair.one)} meets {_words(pair.other)}: it lacks {-pair.gap:.4g} mm to have it {side} all round, "
+            f"most{_place(pair)}"
+        )
     if isinstance(pair.one, Shaft):
         return f"{text}: overhang one of them, or make them thinner"
     thinner = ", or make it thinner" if pair.gap + pair.other.outer > 0.0 else ""

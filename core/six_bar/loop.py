@@ -38,8 +38,8 @@ class SixBar:
         lengths : six float [mm] - FA, AB, BC, CD, DE, EF
         relations : two rows of `train_relation`
         start : mapping - directions at input angle 0 of two of the links 2 to 5 [rad], on the way from A to F
-        assembly : +1 or -1 - +1: of the other two links, on the way from A to F, the first points to the left of the second
-            at the start
+        assembly : +1 or -1 - +1: of the other two links, on the way from A to F, the first points to the left of the
+            second at the start
     Raises
         NoSolution - for a length that is not positive and finite, trains that tie the same, a start that does not close
     Example

@@ -9,11 +9,13 @@ import math
 import re
 from typing import Any
 
+import numpy as np
 import pytest
 from factory import design
 from pydantic import ValidationError
 
-from gearlink.core.clearance.bodies import Gear, Shaft, least_gap
+from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_gap
+from gearlink.core.clearance.checks import shaft_checks
 from gearlink.core.clearance.reach import Reach, constant, coupler_joint, crank_pin
 from gearlink.core.codes import rules
 from gearlink.core.linkages.fourbar.position import FourBar
@@ -365,3 +367,30 @@ def test_a_shaft_that_leaves_its_gear_no_rim_is_warned_of(name: str) -> None:
         assert [check.code for check in found] == ["GL302"] * len(status)
         assert all(check.value == pytest.approx(root - radius, abs=1e-9) for check in found)
     assert design(worked).check("shaft-seat") == []
+
+
+@pytest.mark.parametrize(
+    ("nearest", "farthest", "words", "deepest"),
+    [
+        (20.0, 130.0, "lacks 65 mm to have it without all round, most at input angle 0 deg", 15.0),
+        (20.0, 70.0, "lacks 15 mm to have it within all round, most at input angle 180 deg", 15.0),
+        (78.0, 130.0, "lacks 7 mm to have it without all round, most at input angle 0 deg", 7.0),
+    ],
+)
+def test_a_moving_ring_and_a_shaft_say_what_is_missing(
+    nearest: float, farthest: float, words: str, deepest: float
+) -> None:
+    """What is missing is a length to move by; the depth at a moment, read off a scan, may be less than that."""
+    ring, shaft = Gear("the ring gear", "C", outer=80.0, inner=60.0), Shaft("shaft at D", "D", 5.0, "shafts.D_radius")
+    layout = Layout((ring,), (shaft,), {"CD": Reach(nearest, farthest, 0.0, math.pi)}, 4.0)
+    (check,) = shaft_checks(layout)
+    assert check.status == "fail"
+    assert words in check.message
+    assert " mm into " not in check.message
+    depths = [max(60.0 - d - 5.0, d - 80.0 - 5.0) for d in np.linspace(nearest, farthest, 1001)]
+    assert -min(depths) == pytest.approx(deepest, abs=0.06)
+    lacking = -check.value
+    assert lacking >= deepest - 1e-12
+    moved = lacking if "without" in words else -lacking
+    freed = Layout((ring,), (shaft,), {"CD": Reach(nearest + moved, farthest + moved, 0.0, math.pi)}, 4.0)
+    assert [each.status for each in shaft_checks(freed)] == ["pass"]
