@@ -37,9 +37,9 @@ SHAFT_CLEARANCE = Rule(
     "that it is checked.",
     "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
     "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
-    "greater of the two, each at its least over the cycle (below 0 what a shaft lacks to stay within, or without, all "
-    "round, and not how deep it is in the ring at a moment); links as lines of no width; rim = m (z/2 + 3.25) or gears.rim; root radius - radius of the "
-    "own shaft >= h/2",
+    "greater of the two, each at its least over the cycle (below 0 what a shaft lacks to stay within, or without, "
+    "all round, and not how deep it is in the ring at a moment); links as lines of no width; rim = m (z/2 + 3.25) or "
+    "gears.rim; root radius - radius of the own shaft >= h/2",
     "own derivation; the least rim: ISO 6336-3",
     ("shaft-clearance", "shaft-seat", "body-clearance"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),

@@ -178,9 +178,9 @@ class LoadsBase(Design):
         if given is None:
             return None
         from gearlink.core.loads.forces.friction import Coefficients, require_coefficients
-        from gearlink.core.loads.forces.mechanism import Guide, Mesh, Pin, Rack
+        from gearlink.core.loads.forces.mechanism import Guide, Pin, Toothed
 
-        self._require_joints("friction.joints", given.joints, Pin, Guide, Mesh, Rack)
+        self._require_joints("friction.joints", given.joints, Pin, Guide, *Toothed)
         require_coefficients(given, self._connections)
         return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * 1e-3, dict(given.joints))
 

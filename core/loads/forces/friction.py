@@ -18,6 +18,7 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.forces.dynamics import Applied, Masses, Reactions, System
 from gearlink.core.loads.forces.kinematics import dot, sense_of
 from gearlink.core.loads.forces.mechanism import (
+    FRAME,
     Act,
     Connection,
     Contact,
@@ -26,6 +27,7 @@ from gearlink.core.loads.forces.mechanism import (
     Mesh,
     Pin,
     Rack,
+    ToothDrive,
     Toothed,
     rates,
 )
@@ -73,7 +75,7 @@ class Coefficients:
             return self.pin_radius * (self.pins if own is None else own)
         if isinstance(connection, Guide):
             return self.guides if own is None else own
-        if isinstance(connection, (Mesh, Rack)):
+        if isinstance(connection, Toothed):
             return 1.0 - (self.meshes if own is None else own)
         return 0.0
 
@@ -99,6 +101,9 @@ class Coefficients:
                 along, at = turned * each.along, each.pitch_point
                 acts = [Act(each.first, -along, at, 0.0), Act(each.carrier, along, at, 0.0)]
                 yield Unit(each.name, acts, share, -turned)
+            elif isinstance(each, ToothDrive):  # where its gear drives the wheel, the loss is on the wheel: `_driven`
+                turned = np.where(each.moves, direction, 0.0)
+                yield Unit(each.name, _against(each.second, FRAME, turned), share * each.mate_radius, direction)
             else:
                 assert isinstance(each, Mesh), "no other joint has a coefficient"
                 mate = direction if each.internal else -direction
@@ -262,7 +267,7 @@ def with_friction(
         sizes = np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T
     else:
         found, sizes = _rubbing_solution(mechanism, masses, applied, gravity, speed, friction)
-    return _sided(found.system.reactions(found.rubbing.unknowns(sizes)))
+    return _driven(_sided(found.system.reactions(found.rubbing.unknowns(sizes))), friction, speed)
 
 
 def _sided(found: Reactions) -> Reactions:
@@ -272,6 +277,15 @@ def _sided(found: Reactions) -> Reactions:
         for each in found.mechanism.connections
     ]
     return replace(found, mechanism=replace(found.mechanism, connections=connections))
+
+
+def _driven(found: Reactions, friction: Coefficients | None, speed: float) -> Reactions:
+    """The same, with what the wheel of a drive by teeth loses where it is driven."""
+    mechanism = found.mechanism
+    if friction is None or mechanism.gain is None:
+        return found
+    lost = next(friction.of(each) for each in mechanism.connections if each.name == mechanism.drive)
+    return replace(found, torque=np.where(found.torque * speed < 0.0, (1.0 - lost) * found.torque, found.torque))
 
 
 def passes_ratio(
@@ -331,12 +345,14 @@ def losses(found: Reactions, friction: Coefficients, speed: float) -> Reals:
     for unit in friction.units(mechanism, speed):
         joint = joints[unit.name]
         values = found.unknowns[unit.name][: 2 if isinstance(joint, Pin) else 1]
-        size, is_mesh = unit.size(values), isinstance(joint, (Mesh, Rack))
+        size, is_mesh = unit.size(values), isinstance(joint, Toothed)
         if is_mesh and unit.name not in taken:
             (column,) = joint.columns()
             force = values[0] * column.force
             pairs = ((column.second, force), (column.first, -force))
             taken[unit.name] = {on: _power(joint, mechanism, Act(on, f, column.at, 0.0)) for on, f in pairs}
+            if isinstance(joint, ToothDrive):
+                taken[unit.name][FRAME] = -found.torque  # of the wheel
         for act in unit.acts:
             power = size * _power(joint, mechanism, act)
             if not is_mesh:

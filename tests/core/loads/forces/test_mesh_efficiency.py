@@ -116,6 +116,27 @@ def test_two_meshes_in_line_have_the_square_of_one() -> None:
     assert mean[0.9] / mean[1.0] == pytest.approx(0.9**-2, rel=2e-4)
 
 
+@pytest.mark.parametrize("speed", [60.0, -60.0])
+@pytest.mark.parametrize("friction", [{"meshes": 0.8}, {"joints": {"mesh_wheel": 0.8}}])
+def test_the_teeth_of_a_mutilated_gear_lose_too(speed: float, friction: dict[str, Any]) -> None:
+    """One mesh alone: the torque is 1/eta times that without loss, or eta times where the linkage drives the wheel.
+
+    It had no effect there, without a word.
+    """
+    loads = {"speed": speed, "links": {"coupler": BODY, "rocker": BODY}, "forces": [{"on": "rocker", "torque": -20.0}]}
+    free, lossy = (
+        factory.design("mutilated_gear_press", command="loads", loads=loads | more)
+        for more in ({}, {"friction": friction})
+    )
+    phi = np.linspace(0.01, lossy.machine.period, 200, endpoint=False)
+    smooth, found = (design.machine.torque(phi) * speed for design in (free, lossy))
+    assert (smooth > 0.0).any()
+    assert (smooth < 0.0).any()
+    expected = np.where(smooth > 0.0, smooth / 0.8, smooth * 0.8)
+    assert found == pytest.approx(expected, abs=1e-11 * np.abs(smooth).max())
+    assert lossy.power_identity <= 1e-12
+
+
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "two_gear_ring"])
 def test_the_check_of_power_sees_a_loss_on_the_wrong_gear(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """GL601: losses on the driving gear are 1/(2 - eta) in place of eta, (1 - eta)^2 of the power too few."""
