@@ -14,6 +14,8 @@ _PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
 def key_of(data: dict[str, Any], check: Check) -> str:
     """The key of a file that a check is about: one that its message names, else the most telling one of its code.
 
+    Of a section it is the key that the remedy changes, where that stands in it.
+
     Example
         >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "constant-sum", "fail", "raise cam.base_radius"))
         'cam.base_radius'
@@ -23,7 +25,8 @@ def key_of(data: dict[str, Any], check: Check) -> str:
     message = check.message.removesuffix(remedy_words(check.remedy))
     for path in (*_PATH.findall(message), *(known.keys if known else ())):
         if _has(data, path):
-            return str(path)
+            changed = (key for key, _ in check.remedy if key.startswith(f"{path}.") and _has(data, key))
+            return next(changed, str(path))
     return "kind"
 
 

@@ -43,13 +43,18 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)
 
 
-def dwell_window_check(window: float, asked: float, tolerance: float) -> Check:
+def window_met(window: float, asked: float) -> bool:
+    """Whether a window is as long as the one asked for, but for rounding."""
+    return window >= asked * (1.0 - WINDOW_FIT)
+
+
+def dwell_window_check(window: float, asked: float, tolerance: float, remedy: str = "") -> Check:
     """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
     got, wanted, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
     text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
-    good = got >= wanted * (1.0 - WINDOW_FIT)
+    good = window_met(window, asked)
     if not good:
-        text += f", {wanted:g} deg were asked for: ask for less, or allow a greater tolerance"
+        text += f", {wanted:g} deg were asked for: {remedy or 'ask for less, or allow a greater tolerance'}"
     return DWELL_WINDOW.check("pass" if good else "fail", text, got, wanted, "deg")
 
 

@@ -103,11 +103,12 @@ DWELL_WINDOW = Rule(
     "window of the dwell shorter than asked for",
     "The output leaves the band of +-tolerance before the crank has turned through the window.",
     "The machine works while the output is taken to stand: what it does there is off by more than the tolerance.",
-    "Ask for a shorter window, allow a greater tolerance, or take other teeth: with three gears an idler of fewer.",
-    "longest crank angle with |phi5 - middle| <= tolerance, against dwell.window",
+    "Give links.frame or links.crank a length that the finding names; else ask for a shorter window, allow a greater "
+    "tolerance, or take other teeth: with three gears an idler of fewer.",
+    "longest crank angle with |phi5 - middle| <= tolerance, against dwell.window or dwell_window",
     "own derivation; thesis 4.2.1 speaks of a dwell within usual deviations",
     ("dwell-window",),
-    ("dwell.window", "dwell"),
+    ("dwell.window", "links", "dwell_window", "dwell"),
 )
 DWELL_EDGE = Rule(
     "GL314",

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
@@ -91,18 +91,39 @@ class Bench:
         return self._found[found.name, index]
 
     def _sought(self, found: Check, index: int) -> Remedy:
+        earlier = tuple(self._of_earlier(found.name, index))
         self._begin()
         for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
 
             def good(tried: Remedy, wanted: int = wanted) -> bool:
                 return self._grade(tried, found.name, index) >= wanted
 
-            for remedy in self._all(found.name, good, index):
+            whole = self._whole(chain(earlier, self._closed(found.name)), good)
+            for remedy in chain(whole, self._all(found.name, good, index)):
                 if not self._is_affordable_elsewhere(remedy):
                     break
                 if self._grade_elsewhere(remedy) >= wanted:
                     return remedy
         return ()
+
+    def _of_earlier(self, name: str, index: int) -> Iterator[Remedy]:
+        """The remedies of the findings that are shown before one: where one of them repairs both, both name it."""
+        with suppress(NoSolution):  # then there are no findings of a command, and none before this one
+            for each in chain.from_iterable(map(self._before.checks, self._commands)):
+                self._before.ranks(each)
+                for place, found in enumerate(self._before.found(each)[: index if each == name else None]):
+                    if remedy := self.remedy(found, place):
+                        yield remedy
+                if each == name:
+                    return
+
+    def _whole(self, remedies: Iterable[Remedy], good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """Those that are good and with which nothing fails, before those that repair one of several findings."""
+        for remedy in remedies:
+            if self._left <= 0 and self._design.effort and remedy not in self._seen:
+                return
+            if not self.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
+                yield remedy
 
     def _begin(self) -> None:
         """Trials for one finding, those counted that are known from another: what it gets does not depend on others."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
@@ -14,26 +14,28 @@ from gearlink.core.gears.train.meshed import Meshed
 from gearlink.core.gears.train.names import TRAIN_CHECKS
 from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train.ways import train_ways
-from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
+from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FeedResults
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.real_speed import OutputSpeed, per_time
 from gearlink.core.remedies.ways import down, either, up
-from gearlink.core.report import Check, safely_above, safely_below
+from gearlink.core.report import Check, Remedy, safely_above, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import bodies, motion, tables
-from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
+from gearlink.core.three_gear import bodies, dwell_checks, motion, tables
+from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.dwell import dwells
 from gearlink.core.three_gear.dwell.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.motion import Extremes, GearTrain
 from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.three_gear.dwell.by_roots import ByRoots
+    from gearlink.core.three_gear.families.window_lengths import Room
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
 _TEETH = (
@@ -252,7 +254,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     def tolerance_dwell(self) -> ToleranceDwell | None:
         """The longest dwell within the tolerance of the output, where the file gives one that has an end."""
         tolerance = self.output_tolerance
-        if tolerance is None or tolerance >= self._endless_tolerance:
+        if tolerance is None or tolerance >= self.endless_tolerance:
             return None
         if self.off_center:
             return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
@@ -262,7 +264,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return tolerance_dwell(self.linkage, self.train, tolerance)
 
     @property
-    def _endless_tolerance(self) -> float:
+    def endless_tolerance(self) -> float:
         """Half of what the output gains in a turn of the crank [rad]: within it, the output never leaves its place."""
         return math.pi * abs(self.mean_ratio)
 
@@ -332,7 +334,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         module = self.spec.gears.transverse_module
         words = (
             f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
-            f"{math.ceil(2.0 * missing / module)} teeth smaller together"
+            f"{amount(math.ceil(2.0 * missing / module), 'tooth', 'teeth')} smaller together"
         )
         shorter = self._longest_crank_with_room()
         if shorter is not None:
@@ -367,24 +369,19 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         remedy = "shorten the crank or take a larger idler"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
 
-    def check_dwell_window(self) -> Iterator[Check]:
-        """GL313 where the file asks for a window: an output that never leaves the band has one of a whole turn."""
-        asked, tolerance = self.spec.dwell_window, self.output_tolerance
-        if asked is not None and tolerance is not None:
-            dwell = self.tolerance_dwell
-            reached = 2.0 * math.pi if dwell is None else dwell.crank_angle
-            yield dwell_window_check(reached, math.radians(asked), tolerance)
+    check_dwell_window, check_dwell_tolerance = dwell_checks.window_check, dwell_checks.tolerance_check
 
-    def check_dwell_tolerance(self) -> Iterator[Check]:
-        """GL317 where the file gives a tolerance or a play."""
-        if self.output_tolerance is None:
-            return
-        given, limit = math.degrees(self.output_tolerance), math.degrees(self._endless_tolerance)
-        text = f"the tolerance of the dwell is +-{given:.6g} deg, the output gains {2.0 * limit:.6g} deg in a turn"
-        good = given < limit
-        if not good:
-            text += f": within it a dwell has no end, give less than {safely_below(limit)} deg"
-        yield DWELL_TOLERANCE.check("pass" if good else "fail", text, given, limit, "deg")
+    @cached_property
+    def window_rooms(self) -> tuple[Room, ...]:
+        """The lengths of crank or frame that meet the window of the file."""
+        from gearlink.core.three_gear.families.window_lengths import rooms
+
+        return rooms(self, math.radians(self.spec.dwell_window or 0.0), self.output_tolerance or 0.0)
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """The lengths that meet a window."""
+        asked = check == "dwell-window" and self.spec.dwell_window is not None
+        return (((room.key, length),) for room in self.window_rooms for length in room.built()) if asked else ()
 
     def check_rounded_ratio(self) -> Iterator[Check]:
         """GL304 where the file gives i3: whole teeth may change it."""

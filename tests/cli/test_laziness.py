@@ -143,8 +143,9 @@ _SECTIONS = {
     "three_gear.synthesis.task_spec",
 }
 """Models of sections and keys that most files do not have: making them takes longer than most results."""
-_GENERAL = {f"three_gear.synthesis.{name}" for name in ("families", "internal_families", "candidates")} | {
-    "three_gear.dwell.internal_dwell"
+_GENERAL = {f"three_gear.families.{name}" for name in ("external", "internal", "window_lengths")} | {
+    "three_gear.synthesis.candidates",
+    "three_gear.dwell.internal_dwell",
 }
 
 

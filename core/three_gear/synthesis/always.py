@@ -5,15 +5,15 @@ from __future__ import annotations
 from gearlink.core.linkages.always_stepping import AlwaysStepping
 from gearlink.core.linkages.band_dwell import Valley
 from gearlink.core.three_gear.dwell.tolerance_dwell import valley
+from gearlink.core.three_gear.families.external import Family, back_step_of
 from gearlink.core.three_gear.motion import GearTrain, forward
-from gearlink.core.three_gear.synthesis.families import Family, back_step_of
 
 
 def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
     """The frames of a given crank, where the output steps back with each of them; None where one just stops it.
 
     Example
-        >>> from gearlink.core.three_gear.synthesis.families import with_crank
+        >>> from gearlink.core.three_gear.families.external import with_crank
         >>> found = always_stepping(with_crank(54.0, 78.0, 49.0, 72.778), GearTrain(54, 78, 49))
         >>> round(math.degrees(found.least_step[1]), 3)
         13.137

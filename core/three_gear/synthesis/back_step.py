@@ -23,7 +23,7 @@ from gearlink.core.three_gear.symmetric import family
 from gearlink.core.three_gear.synthesis.base import SymmetricSynthesis, with_analysis
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.synthesis.families import Family
+    from gearlink.core.three_gear.families.external import Family
 
 
 class BackStepFamily(SymmetricSynthesis):
@@ -82,7 +82,7 @@ class BackStepSynthesis(BackStepFamily):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """One of back-step and crank angle, met by the root of the one unknown."""
-        from gearlink.core.three_gear.synthesis.families import back_step_crank_angle_of, back_step_of, solved
+        from gearlink.core.three_gear.families.external import back_step_crank_angle_of, back_step_of, solved
 
         task = section_of(self.spec, "back_step", "angle or crank_angle (deg)")
         if task.angle is not None and task.crank_angle is not None:

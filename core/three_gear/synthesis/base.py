@@ -14,14 +14,14 @@ from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.design import ThreeGearFourBar
+from gearlink.core.three_gear.families.forms import forms_for
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, smallest_idler
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
 from gearlink.core.three_gear.names import MESHES
 from gearlink.core.three_gear.symmetric import family
-from gearlink.core.three_gear.synthesis.forms import forms_for
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.synthesis.families import Family
+    from gearlink.core.three_gear.families.external import Family
 
 _GEARS = ThreeGearFourBar.outlines["gear"]
 _STANDSTILL = 1.5 * math.pi

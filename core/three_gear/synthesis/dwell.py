@@ -10,18 +10,17 @@ from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, anew, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
-from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.dwell.momentary_dwell import wrap
+from gearlink.core.three_gear.families.forms import forms_for
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.motion import output_angle
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
 from gearlink.core.three_gear.synthesis.base import with_analysis
 from gearlink.core.three_gear.synthesis.dwell_task import DwellTask
-from gearlink.core.three_gear.synthesis.forms import forms_for
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.always_stepping import AlwaysStepping
@@ -177,7 +176,7 @@ class DwellSynthesis(DwellTask):
 
             return tolerance_dwell(self.linkage, self.train, self._narrower)
         if self.general:
-            from gearlink.core.three_gear.synthesis.families import ripple
+            from gearlink.core.three_gear.families.external import ripple
 
             found = ripple(self.linkage, self.train)
             return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
@@ -201,7 +200,7 @@ class DwellSynthesis(DwellTask):
                 return window_dwell.longest_window(self.i3, band)
         if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
             return self._frames.longest(band)[1]
-        from gearlink.core.three_gear.synthesis.families import filling, ripple
+        from gearlink.core.three_gear.families.external import filling, ripple
 
         filled = filling(self._family(self.idler_teeth), self.train, band)
         return None if filled is None else ripple(filled, self.train).crank_angle
@@ -230,24 +229,12 @@ class DwellSynthesis(DwellTask):
             return None
         if self._frames is not None and self._frames.least_step[1] > 2.0 * band:
             return self._frames.interval(self.linkage.frame, window, band)
-        from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
-        from gearlink.core.three_gear.synthesis.families import filling
+        from gearlink.core.three_gear.families.window_lengths import met_between
 
-        links, train = self.linkage, self.train
-        radii = self._radii(self.idler_teeth)
+        links, radii = self.linkage, self._radii(self.idler_teeth)
         family = forms_for(*radii).with_crank(*radii, links.crank, self.spec.assembly)
-
-        def spare(frame: float) -> float:
-            return tolerance_dwell(family.linkage(frame), train, band).crank_angle - window
-
-        filled = (filling(family, train, band) or family.linkage(family.stepping()[1])).frame
-        end = family.ends()[0]
-        ends = spare(end), spare(links.frame)
-        if ends[0] >= 0.0:
-            return sorted((end, filled))
-        # A window as long as the limit leaves one frame, where rounding decides the sign.
-        just = bracketed_root(spare, end, links.frame, ends=ends) if ends[1] > 0.0 else links.frame
-        return sorted((just, filled))
+        met = met_between(family, self.train, window, band, lambda each: each.frame, links.frame)
+        return None if met is None else list(met)
 
     # Checks
 

@@ -16,7 +16,7 @@ from gearlink.core.three_gear.synthesis.back_step import BackStepFamily
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.always_stepping import AlwaysStepping
-    from gearlink.core.three_gear.synthesis.families import Family
+    from gearlink.core.three_gear.families.external import Family
 
 MARGIN = 0.01
 _ROUNDING = 1e-9
@@ -84,7 +84,7 @@ class DwellTask(BackStepFamily):
 
         Where every frame steps back further than the band is wide: the window about one standstill.
         """
-        from gearlink.core.three_gear.synthesis.families import dwell_angle_of, solved
+        from gearlink.core.three_gear.families.external import dwell_angle_of, solved
 
         request = self._request
         if request.angle is not None:
@@ -104,7 +104,7 @@ class DwellTask(BackStepFamily):
 
     def _of_equal_ripple(self, family: Family, train: GearTrain) -> FourBar:
         """The linkage whose back-step fills the band, or a band over the window."""
-        from gearlink.core.three_gear.synthesis.families import ripple, solved, window_of
+        from gearlink.core.three_gear.families.external import ripple, solved, window_of
 
         if self.window is None:
             return self._fills(family, train)
@@ -156,7 +156,7 @@ class DwellTask(BackStepFamily):
 
     def _fills(self, family: Family, train: GearTrain) -> FourBar:
         """The linkage whose back-step fills the band but for its margin; the whole band limits the tolerance."""
-        from gearlink.core.three_gear.synthesis.families import back_step_of, solved
+        from gearlink.core.three_gear.families.external import back_step_of, solved
 
         whole, aimed = self.asked_tolerance or 0.0, self._aimed_at()
         words = f"a tolerance of {math.degrees(whole):.9g} deg"
@@ -182,7 +182,7 @@ class DwellTask(BackStepFamily):
         band, window = self._band, self.window
         if band is None or window is None:
             return
-        from gearlink.core.three_gear.synthesis.families import filling, ripple
+        from gearlink.core.three_gear.families.external import filling, ripple
 
         try:
             filled = filling(family, train, band)
@@ -204,7 +204,7 @@ class DwellTask(BackStepFamily):
         band = self._band
         if band is None or least <= band:
             return
-        from gearlink.core.three_gear.synthesis.families import filling, ripple
+        from gearlink.core.three_gear.families.external import filling, ripple
 
         filled = filling(family, train, band)
         assert filled is not None  # a back-step of twice the least is wider than the band

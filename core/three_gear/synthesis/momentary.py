@@ -18,9 +18,9 @@ from gearlink.core.three_gear.dwell.momentary_dwell import (
     intermediates,
     least_eccentricity,
 )
+from gearlink.core.three_gear.families import internal
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
-from gearlink.core.three_gear.synthesis import internal_families
 from gearlink.core.three_gear.synthesis.base import Synthesis, with_analysis
 
 _STEPS = (
@@ -47,7 +47,7 @@ class MomentaryDwellSynthesis(Synthesis):
             section_of(self.spec, "momentary", "eccentricity, frame or gap (mm), or balanced"),
             self._radii(idler),
         )
-        forms = internal_families if is_internal(*radii) else momentary_dwell
+        forms = internal if is_internal(*radii) else momentary_dwell
         if request.eccentricity is not None:
             return float(request.eccentricity)
         if request.frame is not None:
@@ -76,7 +76,7 @@ class MomentaryDwellSynthesis(Synthesis):
         """Frame length in closed form, in place of thesis (4-26)..(4-33)."""
         crank, radii = self._crank_of(idler), self._radii(idler)
         with at_key("momentary.eccentricity"):
-            forms = internal_families if is_internal(*radii) else momentary_dwell
+            forms = internal if is_internal(*radii) else momentary_dwell
             linkage: FourBar = forms.momentary_linkage(*radii, crank, self.spec.assembly)
         return linkage
 

@@ -17,7 +17,7 @@ from gearlink.core.three_gear.symmetric import family
 from gearlink.core.three_gear.synthesis.base import SymmetricSynthesis, with_analysis
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.synthesis.families import Family
+    from gearlink.core.three_gear.families.external import Family
 
 
 class VariableSpeedSynthesis(SymmetricSynthesis):
@@ -28,7 +28,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
-        from gearlink.core.three_gear.synthesis.families import with_speed_quotient
+        from gearlink.core.three_gear.families.external import with_speed_quotient
 
         speed = section_of(self.spec, "speed", "min, max (rev/min)")
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):

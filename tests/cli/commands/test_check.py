@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -58,12 +59,12 @@ def test_a_design_that_passes_is_quiet(gearlink: Any, tmp_path: Path) -> None:
     assert ended.err == ""
 
 
-def test_a_failure_stands_at_the_key_that_its_message_or_its_code_names(gearlink: Any, tmp_path: Path) -> None:
+def test_a_failure_stands_at_the_key_that_its_remedy_changes(gearlink: Any, tmp_path: Path) -> None:
     path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
     ended = gearlink("check", path)
     assert ended.status == 1
-    assert f"{path}:4:1: fail GL301 gear-collision: the crank gear and the output gear collide by 1.6 mm" in ended.out
-    assert "\n  links: {crank: 18, frame: 121.4}\n  ^\n" in ended.out
+    assert f"{path}:4:9: fail GL301 gear-collision: the crank gear and the output gear collide by 1.6 mm" in ended.out
+    assert "\n  links: {crank: 18, frame: 121.4}\n          ^\n" in ended.out
     assert "gearlink explain CODE" in ended.err
     assert gearlink("check", path, "--quiet").err == ""
 
@@ -75,8 +76,8 @@ def test_json(gearlink: Any, tmp_path: Path) -> None:
     assert whole["summary"]["designs"] == 1
     assert whole["summary"]["fail"] == 1
     (failed,) = [finding for finding in whole["findings"] if finding["status"] == "fail"]
-    assert (failed["code"], failed["check"], failed["line"], failed["column"]) == ("GL301", "gear-collision", 4, 1)
-    assert failed["key"] == "links"
+    assert (failed["code"], failed["check"], failed["line"], failed["column"]) == ("GL301", "gear-collision", 4, 9)
+    assert failed["key"] == "links.crank"
     assert failed["limit"] == 0.5
     # Passes too, in the form of the other commands' results, so that one reader does for all.
     checks = [{**check, "file": None} for check in whole["checks"]]
@@ -154,7 +155,7 @@ def test_csv_has_a_row_for_each_finding(gearlink: Any, tmp_path: Path) -> None:
     path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
     rows = list(csv.DictReader(io.StringIO(gearlink("check", path, "--format", "csv").out)))
     failed = next(row for row in rows if row["status"] == "fail")
-    assert (failed["file"], failed["line"], failed["column"], failed["code"]) == (str(path), "4", "1", "GL301")
+    assert (failed["file"], failed["line"], failed["column"], failed["code"]) == (str(path), "4", "9", "GL301")
     assert float(failed["value"]) < float(failed["limit"])
 
 
@@ -162,7 +163,7 @@ def test_markdown(gearlink: Any, tmp_path: Path) -> None:
     path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
     out = gearlink("check", path, "--format", "md").out
     assert out.startswith("| place | status | code | check | finding |")
-    assert f"| {path}:4:1 | fail | GL301 | gear-collision |" in out
+    assert f"| {path}:4:9 | fail | GL301 | gear-collision |" in out
 
 
 def test_no_such_place(gearlink: Any, tmp_path: Path) -> None:
@@ -246,6 +247,15 @@ def test_key_of_a_check(message: str, key: str) -> None:
     data = {"kind": "flatbed-press", "cam": {"base_radius": 90.0, "lead_in": None}}
     assert key_of(data, Check("GL401", "pressure-angle", "fail", message)) == key
     assert key_of({"kind": "x"}, Check("GL401", "pressure-angle", "fail", message)) == "kind"
+
+
+def test_of_a_section_it_is_the_key_that_the_remedy_changes() -> None:
+    """Only where that stands in the section that the finding is about."""
+    data = {"links": {"crank": 23.6, "frame": 86.2}, "gears": {"idler": 44}}
+    missed = Check("GL313", "dwell-window", "fail", "too short")
+    assert key_of(data, missed) == "links"
+    assert key_of(data, replace(missed, remedy=(("links.frame", 90.0),))) == "links.frame"
+    assert key_of(data, replace(missed, remedy=(("gears.idler", 43),))) == "links"
 
 
 def test_help_has_an_example(gearlink: Any) -> None:

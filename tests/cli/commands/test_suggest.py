@@ -170,6 +170,38 @@ def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> N
     assert "cycle_angle: 150 -> 101" in ended.err
 
 
+FEEDER = """kind: three-gear-four-bar
+gears: {module: 1.5, crank: 40, idler: 44, output: 40}
+links:
+  crank: 22.52
+  frame: 86.2
+dwell_tolerance: 0.3
+dwell_window: 60
+"""
+
+
+@pytest.mark.parametrize(("typed", "key"), [(("22.52", "23.60"), "crank"), (("86.2", "85.0"), "frame")])
+def test_one_mistyped_length_is_found(gearlink: Any, tmp_path: Path, typed: tuple[str, str], key: str) -> None:
+    """The one change stands at its line, repairs the collision besides, and the saved file passes."""
+    path = tmp_path / "feeder.yaml"
+    path.write_text(FEEDER.replace(*typed))
+    line = next(n for n, text in enumerate(path.read_text().splitlines(), 1) if f"  {key}:" in text)
+    checked = gearlink("check", path)
+    assert checked.status == 1
+    (of_dwell, of_tips) = [text for text in checked.out.splitlines() if ": fail " in text]
+    assert of_dwell.startswith(f"{path}:{line}:3: fail GL313")
+    assert "with this frame the crank may be " in of_dwell
+    assert "with this crank the frame may be " in of_dwell
+    assert of_tips.startswith(f"{path}:{line}:3: fail GL301")
+    assert of_tips.rpartition("; ")[2] == of_dwell.rpartition("; ")[2], "one change repairs both"
+    whole = gearlink("analyze", path, "--suggest", "--save", tmp_path / "better.yaml", "--format", "json").json
+    assert whole["ok"]
+    (change,) = whole["suggestions"]
+    assert change["path"] == f"links.{key}"
+    assert change["new"] == pytest.approx(float(typed[0]), abs=0.03)
+    assert gearlink("check", tmp_path / "better.yaml").status == 0
+
+
 @pytest.mark.slow
 def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     path = designs / "wide_swing_twin_rocker.yaml"

@@ -25,8 +25,8 @@ from gearlink.core.three_gear.dwell.momentary_dwell import (
     momentary_frame_length,
 )
 from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
+from gearlink.core.three_gear.families import external as families
 from gearlink.core.three_gear.motion import GearTrain, output_angle, speed_extremes
-from gearlink.core.three_gear.synthesis import families
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 

@@ -26,6 +26,8 @@ from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell import internal_dwell
 from gearlink.core.three_gear.dwell.dwells import back_step, dwell_positions
 from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
+from gearlink.core.three_gear.families import internal as internal_families
+from gearlink.core.three_gear.families.external import back_step_of, ripple, solved
 from gearlink.core.three_gear.motion import (
     GearTrain,
     forward,
@@ -36,8 +38,6 @@ from gearlink.core.three_gear.motion import (
     speed_extremes,
 )
 from gearlink.core.three_gear.sweep import output_motion
-from gearlink.core.three_gear.synthesis import internal_families
-from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 

@@ -8,9 +8,9 @@ from typing import Any
 def forms_for(*radii: float) -> Any:
     """The module of the families of a train: the one for rings where a radius is negative."""
     if min(radii) < 0.0:
-        from gearlink.core.three_gear.synthesis import internal_families
+        from gearlink.core.three_gear.families import internal
 
-        return internal_families
-    from gearlink.core.three_gear.synthesis import families
+        return internal
+    from gearlink.core.three_gear.families import external
 
-    return families
+    return external

@@ -1,4 +1,4 @@
-"""Linkages of three gears with an internal mesh in one unknown, as in `families`, on the side where the output steps
+"""Linkages of three gears with an internal mesh in one unknown, as in `external`, on the side where the output steps
 back: with r5 < 0, a ring gear round the whole train, that is a frame shorter than d*.
 """
 
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.internal_dwell import shape, tangency
-from gearlink.core.three_gear.synthesis.families import Family, frames_of, longest_crank
+from gearlink.core.three_gear.families.external import Family, frames_of, longest_crank
 
 
 def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
