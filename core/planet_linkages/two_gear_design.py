@@ -29,7 +29,7 @@ from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.real_speed import OUTPUT_SPEEDS, per_time
 from gearlink.core.remedies.ways import down, either, up
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -320,6 +320,18 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         return Table.of("links", self.timed({"crank_angle": (degrees, "deg"), **whole}, "crank_angle", rates))
 
     # Checks
+
+    def candidates(self, check: str, /) -> Iterator[Remedy]:
+        """The one frame with which the output stops for a moment: no step of a grid meets it."""
+        target = self.spec.target
+        if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
+            from gearlink.core.planet_linkages import two_gear_family as kernel
+
+            links = self.spec.links
+            family = kernel.Family(
+                self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly
+            )
+            yield (("links.frame", kernel.momentary_frame(family)),)
 
     def check_dwell_condition(self) -> Check:
         """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""

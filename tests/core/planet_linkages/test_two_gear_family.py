@@ -436,3 +436,19 @@ def test_frame_and_sections() -> None:
         made("momentary-dwell", SUNS | {"links": {"coupler": 48.0, "rocker": 50.0, "frame": 20.0}}).linkage  # noqa: B018
     with pytest.raises(MissingSection, match="section dwell"):
         made("dwell", SUNS, **MOMENTARY).linkage  # noqa: B018
+
+
+def test_a_wrong_frame_of_a_momentary_dwell_is_repaired() -> None:
+    """The frame of the closed form, which no grid of lengths holds; put into the file, the output stops for a moment."""
+    data = {
+        "kind": "two-gear-four-bar",
+        "gears": {"module": 2, "planet": 48, "ring": 80},
+        "links": {"coupler": 64, "rocker": 80, "frame": 60},
+        "target": {"motion": "momentary-dwell"},
+    }
+    (missed,) = factory.design(data, command="analyze").findings("analyze", "dwell-condition")
+    ((key, frame),) = missed.remedy
+    assert (missed.status, key) == ("fail", "links.frame")
+    repaired = factory.design(data, command="analyze", links__frame=frame)
+    assert repaired.motion == "momentary-dwell"
+    assert all(check.status != "fail" for check in repaired.report("analyze").checks)
