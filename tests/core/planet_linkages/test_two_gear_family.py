@@ -439,7 +439,7 @@ def test_frame_and_sections() -> None:
 
 
 def test_a_wrong_frame_of_a_momentary_dwell_is_repaired() -> None:
-    """The frame of the closed form, which no grid of lengths holds; put into the file, the output stops for a moment."""
+    """The frame of the closed form, which no grid of lengths holds: with it the output stops for a moment."""
     data = {
         "kind": "two-gear-four-bar",
         "gears": {"module": 2, "planet": 48, "ring": 80},
