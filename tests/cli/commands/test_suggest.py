@@ -194,7 +194,7 @@ def test_one_mistyped_length_is_found(gearlink: Any, tmp_path: Path, typed: tupl
     assert "with this crank the frame may be " in of_dwell
     assert of_tips.startswith(f"{path}:{line}:3: fail GL301")
     assert of_tips.rpartition("; ")[2] == of_dwell.rpartition("; ")[2], "one change repairs both"
-    annotations = gearlink("batch", path, "--format", "github", "--no-cache").out.splitlines()
+    annotations = gearlink("batch", path, "--format", "github").out.splitlines()
     (of_dwell,) = [text for text in annotations if "GL313" in text]
     assert f"line={line},col=3," in of_dwell
     assert f"; set links.{key} to " in of_dwell
