@@ -14,6 +14,7 @@ import pytest
 from factory import design
 
 from gearlink.core.linkages.fourbar.position import solve
+from gearlink.core.numerics.rows import Rows
 
 LINKS = [
     ("thesis_example_3_as_printed", ["coupler", "rocker", "idler", "output"]),
@@ -70,6 +71,18 @@ def test_the_instant_centre_lies_where_the_line_of_the_poles_meets_the_frame():
         if abs(cmath.phase(e - f) % math.pi) < 0.02:
             continue
         assert pole == pytest.approx(f.real - f.imag * (e - f).real / (e - f).imag, rel=1e-9)
+
+
+@pytest.mark.parametrize("module", [2.0, 2e-4])
+def test_where_both_gears_turn_at_one_speed_the_instant_centre_is_at_infinity(module):
+    """The equal gears of the worked feed do at 0 and 180 deg, whatever their size; a little beside it the centre is far
+    off, but known: AD/(W - 1) with W - 1 = 1.192973 times the angle, its first two derivatives being 1.192973 and 0."""
+    made = design("standing_feed", command="synth dwell", gears__module=module)
+    found = made.table("links", samples=8)
+    assert found["crank_angle"][np.isnan(found["pole_x"])].tolist() == [0.0, 180.0]
+    assert made.table("links", samples=8).rows()[0][-1] is None
+    beside = made.table("links", samples=Rows.part(2_500_000, 0, 3))["pole_x"][1]
+    assert beside == pytest.approx(made.frame_length / (1.192973 * math.radians(360.0 / 2.5e6)), rel=1e-5)
 
 
 def test_steps_of_the_momentary_dwell_are_the_thesis_s_put_right():
