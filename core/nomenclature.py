@@ -16,6 +16,8 @@ _SLIDER_CRANK = {
     "quick_return_ratio": Term("K", "1", "time of the forward over the return stroke", "VDI 2142"),
     "dead_center_extended": Term("theta_e", "deg", "crank direction from the slide line, stretched: asin(e/(L+r))"),
     "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
+    "dead_center_extended_at": Term("270 deg - theta_e", "deg", "input angle of the stretched dead centre"),
+    "dead_center_folded_at": Term("90 deg - theta_f", "deg", "input angle of the folded dead centre"),
     "max_stroke": Term("S_max", "mm", "largest stroke of this rod and offset, 2 sqrt(L(L-|e|))", "own derivation"),
 }
 

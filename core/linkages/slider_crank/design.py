@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.standstills import Turning
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
-_SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES)
+_SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES, "dead_center_extended_at", "dead_center_folded_at")
 _MOTION = (
     "forward_angle",
     "return_angle",
@@ -88,6 +88,9 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         """Input angles with the slider nearest to D and farthest from it [rad]."""
         folded, extended = self.dead_center_folded, self.dead_center_extended
         return 0.5 * math.pi - folded, 1.5 * math.pi - extended
+
+    dead_center_folded_at: float = placed("_dead_centers.0")
+    dead_center_extended_at: float = placed("_dead_centers.1")
 
     @property
     def forward_angle(self) -> float:

@@ -11,6 +11,7 @@ import json
 import math
 from pathlib import Path
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
@@ -232,3 +233,17 @@ def test_false_root_of_the_squared_equation_is_not_taken():
     false = stroke / 2 * math.sqrt((4 * rod**2 - 4 * offset**2 - stroke**2) / (4 * rod**2 - stroke**2))
     assert false == pytest.approx(193.17, abs=0.005)
     assert float(exact_stroke(false, rod, offset)) < 394.0  # it is the root of the sum of the square roots
+
+
+@pytest.mark.parametrize("offset", [50.0, 0.0, -80.0])
+def test_dead_centers_are_named_at_the_angles_of_the_motion(offset: float) -> None:
+    """There the slider of the table stands still, farthest from the crank and nearest to it: one origin for both."""
+    made = factory.design("ty460_slider_crank", command="analyze", offset=offset)
+    found = made.table("motion", samples=36_000)
+    for name, row in (("extended", found["displacement"].argmax()), ("folded", found["displacement"].argmin())):
+        place = made.quantity(f"dead_center_{name}_at").value
+        assert place == pytest.approx(found["input_angle"][row], abs=0.006)  # half of the table's step
+        assert made.depth(math.radians(place), 1) == pytest.approx(0.0, abs=1e-10)
+    assert made.quantity("forward_angle").value == pytest.approx(
+        made.quantity("dead_center_extended_at").value - made.quantity("dead_center_folded_at").value, rel=1e-14
+    )
