@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures.drawing import panels
@@ -23,6 +24,8 @@ Rows = tuple[list[str], list[list[str]]]
 
 _ROW = 0.0115
 """Share of a page's height that a row of a table takes."""
+_REMARK = 60
+"""Letters of a remark in a row of the values, which has the width of its table to itself."""
 _RATED = ("contact_stress", "safety_pitting", "root_stress", "safety_bending")
 
 
@@ -66,7 +69,7 @@ def _sheet(
     drawings[0](first)
     drawings[1](zone)
     zone_legend(zone)
-    tables = grid[1, :].subgridspec(1, 2)
+    tables = grid[1, :].subgridspec(1, 2, wspace=0.06)
     for column, (words, (head, rows)) in enumerate((("Values", shown), ("Gear table of the drawing", drawing))):
         axes = figure.add_subplot(tables[0, column])
         panels.heading(axes, words)
@@ -99,5 +102,6 @@ def _rating(design: GearPairDesign) -> list[list[str]]:
         if found is not None:
             rows.append([*headed(name), *(gear_text(value) or "–" for value in found.value)])
     if rows:
-        rows += [[design.rests_on(name), "", "", "", ""] for name in ("contact_stress", "root_stress")]
+        remarks = (wrap(design.rests_on(name), _REMARK) for name in ("contact_stress", "root_stress"))
+        rows += [[line, "", "", "", ""] for lines in remarks for line in lines]
     return rows

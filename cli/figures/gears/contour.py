@@ -100,7 +100,7 @@ def _key(axes: Axes, handles: Sequence[Any], columns: int) -> None:
     """The legend in axes of its own."""
     axes.set_axis_off()
     labels = [str(handle.get_label()) for handle in handles]
-    look: dict[str, Any] = {"fontsize": 6.5, "frameon": False, "handlelength": 1.8, "columnspacing": 1.0}
+    look: dict[str, Any] = {"fontsize": 6.5, "frameon": False, "handlelength": 1.8, "columnspacing": 0.7}
     legend = axes.legend(handles, labels, loc="upper left", ncols=columns, borderaxespad=0.0, **look)
     legend.set_in_layout(False)
 

@@ -40,6 +40,7 @@ _WORDS = {
     "tooth_thickness": "thickness, reference circle",
     "working_radius": "working pitch radius",
     "specific_sliding": "specific sliding, foot of flank",
+    "shift_sum": "sum of the profile shifts",
     "tip_shortening": "tip shortening coefficient",
     "contact_stress": "contact stress",
     "safety_pitting": "safety against pitting",

@@ -41,6 +41,27 @@ def test_whole_gears_have_their_teeth(command):
         assert np.count_nonzero(np.diff(outside.astype(int)) == 1) == pair.teeth[gear]
 
 
+LOADED = {"face_width": 25, "load": {"torque": 60}, "material": {"contact_limit": 1500, "bending_limit": 430}}
+
+
+@pytest.mark.parametrize("keys", [LOADED, {}], ids=["loaded", "plain"])
+def test_no_cell_of_a_table_runs_into_another_or_out_of_it(keys):
+    """Boxes of the texts as they are drawn: words, symbols, units and numbers of a row stand apart in their table."""
+    figure = placed_sheet(DATA, "gear", **keys).figure
+    for name in ("Values", "Gear table of the drawing"):
+        axes = panel(figure, name)
+        inside = axes.get_window_extent()
+        found = [(text, text.get_window_extent()) for text in axes.texts if text.get_text()]
+        assert len(found) > 60
+        for text, box in found:
+            assert inside.x0 - 1.0 < box.x0 < box.x1 < inside.x1 + 1.0, (name, text.get_text())
+        for (one, box), (other, beside) in itertools.combinations(found, 2):
+            if one.get_fontstyle() == other.get_fontstyle() == "italic":
+                continue  # a letter and its index
+            apart = box.x1 < beside.x0 or beside.x1 < box.x0 or box.y1 <= beside.y0 or beside.y1 <= box.y0
+            assert apart, (name, one.get_text(), other.get_text())
+
+
 def test_mesh_zone_shows_the_path_of_contact():
     made, figure = sheet(DATA, "gear")
     geometry, zone = MeshGeometry(made.gear_pair), figure.axes[1]
@@ -119,7 +140,8 @@ def test_safeties_stand_with_what_they_rest_on():
     load = {"face_width": 30, "load": {"torque": 100}, "material": {"contact_limit": 1400, "bending_limit": 400}}
     made, figure = sheet(DATA, "gear", **load)
     shown = words(figure)
-    assert any("K_Hb 1" in text and "not computed: 1 unless given" in text for text in shown)
+    assert any("K_Hb 1" in text for text in shown)
+    assert " ".join(shown).count("not computed: 1 unless given") == len(("contact", "root"))
     assert f"{made.quantity('safety_bending').value[0]:.6g}" in shown
     assert "thickness allowance, upper" not in shown
     assert "span measurement, nominal" in shown
