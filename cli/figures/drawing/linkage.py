@@ -18,6 +18,9 @@ DWELL: Any = {"facecolor": "#CFE8F7", "linewidth": 0, "zorder": 0}
 BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "linewidth": 0, "zorder": 0.5}
 """A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
 TURN = 360.0
+_APART, _LEGEND = 0.062, 0.048
+"""Shares of the panel's height, which is much the same on every sheet: rows of numbers, where there is room for them,
+and an entry of the legend above them."""
 
 
 def sheet(
@@ -60,11 +63,14 @@ def scene_of(design: Any) -> Any:
 def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) -> None:
     """The legend of a drawing, and under it quantities by short words; those that the design has not are left out."""
     panels.legend_beside(axes, drawing)
+    entries = len(drawing.get_legend_handles_labels()[1])
     found = [(short, design.quantity(name)) for name, short in words.items()]
     shown = [(short, f"{_text(q.value, q.unit)} {q.unit}".removesuffix(" 1")) for short, q in found if q is not None]
+    apart = min(_APART, (1.0 - _LEGEND * (entries + 1)) / max(len(shown), 1))
+    look: dict[str, Any] = {"transform": axes.transAxes, "va": "bottom", "fontsize": 8, "in_layout": False}
     for i, (short, value) in enumerate(reversed(shown)):
-        axes.text(0.0, 0.062 * i, short, transform=axes.transAxes, va="bottom", fontsize=8, in_layout=False)
-        axes.text(1.0, 0.062 * i, value, transform=axes.transAxes, va="bottom", ha="right", fontsize=8, in_layout=False)
+        axes.text(0.0, apart * i, short, **look)
+        axes.text(1.0, apart * i, value, ha="right", **look)
 
 
 def _text(value: object, unit: str) -> str:

@@ -6,6 +6,7 @@ Tolerances
 """
 
 import cmath
+import itertools
 import math
 import re
 
@@ -163,3 +164,22 @@ def test_rounding_noise_is_zero_in_words():
 
 def test_steady_motion_has_no_magnified_dwell():
     assert not tagged(sheet(data(CASES[STEADY]), STEADY).figure, "magnified")
+
+
+def test_the_legend_of_a_collision_stands_clear_of_the_numbers():
+    """The longest legend over the most numbers: boxes as they are drawn, rows a line apart, none below the panel."""
+    given = {"module": 1.5, "crank": 40, "idler": 44, "output": 40}
+    slip = {"gears": given, "links": {"crank": 23.6, "frame": 86.2}, "dwell_tolerance": 0.3, "input_speed": 133.0}
+    figure = placed_sheet(
+        {"kind": "three-gear-four-bar", "name": "slip", **slip, "shafts": {"input_radius": 8.0, "output_radius": 9.0}},
+        "analyze",
+    ).figure
+    numbers = next(axes for axes in figure.axes if any(text.get_text() == "crank AB" for text in axes.texts))
+    legend = numbers.get_legend()
+    assert any("collide" in text.get_text() for text in legend.get_texts())
+    rows = [text.get_window_extent() for text in numbers.texts if text.get_ha() == "left"]
+    assert len(rows) >= 12
+    assert max(row.y1 for row in rows) < legend.get_window_extent().y0
+    assert min(row.y0 for row in rows) > numbers.get_window_extent().y0 - 5.0
+    levels = sorted((row.y0, row.y1) for row in rows)
+    assert all(one[1] < other[0] + 1.0 for one, other in itertools.pairwise(levels))
