@@ -15,6 +15,9 @@ from gearlink.cli.scenes.scene import Line
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
+_FINEST, _EDGE = 4, 4
+"""How many times as large as the large picture its curves are drawn, and what is left about them [large pixel]."""
+
 
 def backdrop(stage: Stage) -> Picture:
     """The large picture that all others are drawn on."""
@@ -32,6 +35,7 @@ def backdrop(stage: Stage) -> Picture:
     if stage.scene.chart is not None:
         scale = ChartScale(stage.scene.chart, stage.chart_room)
         _chart(draw, scale)
+        _curves(made, scale)
         _chart_words(draw, scale, size)
     return made
 
@@ -55,9 +59,18 @@ def _chart(draw: ImageDraw.ImageDraw, scale: ChartScale) -> None:
         draw.line([FINER * room.left, FINER * y, FINER * room.right, FINER * y], fill=LIGHT, width=FINER)
     corners = [room.left, room.top, room.left, room.bottom, room.right, room.bottom]
     draw.line([FINER * corner for corner in corners], fill=GREY, width=FINER)
+
+
+def _curves(made: Picture, scale: ChartScale) -> None:
+    """The curves, drawn larger still: one that rises slowly shows where Pillow rounds its points to whole pixels."""
+    left, top, right, bottom = (FINER * round(side) for side in scale.room.sides)
+    left, top, right, bottom = left - _EDGE, top - _EDGE, right + _EDGE, bottom + _EDGE
+    part = made.crop((left, top, right, bottom)).resize((_FINEST * (right - left), _FINEST * (bottom - top)), 0)
+    draw = ImageDraw.Draw(part)
     for curve in scale.chart.curves:
-        points = FINER * scale.points(scale.chart.x, curve.y)
-        draw.line(flat(points), fill=curve.color, width=2 * FINER, joint="curve")
+        points = _FINEST * (FINER * scale.points(scale.chart.x, curve.y) - complex(left, top))
+        draw.line(flat(points), fill=curve.color, width=2 * FINER * _FINEST, joint="curve")
+    made.paste(part.reduce(_FINEST), (left, top))
 
 
 def _chart_words(draw: ImageDraw.ImageDraw, scale: ChartScale, size: float) -> None:

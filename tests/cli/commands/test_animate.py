@@ -24,9 +24,11 @@ from sweeps import mostly_slow
 
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.moving import gif, raster
+from gearlink.cli.moving.backdrop import backdrop
+from gearlink.cli.moving.brush import FINER
 from gearlink.cli.moving.page import page, player_stage
 from gearlink.cli.moving.raster import Raster
-from gearlink.cli.moving.stage import Stage
+from gearlink.cli.moving.stage import ChartScale, Stage
 from gearlink.cli.options import Options
 from gearlink.cli.scenes.loops import build, moving_kinds, pictures_for
 from gearlink.cli.scenes.scene import TURN, Body, Chain, Scene
@@ -501,3 +503,21 @@ def test_a_word_keeps_its_hyphen_beside_a_negative_number() -> None:
 def test_joints_of_a_wide_swing_have_the_letters_of_its_loads(designs: Path, name: str, wanted: set[str]) -> None:
     made = build(design_of(designs / f"{name}.yaml"), np.linspace(0.0, 0.9, 4))
     assert {mark.text for mark in made.marks} == wanted
+
+
+def test_curves_of_the_chart_show_no_steps(designs: Path) -> None:
+    """Column by column the middle of the ink is where the curve passes, to a fifth of a pixel beside a shift that is
+    the same all along: a line from whole pixel to whole pixel of the large picture is off by a third and more."""
+    made = design_of(designs / "ty460_slider_crank.yaml")
+    scene = build(made, np.arange(4) / 4)
+    stage = Stage(scene, "curve", 480, 360)
+    assert scene.chart is not None
+    scale = ChartScale(scene.chart, stage.chart_room)
+    ink = np.ptp(np.asarray(backdrop(stage).reduce(FINER), dtype=float), axis=2)  # frame, grid and words are grey
+    (curve,) = scene.chart.curves
+    exact = scale.points(scene.chart.x, curve.y)
+    columns = np.arange(int(scale.room.left) + 4, int(scale.room.right) - 4)
+    rows = np.arange(ink.shape[0])[:, None] + 0.5
+    middle = (rows * ink[:, columns]).sum(axis=0) / ink[:, columns].sum(axis=0)
+    off = middle - np.interp(columns + 0.5, exact.real, exact.imag)
+    assert np.abs(off - off.mean()).max() < 0.2
