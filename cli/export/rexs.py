@@ -61,7 +61,8 @@ def as_rexs(design: Any) -> bytes:
         NoSolution - where a gear pair does not exist, or the kind has no external or internal pair
     Notes
         Lengths, diameters and numbers of teeth of a ring are positive, as the data model has them; profile shifts keep
-        the signs of ISO 21771. The date is that of SOURCE_DATE_EPOCH, else 1970, so that a design gives one file.
+        the signs of ISO 21771. The schema requires a date: that of SOURCE_DATE_EPOCH, for files that are to be the same
+        again on another day, else the day of the export.
     """
     meshes = list(_meshes(design))
     if not meshes:
@@ -83,7 +84,9 @@ def as_rexs(design: Any) -> bytes:
 
 
 def _document(model: Model) -> str:
-    moment = datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", "0") or 0), UTC)
+    given = os.environ.get("SOURCE_DATE_EPOCH")
+    now = datetime.fromtimestamp(int(given), UTC) if given else datetime.now(UTC)
+    moment = now if given else now.replace(hour=0, minute=0, second=0, microsecond=0)
     head = f'applicationId="gearlink" applicationVersion="{VERSION}" date="{moment.isoformat()}" version="{_VERSION}"'
     rows = ["  <relations>", *model.relations, "  </relations>", "  <components>", *model.components, "  </components>"]
     return "\n".join(['<?xml version="1.0" encoding="UTF-8"?>', f"<model {head}>", *rows, "</model>", ""])

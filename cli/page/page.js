@@ -21,6 +21,27 @@ function linkSheet(sheet) {
     const [low, high] = chart.log ? chart.y.map(Math.log) : chart.y, at = chart.log ? Math.log(y) : y;
     return chart.box[3] - (at - low) / (high - low) * (chart.box[3] - chart.box[1]);
   }
+  let labels = null; // the boxes of the words of the sheet, measured when it is shown for the first time
+  function freePlace(chart, at, wide, high) {
+    // The highest place beside the line that is within the panel and clear of the words of the sheet; else the clearest.
+    const box = svg.getBoundingClientRect(), scale = svg.getAttribute("viewBox").split(" ").map(Number)[2] / box.width;
+    labels ??= [...svg.querySelectorAll('g[id^="text_"]')].map(text => {  // with outlined letters there is no element text
+      const of = text.getBoundingClientRect();
+      return [of.left - box.left, of.top - box.top, of.right - box.left, of.bottom - box.top].map(side => side * scale);
+    });
+    const sides = [at + 4, at - 4 - wide], places = [];
+    if (at > (chart.box[0] + chart.box[2]) / 2) sides.reverse();
+    sides.push(Math.max(chart.box[0] + 2, Math.min(at + 4, chart.box[2] - wide - 2)));  // across the line where words are long
+    for (const left of sides)
+      for (let top = chart.box[1]; top + high <= chart.box[3]; top += 3) {
+        const past = Math.max(0, left + wide - chart.box[2]) + Math.max(0, chart.box[0] - left);
+        const hidden = labels.reduce((sum, [l, t, r, b]) =>
+          sum + Math.max(0, Math.min(r, left + wide) - Math.max(l, left)) * Math.max(0, Math.min(b, top + high) - Math.max(t, top)), 0);
+        places.push([left, top, hidden + past * high]);
+      }
+    places.sort((one, other) => one[2] - other[2]);
+    return places[0] ?? [sides[0], chart.box[1]];
+  }
   function show(over, value) {
     layer.replaceChildren();
     for (const chart of charts) {
@@ -31,7 +52,7 @@ function linkSheet(sheet) {
       if (x < chart.x[0] || x > chart.x[1]) continue;
       const at = place(chart, x);
       layer.append(drawn("line", { x1: at, x2: at, y1: chart.box[1], y2: chart.box[3], stroke: "#444", "stroke-width": .8 }));
-      const right = at > (chart.box[0] + chart.box[2]) / 2, lines = [[words(over, value) + inTime(chart, x), "#222"]];
+      const lines = [[words(over, value) + inTime(chart, x), "#222"]];
       for (const curve of chart.curves) {
         const y = valueAt(curve, x);
         if (y === null) continue;
@@ -40,11 +61,12 @@ function linkSheet(sheet) {
           layer.append(drawn("circle", { cx: at, cy: up, r: 2.4, fill: curve.color, stroke: "#fff", "stroke-width": .6 }));
         lines.push([curve.label + " " + withUnit(y, chart.unit), curve.color]);
       }
-      lines.forEach(([words, color], k) => {
-        const text = drawn("text", { x: at + (right ? -4 : 4), y: chart.box[1] + 8 + 9 * k, fill: color, stroke: "#fff",
-          "stroke-width": 2.5, "paint-order": "stroke", "font-size": 7.5, "text-anchor": right ? "end" : "start" });
-        text.textContent = words; layer.append(text);
+      const texts = lines.map(([words, color]) => {
+        const text = drawn("text", { fill: color, stroke: "#fff", "stroke-width": 2.5, "paint-order": "stroke", "font-size": 7.5 });
+        text.textContent = words; layer.append(text); return text;
       });
+      const free = freePlace(chart, at, Math.max(...texts.map(text => text.getComputedTextLength())), 9 * texts.length);
+      texts.forEach((text, k) => { text.setAttribute("x", free[0]); text.setAttribute("y", free[1] + 8 + 9 * k); });
     }
   }
   function follow(event) {

@@ -168,3 +168,34 @@ def test_watch_shows_what_is_saved(window: Browser, edited: tuple[Path, str, Any
     assert window.problems() == []
     watching.send_signal(signal.SIGINT)
     assert watching.wait(10) == 130
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.02, 0.26, 0.5, 0.74, 0.98])
+def test_what_a_cursor_says_covers_no_words_of_the_sheet(window: Browser, pages: Path, share: float) -> None:
+    """Boxes on the screen: the values stand within their panel, clear of the labels of its extremes."""
+    window.size(1280, 900)
+    window.open(pages / "candy-feed.html")
+    place = window.run(
+        """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
+        svg.scrollIntoView({block: 'end'});
+        const box = svg.getBoundingClientRect(), wide = Number(svg.getAttribute('viewBox').split(' ')[2]);
+        const charts = JSON.parse(sheet.querySelector('script.charts').textContent), last = charts[charts.length - 1].box;
+        const scale = box.width / wide, x = last[0] + arguments[0] * (last[2] - last[0]);
+        return [box.left + scale * x, box.top + scale * 0.5 * (last[1] + last[3])];""",
+        share,
+    )
+    window.point(*place)
+    said, labels, panels = window.run(
+        """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
+        const of = each => { const box = each.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; };
+        const frame = svg.getBoundingClientRect(), scale = frame.width / Number(svg.getAttribute('viewBox').split(' ')[2]);
+        const charts = JSON.parse(sheet.querySelector('script.charts').textContent);
+        return [[...svg.querySelectorAll('.cursor text')].map(of), [...svg.querySelectorAll('g[id^="text_"]')].map(of),
+                charts.map(({box: [l, t, r, b]}) => [l, t, r, b].map((x, k) => (k % 2 ? frame.top : frame.left) + scale * x))];"""
+    )
+    assert len(said) >= 2 * 2
+    for left, top, right, bottom in said:
+        assert any(a <= left + 1 and right <= c + 1 and b <= top + 3 and bottom <= d + 3 for a, b, c, d in panels)
+        assert not any(a < right and left < c and b < bottom - 2 and top + 2 < d for a, b, c, d in labels)
+    assert window.problems() == []
