@@ -73,6 +73,10 @@ class Browser:
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._ask("POST", "/goog/cdp/execute", cmd="Emulation.setDeviceMetricsOverride", params=metrics)
 
+    def media(self, name: str) -> None:
+        """Show pages as on "print"; "" is the screen again."""
+        self._ask("POST", "/goog/cdp/execute", cmd="Emulation.setEmulatedMedia", params={"media": name})
+
     def press(self, *keys: str) -> None:
         """Keys, one after the other, to whatever has the focus."""
         strokes = [{"type": way, "value": KEYS.get(key, key)} for key in keys for way in ("keyDown", "keyUp")]

@@ -176,26 +176,40 @@ def test_what_a_cursor_says_covers_no_words_of_the_sheet(window: Browser, pages:
     """Boxes on the screen: the values stand within their panel, clear of the labels of its extremes."""
     window.size(1280, 900)
     window.open(pages / "candy-feed.html")
-    place = window.run(
-        """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
+    sheet = """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
         svg.scrollIntoView({block: 'end'});
-        const box = svg.getBoundingClientRect(), wide = Number(svg.getAttribute('viewBox').split(' ')[2]);
-        const charts = JSON.parse(sheet.querySelector('script.charts').textContent), last = charts[charts.length - 1].box;
-        const scale = box.width / wide, x = last[0] + arguments[0] * (last[2] - last[0]);
-        return [box.left + scale * x, box.top + scale * 0.5 * (last[1] + last[3])];""",
-        share,
-    )
-    window.point(*place)
+        const of = each => {
+            const box = each.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom];
+        };
+        const [left, top, right] = of(svg), scale = (right - left) / Number(svg.getAttribute('viewBox').split(' ')[2]);
+        const panels = JSON.parse(sheet.querySelector('script.charts').textContent).map(
+            chart => chart.box.map((side, k) => (k % 2 ? top : left) + scale * side));
+        """
+    a, b, c, d = window.run(f"{sheet} return panels[panels.length - 1];")
+    window.point(a + share * (c - a), 0.5 * (b + d))
     said, labels, panels = window.run(
-        """const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
-        const of = each => { const box = each.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; };
-        const frame = svg.getBoundingClientRect(), scale = frame.width / Number(svg.getAttribute('viewBox').split(' ')[2]);
-        const charts = JSON.parse(sheet.querySelector('script.charts').textContent);
-        return [[...svg.querySelectorAll('.cursor text')].map(of), [...svg.querySelectorAll('g[id^="text_"]')].map(of),
-                charts.map(({box: [l, t, r, b]}) => [l, t, r, b].map((x, k) => (k % 2 ? frame.top : frame.left) + scale * x))];"""
+        sheet
+        + """return [[...svg.querySelectorAll('.cursor text')].map(of),
+                [...svg.querySelectorAll('g[id^="text_"]')].map(of), panels];"""
     )
     assert len(said) >= 2 * 2
     for left, top, right, bottom in said:
         assert any(a <= left + 1 and right <= c + 1 and b <= top + 3 and bottom <= d + 3 for a, b, c, d in panels)
         assert not any(a < right and left < c and b < bottom - 2 and top + 2 < d for a, b, c, d in labels)
     assert window.problems() == []
+
+
+@pytest.mark.slow
+def test_on_paper_the_film_is_a_still_picture(window: Browser, pages: Path) -> None:
+    """The mechanism as it stands, not stretched, and no buttons: not a heading over nothing."""
+    window.size(794, 1123)
+    window.open(pages / "candy-feed.html")
+    window.media("print")
+    try:
+        shown = "const {{display, objectFit}} = getComputedStyle(document.querySelector('.film {0}'));"
+        shown += "return [display, objectFit]"
+        assert window.run(shown.format(".stage")) == ["block", "contain"]
+        assert window.run("return document.querySelector('.film .stage').getBoundingClientRect().height") > 100
+        assert [window.run(shown.format(each))[0] for each in (".controls", ".strip")] == ["none", "none"]
+    finally:
+        window.media("")
