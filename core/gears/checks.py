@@ -314,7 +314,11 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
 def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     part, worst = min(form_parts(gear.pair, gear.place).items(), key=lambda each: each[1])
     text = f"{gear.named(part)} is {worst:.4g} mm"
-    if worst <= 0.0:
+    if worst > 0.0:
+        text = (
+            f"{gear.named('a tool can cut the teeth of ')}: {text}, the smallest of their height, thickness and space"
+        )
+    else:
         most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))
         nearer = f"bring its profile shift {gear.of('profile_shift'):.6g} nearer to 0 (|x| below {most:.3g})"
         remedy = _FORM_REMEDIES.get(part, nearer) if gear.shifts else "take more teeth"
