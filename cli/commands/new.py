@@ -71,7 +71,7 @@ def template(kind: Kind, name: str = "") -> str:
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
         f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
-        f"# Run it with: gearlink {asked} FILE      units: mm, deg, 1/min, sheets/h, N, kg, kg m^2, N m\n\n"
+        f"# Run it with: gearlink {asked} FILE      numbers stand without a unit, each in the one named behind it\n\n"
     )
     return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
 

@@ -9,8 +9,18 @@ _DEGREES = math.degrees(1.0)
 _FACTORS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1, "cm": 10, "dm": 100, "m": 1000, "µm": 1e-3, "um": 1e-3, "in": 25.4, "inch": 25.4, '"': 25.4},
     "deg": {"deg": 1, "degree": 1, "degrees": 1, "°": 1, "rad": _DEGREES, "mrad": 1e-3 * _DEGREES, "'": 1 / 60},
-    "1/min": {"1/min": 1, "rpm": 1, "rev/min": 1, "r/min": 1, "min^-1": 1, "1/s": 60, "Hz": 60, "rad/s": 30 / math.pi},
-    "sheets/h": {"sheets/h": 1, "1/h": 1, "/h": 1, "sheets/min": 60},
+    "1/min": {"1/min": 1, "rpm": 1, "rev/min": 1, "r/min": 1, "min^-1": 1, "1/s": 60, "Hz": 60, "rad/s": 30 / math.pi}
+    | dict.fromkeys(("sheets/h", "sheet/h", "1/h", "/h"), 1 / 60),
+    "sheets/h": {
+        "sheets/h": 1,
+        "rpm": 60,
+        "rev/min": 60,
+        "r/min": 60,
+        "1/min": 60,
+        "1/h": 1,
+        "/h": 1,
+        "sheets/min": 60,
+    },
     "N": {"N": 1, "kN": 1000},
     "N m": {"Nm": 1, "kNm": 1000, "Nmm": 1e-3},
     "N/mm": {"N/mm": 1, "kN/m": 1, "N/m": 1e-3},
@@ -36,6 +46,8 @@ def without_unit(number: str, written: str, unit: str) -> str:
     Example
         >>> without_unit("5", "cm", "mm"), without_unit("5", "deg", "mm")
         ('keys carry no unit, this one is in mm: write 50', 'keys carry no unit, this one is in mm')
+        >>> without_unit("8000", "sheets/h", "1/min")
+        'keys carry no unit, this one is in 1/min: write 133.3333333 (one sheet each turn)'
     """
     factors = _FACTORS.get(unit, {}) if unit else _own()
     factor = factors.get(written.replace(" ", ""))
@@ -44,7 +56,9 @@ def without_unit(number: str, written: str, unit: str) -> str:
     where = "" if unit in ("", "1") else f", this one is in {unit}"
     if factor is None:
         return f"keys carry no unit{where}"
-    return f"keys carry no unit{where}: write {float(number) * factor:.10g}"
+    turns = written in ("rpm", "rev/min", "r/min", "1/min") if unit == "sheets/h" else written.endswith("/h")
+    each = " (one sheet each turn)" if turns and unit in ("1/min", "sheets/h") else ""
+    return f"keys carry no unit{where}: write {float(number) * factor:.10g}{each}"
 
 
 def _own() -> dict[str, float]:

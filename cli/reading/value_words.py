@@ -38,11 +38,12 @@ _BOUNDS = {
     "multiple_of": ("multiple_of", "a multiple of {}"),
 }
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)", re.ASCII)
+_WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1?/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)", re.ASCII)
 DASHES = ("\u2212", "\u2013", "\u2014")
 _LOOKALIKES = str.maketrans("OolI", "0011")
 _SHOWN_CHARACTERS = 40
 _LONG = 1e6
+_INCH = 25.4
 
 
 def shown(value: Any) -> str:
@@ -95,6 +96,8 @@ def number_remedy(text: str, unit: str = "") -> str:
     Example
         >>> number_remedy("38,8"), number_remedy("5 cm", "mm")
         ('write a decimal point: 38.8', 'keys carry no unit, this one is in mm: write 50')
+        >>> number_remedy("25.4/12", "mm"), number_remedy("DP12", "mm")
+        ('write 2.116666667', 'a diametral pitch counts teeth in an inch: write 2.116666667 (mm)')
     """
     text = text[:200].strip(" ")
     if isinstance(plain_value(text), (int, float)):
@@ -123,8 +126,17 @@ def number_remedy(text: str, unit: str = "") -> str:
         return "write it in decimals"
     if re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9_]*", text):
         return "write the exponent as in 1e3"
+    if quotient := re.fullmatch(rf"({_NUMBER})\s*/\s*({_NUMBER})", text):
+        return _quotient(float(quotient[1]), float(quotient[2]))
+    if unit == "mm" and (pitch := re.fullmatch(rf"DP\s*({_NUMBER})|({_NUMBER})\s*DP", text, re.IGNORECASE)):
+        return f"a diametral pitch counts teeth in an inch: {_quotient(_INCH, float(pitch[1] or pitch[2]))} (mm)"
     found = _WITH_UNIT.fullmatch(text)
     return without_unit(found[1], found[2], unit) if found else ""
+
+
+def _quotient(value: float, divisor: float) -> str:
+    """A quotient in decimals; nothing where there is none."""
+    return f"write {value / divisor:.10g}" if divisor and math.isfinite(value / divisor) else "write it in decimals"
 
 
 def list_remedy(text: str) -> str:

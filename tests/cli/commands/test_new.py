@@ -191,7 +191,12 @@ def test_the_narrower_bound_of_a_side_is_named() -> None:
     assert (ranges["cycle.working"], ranges["dwell_backlash"]) == ("above 0, below 360", "from 1e-09")
 
 
-def test_the_units_of_the_head_line_are_those_of_the_keys(gearlink: Any) -> None:
-    text = gearlink("new", "wide-swing-cam").out
-    assert "1/min" in text.partition("\n\n")[0]
-    assert "rev/min" not in text
+@pytest.mark.parametrize("kind", ["wide-swing-cam", "three-gear-four-bar", "swing-gripper"])
+def test_units_stand_behind_the_keys_and_not_in_the_head_line(gearlink: Any, kind: str) -> None:
+    """It had listed sheets/h, which the speeds of most kinds refuse: 1/min is theirs."""
+    head, _, keys = gearlink("new", kind).out.partition("\n\n")
+    assert "each in the one named behind it" in head
+    assert not re.search(r"\b(mm|deg|min|sheets|kg)\b", head)
+    speed = next(line for line in keys.splitlines() if re.match(r"#? ?(input_)?speed: ", line))
+    assert ("# sheets/h: " if kind == "swing-gripper" else "# 1/min: ") in speed
+    assert "rev/min" not in keys

@@ -416,6 +416,10 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
         ("1e", "write the exponent as in 1e3"),
         ("1e5_0", "write the exponent as in 1e3"),
         ("2O", "a letter stands for a digit: write 20"),
+        ("8000/60", "write 133.3333333"),
+        ("72 / 2", "write 36"),
+        ("1/0", "write it in decimals"),
+        ("DP12", ""),
         ("abc", ""),
         ("", ""),
     ],
@@ -434,6 +438,10 @@ def test_texts_that_were_meant_as_numbers(text: str, remedy: str) -> None:
         ("20°", "deg", ": write 20"),
         ("2 1/s", "1/min", ", this one is in 1/min: write 120"),
         ("60 rev/min", "1/min", ": write 60"),
+        ("8000 sheets/h", "1/min", ", this one is in 1/min: write 133.3333333 (one sheet each turn)"),
+        ("8000/h", "1/min", ", this one is in 1/min: write 133.3333333 (one sheet each turn)"),
+        ("75 rpm", "sheets/h", ", this one is in sheets/h: write 4500 (one sheet each turn)"),
+        ("75 sheets/min", "sheets/h", ", this one is in sheets/h: write 4500"),
         ("1.2 kN m", "N m", ", this one is in N m: write 1200"),
         ("50 %", "1", ": write 0.5"),
         ("3 mm", "1", ""),
@@ -443,6 +451,12 @@ def test_texts_that_were_meant_as_numbers(text: str, remedy: str) -> None:
 def test_a_number_in_another_unit_is_not_told_to_lose_it(text: str, unit: str, remedy: str) -> None:
     """5 cm written as 5 is a wrong machine."""
     assert number_remedy(text, unit) == f"keys carry no unit{remedy}"
+
+
+@pytest.mark.parametrize("text", ["DP12", "12DP", "dp 12", "12 DP"])
+def test_a_diametral_pitch_is_converted(text: str) -> None:
+    """12 teeth for each inch of the reference diameter: a module of 25.4/12 mm."""
+    assert "write 2.116666667 (mm)" in number_remedy(text, "mm")
 
 
 def test_units_are_those_of_the_keys(gearlink: Any, tmp_path: Path) -> None:
