@@ -7,6 +7,7 @@ import re
 import stat
 from contextlib import contextmanager, suppress
 
+from gearlink.cli import process
 from gearlink.cli.printable import visible
 from gearlink.core.errors import GearlinkError
 
@@ -33,10 +34,11 @@ def leave_nothing_behind() -> None:
     """From now on a signal that ends this process first removes the files that it has not finished.
 
     Notes
-        What the parent of the process chose to ignore (nohup) stays ignored. An interrupt unwinds as Python's own.
+        What the parent of the process chose to ignore (nohup) stays ignored.
     """
     import signal  # whose names take longer to make than --version to answer
 
+    process.end_at_interrupt()
     for name in _ENDING:
         number = getattr(signal, name, None)  # not every system has them all
         if number is not None and signal.getsignal(number) == signal.SIG_DFL:
@@ -46,10 +48,17 @@ def leave_nothing_behind() -> None:
 def _end(number: int, _: object) -> None:
     import signal
 
-    for path in tuple(_unfinished):
-        _remove(path)
+    process.do_before_the_end()
     signal.signal(number, signal.SIG_DFL)
     os.kill(os.getpid(), number)
+
+
+def _remove_unfinished() -> None:
+    for path in tuple(_unfinished):
+        _remove(path)
+
+
+process.before_the_end.append(_remove_unfinished)
 
 
 @contextmanager

@@ -1,7 +1,58 @@
-"""Whose the process is: what saves time at the cost of others in it is done only where there are none."""
+"""Whose the process is, and how Ctrl-C ends it.
+
+What saves time at the cost of others in the process is done only where there are none.
+"""
+
+import os
+
+TYPE_CHECKING = False  # as typing has it
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 runs_the_command_alone = False
 """Set by the command's entry point; False where Python code or a notebook has imported gearlink."""
 
 output_is_read = True
 """False once the reader of a pipe on standard output has gone: what is written there from then on is lost."""
+
+before_the_end: "list[Callable[[], None]]" = []
+"""What is done first where a signal ends the process: unfinished files are removed, a line of progress is wiped out."""
+
+_INTERRUPTED = 130
+
+
+def end_at_interrupt() -> None:
+    """From now on Ctrl-C ends this process with status 130 and one line, whatever it is doing.
+
+    Notes
+        Python's own way, an exception, is lost or becomes another error where it meets the loading of a library, a
+        callback of compiled code or of a weak reference. It stays where Python code has imported gearlink; and what
+        the parent of the process chose to ignore (nohup, a script's background) stays ignored.
+    """
+    import _signal  # type: ignore[import-not-found]  # of Python; `signal` takes longer to load than --version to answer
+
+    if _signal.getsignal(_signal.SIGINT) is not _signal.default_int_handler:
+        return
+    own = os.getpid()
+
+    def end(_number: int, _frame: object) -> None:
+        if os.getpid() == own:  # not a process that was forked a moment ago: the files and the word are the parent's
+            do_before_the_end()
+            say_interrupted()
+        os._exit(_INTERRUPTED)
+
+    _signal.signal(_signal.SIGINT, end)
+
+
+def do_before_the_end() -> None:
+    """Call each of `before_the_end`."""
+    for call in tuple(before_the_end):
+        call()
+
+
+def say_interrupted() -> None:
+    """Say so on standard error, past its stream, which may be in the middle of writing."""
+    try:  # noqa: SIM105 - contextlib is not loaded yet, and a signal is no time for it
+        os.write(2, b"interrupted\n")
+    except OSError:
+        pass

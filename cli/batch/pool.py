@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, as_completed
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
+from typing import TypeVar
 
 from gearlink.cli.batch.one_file import outcomes
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import stem_of
+from gearlink.cli.parallel.calm import calm
 from gearlink.cli.parallel.processors import processors
 from gearlink.cli.parallel.workers import workers
 from gearlink.cli.progress import progress
@@ -24,6 +26,8 @@ _WORTH_SECONDS = 0.15
 _TRIED_FIRST = 16
 _CHUNKS_PER_JOB = 32
 _CHUNK_SECONDS = 0.25
+_LOOK_SECONDS = 0.2
+T = TypeVar("T")
 
 
 def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcome], bool]:
@@ -34,18 +38,18 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
         it takes decides whether they do for the rest.
     """
     results: list[Outcome] = []
-    with progress(len(files), "designs", quiet=options.design.quiet) as advance:
-        try:
-            for done, found in _each(files, options):
-                results += found
-                advance(done)
-        except KeyboardInterrupt:
-            return results, True
+    shown = progress(len(files), "designs", quiet=options.design.quiet)
+    with shown as advance, calm() as asked, closing(_each(files, options)) as each:
+        for done, found in each:
+            results += found
+            advance(done)
+            if asked():  # processes are ended at once, this one ends the file that it is at
+                return results, True
     return results, False
 
 
-def _each(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
-    """How many files are finished, and their outcomes, as they come."""
+def _each(files: Sequence[Path], options: BatchOptions) -> Generator[tuple[int, list[Outcome]]]:
+    """How many files are finished, and their outcomes, as they come; none now and then where that takes long."""
     if options.dask:
         yield from _on_cluster(files, options)
         return
@@ -98,8 +102,10 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
                 with suppress(BrokenExecutor):
                     for files in left:
                         given[pool.submit(_chunk, files, options)] = files
-                for future in as_completed(given):
-                    if not isinstance(future.exception(), BrokenExecutor):
+                for future in _as_they_end(given):
+                    if future is None:
+                        yield 0, []
+                    elif not isinstance(future.exception(), BrokenExecutor):
                         finished.add(id(given[future]))
                         yield len(given[future]), future.result()
         except OSError:  # at the first submission, which starts the processes
@@ -113,6 +119,18 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
         left = left[jobs:]
 
 
+def _as_they_end(given: Iterable[Future[T]]) -> Iterator[Future[T] | None]:
+    """Futures as they end, and None where none has for a while."""
+    left = set(given)
+    while left:
+        try:
+            for future in as_completed(left, _LOOK_SECONDS):
+                left.discard(future)
+                yield future
+        except TimeoutError:
+            yield None
+
+
 def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
     """Every file by a worker of a Dask cluster, which must see it under the same path; what it loses, this process
     computes."""
@@ -124,7 +142,10 @@ def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[
             options, out=options.out and options.out.absolute(), cache=options.cache and options.cache.absolute()
         )
         given = {pool.submit(_chunk, [path.absolute()], there): path for path in files}
-        for future in as_completed(given):
+        for future in _as_they_end(given):
+            if future is None:
+                yield 0, []
+                continue
             path = given[future]
             lost = future.exception() is not None
             found = _chunk([path], options) if lost else future.result()

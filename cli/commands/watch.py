@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import signal
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from html import escape
 from pathlib import Path
@@ -68,61 +65,29 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
                 import webbrowser
 
                 webbrowser.open(address)
-            with _ctrl_c_heard() as look:
-                _follow(path, lambda unchanged: _make(source, options, board, sheets, unchanged), options, look)
+            _follow(path, lambda unchanged: _make(source, options, board, sheets, unchanged), options)
     except CannotWrite as error:
         return show_refusal(error, source, options)
     return ExitCode.OK
 
 
-@contextmanager
-def _ctrl_c_heard() -> Iterator[Callable[[], None]]:
-    """Ctrl-C raises KeyboardInterrupt at once; what it gives raises it again, should the first one have been dropped.
-
-    A page is mostly made by libraries, and Python drops what is raised in callbacks of weak references and of compiled
-    code: with words on standard error, which are left out here.
-    """
-    heard: list[int] = []
-
-    def end(number: int, _frame: object) -> None:
-        heard.append(number)
-        raise KeyboardInterrupt
-
-    def look() -> None:
-        if heard:
-            raise KeyboardInterrupt
-
-    if threading.current_thread() is not threading.main_thread():
-        yield look
-        return
-    before, shown = signal.signal(signal.SIGINT, end), sys.unraisablehook
-    sys.unraisablehook = lambda dropped: None if dropped.exc_type is KeyboardInterrupt else shown(dropped)
-    try:
-        yield look
-    finally:
-        sys.unraisablehook = shown
-        signal.signal(signal.SIGINT, before)
-
-
-def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options, look: Callable[[], None]) -> None:
+def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options) -> None:
     """Make the page whenever the file is another; a page in the making is given up for a newer one."""
     seen: Stamp = None
     missing = 0
     while True:
-        look()
         now = _stamp(path)
         missing = missing + 1 if now is None else 0
         if (now == seen and missing == 0) or (missing and missing != _GONE):
             time.sleep(_EVERY)
             continue
         seen, start = now, time.monotonic()
-        words = make(partial(_is_still, path, seen, look))
+        words = make(partial(_is_still, path, seen))
         if words and not options.quiet:
             print(f"{words} ({time.monotonic() - start:.2f} s)", file=sys.stderr, flush=True)
 
 
-def _is_still(path: Path, stamp: Stamp, look: Callable[[], None]) -> bool:
-    look()
+def _is_still(path: Path, stamp: Stamp) -> bool:
     return _stamp(path) in (stamp, None)
 
 

@@ -1,5 +1,13 @@
-"""`python -m gearlink` runs the command, as `gearlink` does."""
+"""`gearlink` and `python -m gearlink` begin here; nothing else imports this module.
 
-from gearlink.cli.main import main
+Ctrl-C is heard before anything large is loaded.
+"""
 
-main()
+from gearlink.cli.process import end_at_interrupt
+
+end_at_interrupt()
+
+from gearlink.cli.main import main  # noqa: E402
+
+if __name__ == "__main__":
+    main()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -12,6 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from gearlink.cli.exploring.store import Kept, Result
+from gearlink.cli.parallel.calm import calm
 from gearlink.cli.parallel.processors import processors
 from gearlink.cli.parallel.workers import workers
 from gearlink.core.explore.chunks import computed, designs_of
@@ -49,7 +48,7 @@ def compute(problem: Problem, todo: Sequence[int], keep: Opened, means: Means, a
         BrokenPromise - where a design ends the process that computes it
     """
     left = list(todo)
-    with _calm() as asked:
+    with calm() as asked:
         if means.executor is None and means.jobs != 1:
             left, seconds = _first(problem, left, keep, advance)
             jobs = means.jobs or (processors() if seconds * len(left) > _WORTH_SECONDS else 1)
@@ -61,20 +60,6 @@ def compute(problem: Problem, todo: Sequence[int], keep: Opened, means: Means, a
         else:
             _elsewhere(problem, left, keep, means, jobs, advance, asked)
     return not asked()
-
-
-@contextmanager
-def _calm() -> Iterator[Callable[[], bool]]:
-    """Ctrl-C only asks for the end: what is being computed is finished and kept."""
-    heard: list[int] = []
-    if threading.current_thread() is not threading.main_thread():
-        yield lambda: False
-        return
-    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
-    try:
-        yield lambda: bool(heard)
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _first(problem: Problem, left: list[int], keep: Opened, advance: Advance) -> tuple[list[int], float]:

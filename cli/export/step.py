@@ -16,6 +16,7 @@ from gearlink.cli.export.header import describe
 from gearlink.cli.export.helicoid import Turning, turning
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
+from gearlink.cli.files import unfinished
 from gearlink.core.errors import GearlinkError
 
 _ARRAYS = {
@@ -214,7 +215,7 @@ class _Occ:
         header.SetName(text(_ascii(name)))
         header.SetTimeStamp(text(_TIME))
         header.SetDescriptionValue(1, text(f"gearlink, design {signature}"))
-        with tempfile.TemporaryDirectory(prefix="gearlink-") as folder:
+        with tempfile.TemporaryDirectory(prefix="gearlink-") as folder, unfinished(folder):
             path = Path(folder) / "part.step"
             writer.Write(str(path))
             return path.read_bytes()

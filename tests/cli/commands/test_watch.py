@@ -29,5 +29,5 @@ def test_a_file_that_stays_away_is_told_once(monkeypatch: pytest.MonkeyPatch, tm
     monkeypatch.setattr(watch, "_EVERY", 0.0)
     monkeypatch.setattr(watch, "_stamp", stamp)
     with pytest.raises(KeyboardInterrupt):
-        watch._follow(path, make, Options(), lambda: None)
+        watch._follow(path, make, Options())
     assert made == [watch._GONE - 5, 200 + watch._GONE - 1, 350]

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import json
-import signal
 import socket
 import struct
-import sys
 import threading
 import time
 import urllib.error
 import urllib.parse
 import urllib.request
-import weakref
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +18,7 @@ from factory import design
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from gearlink.cli.commands.watch import _ctrl_c_heard, _follow, _make, run_watch
+from gearlink.cli.commands.watch import _make, run_watch
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
 from gearlink.cli.page.server import Board, served
@@ -173,29 +169,6 @@ def test_a_newer_file_ends_the_making_of_an_older_page(tmp_path: Path) -> None:
     path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
     assert _make(str(path), Options(), board, Remembered(), lambda: False) == ""
     assert board.news(0, 0.01) is None
-
-
-def test_ctrl_c_ends_the_watch_also_where_a_library_drops_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """What is raised in a callback of compiled code or of a weak reference goes nowhere, KeyboardInterrupt too."""
-    path, before = tmp_path / "pair.yaml", (signal.getsignal(signal.SIGINT), sys.unraisablehook)
-    path.write_text("")
-    dropped = []
-
-    def make(unchanged: Callable[[], bool]) -> str:
-        page = Board()
-        kept = weakref.ref(page, lambda _: signal.raise_signal(signal.SIGINT))
-        del page
-        dropped.append(kept())
-        unchanged()
-        raise AssertionError("not reached")
-
-    with pytest.raises(KeyboardInterrupt), _ctrl_c_heard() as look:
-        _follow(path, make, Options(), look)
-    assert dropped == [None]
-    assert capsys.readouterr().err == ""
-    assert (signal.getsignal(signal.SIGINT), sys.unraisablehook) == before
 
 
 @pytest.mark.parametrize(("source", "words"), [("-", "not standard input"), ("none.yaml", "no such file")])
