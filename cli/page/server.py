@@ -6,7 +6,7 @@ import json
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
@@ -14,8 +14,16 @@ from typing import Any
 from gearlink.cli.files import CannotWrite
 
 LOOPBACK = "127.0.0.1"
+_NAMES = (LOOPBACK, "localhost", "[::1]")
+_HTTP = 80
+"""The port that an address does not name."""
 _HEARTBEAT = 10.0
 """After so many seconds without news a comment tells whether the reader is still there."""
+_PATIENCE = 20.0
+"""A reader who neither asks nor takes what is sent for so many seconds is let go [s]."""
+_MOST_READERS = 64
+"""Each has a thread; a browser opens six at most."""
+_FULL = b"HTTP/1.0 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
 
 
 class Board:
@@ -101,14 +109,40 @@ def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
 
+    def __init__(self, *given: Any) -> None:
+        self._room = threading.BoundedSemaphore(_MOST_READERS)
+        super().__init__(*given)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """A thread for each reader; there are so many and no more."""
+        if not self._room.acquire(blocking=False):
+            with suppress(OSError):
+                request.send(_FULL)
+            self.shutdown_request(request)
+            return
+        try:
+            super().process_request(request, client_address)
+        except BaseException:  # no thread was to be had
+            self._room.release()
+            raise
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """What the thread of a reader does."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._room.release()
+
     def handle_error(self, request: Any, client_address: Any) -> None:
         """A reader who goes away in the middle, of a request or of an answer, is no error."""
-        if not isinstance(sys.exception(), ConnectionError):
+        if not isinstance(sys.exception(), ConnectionError | TimeoutError):
             super().handle_error(request, client_address)
 
 
 def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHandler]:
     class Handler(BaseHTTPRequestHandler):
+        timeout = _PATIENCE
+
         def do_GET(self) -> None:
             """The page, or its events; nothing else, and to nobody who came by another name of this machine."""
             if not self._local():
@@ -124,14 +158,26 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
                 self.send_error(HTTPStatus.NOT_FOUND)
 
         def _local(self) -> bool:
+            """Whether the page is asked for by a name of the loopback address, once, and not by another page.
+
+            A page of elsewhere whose own name was made to mean this machine sends that name.
+            """
             port = self.server.server_address[1]  # type: ignore[index]
-            return self.headers.get("Host", "") in (f"{LOOPBACK}:{port}", f"localhost:{port}")
+            own = {f"{name}:{port}" for name in _NAMES} | (set(_NAMES) if port == _HTTP else set())
+            hosts, origins = (self.headers.get_all(name, []) for name in ("Host", "Origin"))
+            return (
+                len(hosts) == 1
+                and hosts[0].strip().lower() in own
+                and all(origin.strip().lower().removeprefix("http://") in own for origin in origins)
+            )
 
         def _answer(self, data: bytes, kind: str) -> None:
             self.send_response(HTTPStatus.OK)
             self.send_header("Content-Type", kind)
             self.send_header("Content-Length", str(len(data)))
             self.send_header("Cache-Control", "no-store")
+            self.send_header("X-Content-Type-Options", "nosniff")
+            self.send_header("Content-Security-Policy", "frame-ancestors 'none'")  # what the page itself cannot say
             self.end_headers()
             self.wfile.write(data)
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import json
+import re
 import socket
 import struct
 import threading
@@ -10,6 +13,7 @@ import time
 import urllib.error
 import urllib.parse
 import urllib.request
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +25,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from gearlink.cli.commands.watch import _make, run_watch
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
+from gearlink.cli.page import server
+from gearlink.cli.page.sections import whole_page
 from gearlink.cli.page.server import Board, served
 from gearlink.cli.page.sheets import Remembered, sheet
 
@@ -72,6 +78,70 @@ def test_page_and_events_for_this_machine_alone() -> None:
             pass
     with pytest.raises(OSError, match=r".+"):
         urllib.request.urlopen(address, timeout=1)
+
+
+def _status(address: str, path: str, *lines: str) -> int:
+    """Of the answer to a request whose lines are these alone, each with PORT in it replaced."""
+    place = urllib.parse.urlsplit(address)
+    with socket.create_connection((place.hostname, place.port), timeout=5) as reader:
+        asked = "\r\n".join([f"GET {path} HTTP/1.1", *lines, "", ""]).replace("PORT", str(place.port))
+        reader.sendall(asked.encode())
+        return int(reader.makefile("rb").readline().split()[1])
+
+
+@pytest.mark.parametrize(
+    ("lines", "status"),
+    [
+        (["Host: 127.0.0.1:PORT"], 200),
+        (["Host: LOCALHOST:PORT"], 200),
+        (["Host: [::1]:PORT"], 200),
+        (["Host: localhost:PORT", "Origin: http://localhost:PORT"], 200),
+        ([], 403),
+        (["Host: 127.0.0.1"], 403),  # another port, then
+        (["Host: localhost.evil.example:PORT"], 403),
+        (["Host: 127.0.0.1:PORT", "Host: evil.example"], 403),
+        (["Host: localhost:PORT", "Origin: http://evil.example"], 403),
+        (["Host: localhost:PORT", "Origin: null"], 403),
+        (["Host: localhost:PORT", "Origin: http://localhost:1"], 403),
+    ],
+)
+def test_names_of_this_machine(lines: list[str], status: int) -> None:
+    """A name that was made to mean this machine, and a page of elsewhere, are refused: page and events."""
+    board = Board()
+    board.begin("a", [])
+    with served(board, lambda: "shell", 0) as address:
+        assert {_status(address, path, *lines) for path in ("/", "/events")} == {status}
+
+
+def test_so_many_readers_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those who ask for nothing are let go after a while, and their places are free again."""
+    monkeypatch.setattr(server, "_MOST_READERS", 3)
+    monkeypatch.setattr(server, "_PATIENCE", 0.3)
+    with served(Board(), lambda: "shell", 0) as address, ExitStack() as block:
+        place = urllib.parse.urlsplit(address)
+        for _ in range(3):
+            block.enter_context(socket.create_connection((place.hostname, place.port)))
+        began = threading.active_count()
+        while (status := _status(address, "/", "Host: localhost:PORT")) == 200:  # until those three have a thread each
+            time.sleep(0.01)
+        assert status == 503
+        assert threading.active_count() <= began + 3
+        latest = time.monotonic() + 20.0
+        while (status := _status(address, "/", "Host: localhost:PORT")) == 503 and time.monotonic() < latest:
+            time.sleep(0.05)
+        assert status == 200
+
+
+def test_a_page_runs_its_own_script_alone() -> None:
+    """A browser takes the hash of what stands between the tags; what a name smuggled in would have none."""
+    page = whole_page("a", ["<p>b</p>"], "more();")
+    (script,) = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    assert script.endswith("more();")
+    own = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', page)
+    assert f"script-src 'sha256-{own}';" in policy
+    assert policy.startswith("default-src 'none';")
+    assert "script-src 'unsafe" not in policy
 
 
 def _pieces(board: Board) -> dict[str, Any]:
