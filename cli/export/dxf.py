@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,11 @@ _COLORS = {"PROFILE": 7, "PITCH_CURVE": 4, "CENTER": 1, "TEXT": 8}
 _CONSTRUCTION = 3
 _DASHED = {"PITCH_CURVE": "CENTER", "CENTER": "CENTER"}
 _MM = 4
+_OF_HOME = {
+    "XDG_CONFIG_HOME": ("~/.config", "ezdxf.ini"),
+    "XDG_CACHE_HOME": ("~/.cache", "font_manager_cache.json"),
+}
+"""What ezdxf reads in the user's home, by the variable that names another place for it."""
 
 
 class NoDxf(GearlinkError):
@@ -68,10 +74,35 @@ def as_dxf(contour: Contour, spec: Any) -> bytes:
 
 
 @contextmanager
+def _home_that_can_be_read() -> Iterator[None]:
+    """While ezdxf is loaded, it looks for its settings and its list of fonts in the user's home.
+
+    A service and `sudo -u` run with the home of somebody else, in which they may not look, and ezdxf would not load. It
+    does without files that are not there, so it is sent to a place that has none. Of folders of fonts it prints.
+    """
+    before = {name: os.environ.get(name) for name in _OF_HOME}
+    for name, (folder, file) in _OF_HOME.items():
+        try:
+            os.stat(os.path.join(before[name] or os.path.expanduser(folder), "ezdxf", file))
+        except PermissionError:
+            os.environ[name] = os.devnull
+        except OSError:
+            pass  # there is none
+    try:
+        with redirect_stdout(io.StringIO()):
+            yield
+    finally:
+        for name, value in before.items():
+            os.environ.pop(name, None)
+            if value is not None:
+                os.environ[name] = value
+
+
+@contextmanager
 def _ezdxf() -> Iterator[Any]:
     """ezdxf, writing no dates and no random identities as long as it is used here."""
     try:
-        with without_notes("ezdxf"):
+        with without_notes("ezdxf"), _home_that_can_be_read():
             ezdxf: Any = import_module("ezdxf")
     except ImportError as error:
         raise NoDxf("DXF needs the library ezdxf: pip install ezdxf, or take --as svg or csv") from error

@@ -300,6 +300,28 @@ def test_without_the_dxf_library(gearlink: Any, tmp_path: Path, monkeypatch: pyt
     assert gearlink("export", GEARS, "--as", "svg", "--as", "csv", "--tolerance", 0.1, "--out", tmp_path).status == 0
 
 
+def test_a_home_that_may_not_be_looked_into(tmp_path: Path) -> None:
+    """That of a service. The administrator may look everywhere, so the system's answer is planted."""
+    code = (
+        "import os, sys\n"
+        "from gearlink.cli.main import run\n"
+        "real, folder = os.stat, sys.argv[1]\n"
+        "def stat(path, *rest, **more):\n"
+        "    if str(path).startswith(folder):\n"
+        "        raise PermissionError(13, 'Permission denied', str(path))\n"
+        "    return real(path, *rest, **more)\n"
+        "os.stat = stat\n"
+        "sys.exit(run(sys.argv[2:]))"
+    )
+    line = ["export", str(GEARS), "--as", "dxf", "--tolerance", "0.1", "--out", str(tmp_path / "out")]
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("XDG_")}
+    environment["HOME"] = str(tmp_path / "home")
+    command = [sys.executable, "-c", code, environment["HOME"], *line]
+    ended = subprocess.run(command, capture_output=True, text=True, env=environment, check=False, timeout=60)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert len(ended.stdout.splitlines()) == len(list((tmp_path / "out").glob("*.dxf"))) == 2
+
+
 def test_a_full_disk_leaves_nothing(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
