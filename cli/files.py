@@ -24,6 +24,7 @@ class CannotWrite(GearlinkError):
 
 _unfinished: set[str] = set()
 _in_place_of_others: set[str] = set()
+_DESCRIPTORS = "/proc/self/fd"
 _ENDING = (
     *("SIGHUP", "SIGQUIT", "SIGABRT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU"),
     *("SIGVTALRM", "SIGPROF", "SIGIO", "SIGPWR", "SIGSTKFLT"),
@@ -119,7 +120,7 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with unfinished(temporary):
-            with open(temporary, "xb") as stream:
+            with _filled(temporary) as stream:
                 write(stream)
             differs = _differ(temporary, path)
             os.replace(temporary, path)
@@ -128,6 +129,30 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
         raise CannotWrite(f"cannot write {path}: {path.parent} is no folder") from error
     except OSError as error:
         raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
+
+
+@contextmanager
+def _filled(path: str) -> Iterator[IO[bytes]]:
+    """A stream into a new file, which has its name once the block has ended; whatever ends the process, until then
+    nothing is left of it. Where the system has no files without a name, it has its name from the beginning."""
+    descriptor = _without_name(os.path.dirname(path) or os.curdir)
+    if descriptor is None:
+        with open(path, "xb") as stream:
+            yield stream
+        return
+    with open(descriptor, "wb") as stream:
+        yield stream
+        stream.flush()
+        # Python follows the link, which gives the name, only where a folder is named as well.
+        os.link(f"{_DESCRIPTORS}/{descriptor}", path, src_dir_fd=descriptor)
+
+
+def _without_name(folder: str) -> int | None:
+    """Descriptor of a new file that no folder shows (Linux, on most of its file systems)."""
+    if hasattr(os, "O_TMPFILE") and os.path.isdir(_DESCRIPTORS):
+        with suppress(OSError):
+            return os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
+    return None
 
 
 def _differ(new: str, old: Path) -> bool:

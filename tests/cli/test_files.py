@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -68,3 +69,18 @@ def test_a_name_never_decides_a_path(name: str, stem: str) -> None:
 def test_no_file_has_the_name_of_a_device(name: str, stem: str) -> None:
     """Of Windows, which takes the part before the first dot for the device whatever follows."""
     assert safe_stem(name) == stem
+
+
+@pytest.mark.parametrize("nameless", [True, False])
+def test_a_new_file_is_as_the_mask_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, nameless: bool) -> None:
+    if not nameless:
+        monkeypatch.delattr(os, "O_TMPFILE", raising=False)
+    before = os.umask(0o027)
+    try:
+        write_atomically(tmp_path / "a.txt", lambda stream: stream.write(b"whole"))
+        write_atomically(tmp_path / "a.txt", lambda stream: stream.write(b"again"))
+    finally:
+        os.umask(before)
+    assert (tmp_path / "a.txt").read_bytes() == b"again"
+    assert os.name == "nt" or (tmp_path / "a.txt").stat().st_mode & 0o777 == 0o640
+    assert len(list(tmp_path.iterdir())) == 1

@@ -5,6 +5,7 @@ No tolerances: exit statuses and words.
 
 from __future__ import annotations
 
+import os
 import random
 import re
 import signal
@@ -19,6 +20,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli import process
+from gearlink.cli.files import _without_name
 from gearlink.cli.parallel.calm import calm
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
@@ -47,14 +49,19 @@ from gearlink.__main__ import main
 main()
 """
 WRITING = """
-import signal, sys
+import os, signal, sys
 from pathlib import Path
 from gearlink.cli.files import leave_nothing_behind, write_atomically
 
 def fill(stream):
+    stream.write(bytes(100_000))
+    if sys.argv[2] == "KILL":
+        os.kill(os.getpid(), signal.SIGKILL)
     assert len(list(Path(sys.argv[1]).parent.iterdir())) == 1
     signal.raise_signal(signal.SIGINT)
 
+if sys.argv[2] == "INT" and hasattr(os, "O_TMPFILE"):
+    del os.O_TMPFILE  # as on systems that have none: the file has its name from the beginning
 leave_nothing_behind()
 write_atomically(Path(sys.argv[1]), fill)
 """
@@ -87,7 +94,15 @@ def test_while_libraries_load(designs: Path, module: str, lost: bool) -> None:
 
 
 def test_an_unfinished_file_is_removed(tmp_path: Path) -> None:
-    assert ended(WRITING, str(tmp_path / "a.txt")) == (130, "", "interrupted\n")
+    assert ended(WRITING, str(tmp_path / "a.txt"), "INT") == (130, "", "interrupted\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_of_an_unfinished_file_nothing_is_left_by_a_kill(tmp_path: Path) -> None:
+    if (made := _without_name(str(tmp_path))) is None:
+        pytest.skip("this file system has no files without a name")
+    os.close(made)
+    assert ended(WRITING, str(tmp_path / "a.txt"), "KILL") == (-signal.SIGKILL, "", "")
     assert not list(tmp_path.iterdir())
 
 
