@@ -11,6 +11,7 @@ from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whol
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
@@ -44,10 +45,11 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
             from gearlink.cli.moving.video import ffmpeg
 
             ffmpeg()
-        design, scene = _scene(source, asked, options)
-        stage = _stage(design, scene, width, height)
-        path = options.out / f"{safe_stem(design.spec.name)}-motion.{asked.format}"
-        write_atomically(path, lambda stream: _write(stream, stage, asked, options))
+        with patience(f"drawing {source}", quiet=options.quiet):
+            design, scene = _scene(source, asked, options)
+            stage = _stage(design, scene, width, height)
+            path = options.out / f"{safe_stem(design.spec.name)}-motion.{asked.format}"
+            write_atomically(path, lambda stream: _write(stream, stage, asked, options))
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:

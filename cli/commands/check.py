@@ -13,7 +13,7 @@ from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refu
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.parallel.processors import processors
-from gearlink.cli.patience import patience
+from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
@@ -43,10 +43,9 @@ def run_check(places: Sequence[str], options: Options, *, verbose: bool = False)
 
         return show_refusal(error, "", options)
     found, of_files = [], _of_all(files, options)
-    for number, file in enumerate(files, start=1):
-        share = f" ({number} of {len(files)})" if len(files) > 1 else ""
-        with patience(f"checking {file}{share}", quiet=options.quiet):
-            found += next(of_files)
+    words = f"checking {files[0]}" if len(files) == 1 else "checking"
+    for _ in counted(range(len(files)), words, quiet=options.quiet):
+        found += next(of_files)
     worst = max((finding.exit_status(strict=options.strict) for finding in found), default=ExitCode.OK)
     show_findings(found, len(files), options, ok=worst == ExitCode.OK, verbose=verbose)
     return worst

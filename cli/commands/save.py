@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import require_free, stem_of, write_atomically
 from gearlink.cli.options import STREAM
+from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -59,9 +60,10 @@ def save(
         CannotWrite - where the file is there already, or the disk does not take it
     """
     assert options.save is not None
-    text = complete(loaded, kind, command, design, options.save, options.round, changes)
     again = "analyze" if "analyze" in kind.commands else command
-    rounded = _as_rounded(kind, again, text, options)
+    with patience("computing what is saved", quiet=options.quiet):
+        text = complete(loaded, kind, command, design, options.save, options.round, changes)
+        rounded = _as_rounded(kind, again, text, options)
     if options.save == STREAM:
         sys.stdout.write(text)
     else:

@@ -12,6 +12,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
+from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import named
@@ -29,7 +30,9 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
             made = sheets_of(whole_design(kind, spec))
-            paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
+            chosen, paths = _chosen(made, names, kind.name), []
+            for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
+                paths.append(_write(made, chosen[number], spec, options))
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:

@@ -17,6 +17,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import STREAM, Format, Options
+from gearlink.cli.patience import patience
 from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
@@ -56,8 +57,9 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec = read_spec(loaded, kind, source)
-        repaired, changes = repair(kind, command, spec, strict=options.strict)
-        design, report = build(loaded, kind, command, repaired, options)
+        with patience(f"seeking changes with which {spec.name} holds", quiet=options.quiet):
+            repaired, changes = repair(kind, command, spec, strict=options.strict)
+            design, report = build(loaded, kind, command, repaired, options)
         if options.plot:
             plot(command, design, options, report)
         if options.save is not None:

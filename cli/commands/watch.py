@@ -14,6 +14,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
@@ -82,7 +83,8 @@ def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Opti
             time.sleep(_EVERY)
             continue
         seen, start = now, time.monotonic()
-        words = make(partial(_is_still, path, seen))
+        with patience(f"making the page of {path.name}", quiet=options.quiet):
+            words = make(partial(_is_still, path, seen))
         if words and not options.quiet:
             print(f"{words} ({time.monotonic() - start:.2f} s)", file=sys.stderr, flush=True)
 

@@ -24,6 +24,7 @@ from gearlink.cli.exploring.store import (
 )
 from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import Format
+from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
@@ -167,7 +168,8 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
             raise CannotStore("GL159", text)
         _tell(text, asked)
         return ExitCode.OK
-    found = Found.of(made, together(made, chunks_of(kept, made)))
+    with patience("putting the designs together", quiet=asked.options.quiet):
+        found = Found.of(made, together(made, chunks_of(kept, made)))
     if asked.show:
         from gearlink.cli.exploring.designs import show
 
@@ -176,7 +178,8 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
 
 
 def _print(study: Exploration, asked: Exploring) -> int:
-    report = study.report("explore")
+    with patience("computing the results of the study", quiet=asked.options.quiet):
+        report = study.report("explore")
     if asked.write is not None:
         from gearlink.cli.exploring.designs import write
 

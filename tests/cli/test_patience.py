@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from gearlink.cli import patience as module
+from gearlink.cli import progress as module
 from gearlink.cli.patience import patience
 
 
@@ -15,13 +15,15 @@ class Terminal(io.StringIO):
 
 
 @pytest.mark.parametrize(("stream", "quiet", "wait", "said"), [
-    (Terminal(), False, 0.3, "drawing ...\r\033[K"),
+    (Terminal(), False, 0.3, "drawing ... 0 s\r\033[K"),
     (Terminal(), False, 0.0, ""),
     (Terminal(), True, 0.3, ""),
     (io.StringIO(), False, 0.3, ""),
 ])  # fmt: skip
 def test_words_come_late_and_go(monkeypatch, stream, quiet, wait, said):
     monkeypatch.setattr(module, "_AFTER", 0.1)
+    monkeypatch.setattr(module, "_EVERY", 0.02)
+    monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr("sys.stderr", stream)
     with patience("drawing", quiet=quiet):
         time.sleep(wait)
@@ -31,6 +33,8 @@ def test_words_come_late_and_go(monkeypatch, stream, quiet, wait, said):
 def test_words_are_taken_back_where_the_work_fails(monkeypatch):
     stream = Terminal()
     monkeypatch.setattr(module, "_AFTER", 0.01)
+    monkeypatch.setattr(module, "_EVERY", 0.01)
+    monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr("sys.stderr", stream)
 
     def fails():
