@@ -77,11 +77,12 @@ class Maker(Protocol):
         command : whose checks are wanted
         paths : keys that will be varied
         quantities : names that are wanted, those of lists with their index
-        codes : of the checks that are wanted; findings of others are of no use, and refuse no design
+        checks : names of the checks that are wanted; findings of others are of no use, and refuse no design. Where
+            the form does not judge one of them as the class does, it cannot serve
     """
 
     def __call__(
-        self, spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], codes: Sequence[str]
+        self, spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], checks: Sequence[str]
     ) -> Axis | None: ...
 
 

@@ -80,7 +80,8 @@ class Problem:
             return None
         paths = [path for variable in self.variables for path in (variable.path, *variable.also)]
         served = all(numeric(variable) for variable in self.variables)
-        return make(self.base.spec(), self.base.command, paths, self.names, self.must_pass) if served else None
+        checks = [name for code in self.must_pass for name in self.base.codes[code]]
+        return make(self.base.spec(), self.base.command, paths, self.names, checks) if served else None
 
     @property
     def chunk_size(self) -> int:

@@ -15,6 +15,9 @@ import numpy as np
 from gearlink.core.design_axis import Evaluated, Findings, kept_inside
 from gearlink.core.gears.checks import GEAR_QUANTITIES, measured, most_sliding
 from gearlink.core.gears.codes import (
+    AT_LIMITS,
+    BACKLASH,
+    BENDING,
     CONTACT_RATIO,
     FILLET,
     INSPECTION,
@@ -76,24 +79,34 @@ _TIP_RULES = (TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, FILLET, SLIDING, PITTI
 _TIP_RULES_OF_RING = (*_TIP_RULES, TIP_FOULING)
 _OF_EACH = (UNDERCUT, TIP_THICKNESS, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM)
 _LENGTHS = (INTERFERENCE, TOOTH_FORM)
+_WITHOUT = (BACKLASH, PITTING, BENDING)
+"""They find nothing where there are no allowances and no load, nor do those of AT_LIMITS."""
+_CODES = {
+    **{
+        rule.name: rule.code for rule in (*_OF_EACH, CONTACT_RATIO, TIP_FOULING, FILLET, SLIDING, INSPECTION, *_WITHOUT)
+    },
+    "radial-assembly": TIP_FOULING.code,
+    **dict.fromkeys(AT_LIMITS, ""),
+}
+"""The checks that are judged as the class judges them, with the codes that findings have here."""
 _NEAR = 1e-9
 
 
 def axis(
-    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], codes: Sequence[str]
+    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], checks: Sequence[str]
 ) -> GearPairAxis | None:
     """The array form of a study of gear pairs; None where the design class has to serve.
 
     Parameters
-        spec, command, paths, quantities, codes : as of `core.design_axis.Maker`
+        spec, command, paths, quantities, checks : as of `core.design_axis.Maker`
     """
-    if command not in ("gear", "analyze") or not _served(spec, paths):
+    if command not in ("gear", "analyze") or not set(checks) <= _CODES.keys() or not _served(spec, paths):
         return None
     names = {*GEAR_QUANTITIES, *_OF_DRAWING, *(() if spec.face_width is None else _OF_WIDTH)}
     names |= set(_OF_RING) if _internal(spec) else set()
     if not {name.partition("[")[0] for name in quantities} <= names:
         return None
-    made = GearPairAxis(spec, tuple(quantities), frozenset(codes))
+    made = GearPairAxis(spec, tuple(quantities), frozenset(_CODES[name] for name in checks))
     one = made.evaluate({path: np.array([number_at(spec, path)], dtype=float) for path in _TEETH})
     return made if all(values.ndim == 1 for values in one.quantities.values()) else None
 

@@ -37,6 +37,8 @@ _DOMAIN = {
     "limits.transmission_angle": (0.0, 90.0, 40.0),
 }
 """Keys that may vary: least and greatest value computed here, and one that stands in for others."""
+_CHECKS: dict[str, set[str]] = {"crank": set(), "analyze": {TRANSMISSION_ANGLE.name}}
+"""Commands that are served, with the checks that are judged here."""
 _POOR = 5.0
 _NEAR = 1e-9
 _BARELY = 1e-6
@@ -44,15 +46,16 @@ _BLOCK = 64
 
 
 def axis(
-    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], _codes: Sequence[str]
+    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], checks: Sequence[str]
 ) -> SliderCrankAxis | None:
     """The array form of a study of slider-cranks; None where the design class has to serve.
 
     Parameters
-        spec, command, paths, quantities, _codes : as of `core.design_axis.Maker`
+        spec, command, paths, quantities, checks : as of `core.design_axis.Maker`
     """
     sizes = [name for name in ("stroke", "crank") if getattr(spec, name) is not None or name in paths]
-    served = command in ("crank", "analyze") and set(paths) <= _DOMAIN.keys() and len(sizes) == 1
+    served = command in _CHECKS and set(paths) <= _DOMAIN.keys() and len(sizes) == 1
+    served = served and set(checks) <= _CHECKS[command]
     if not served or not set(quantities) <= {*SliderCrankDesign.outlines["analyze"].quantities}:
         return None
     return SliderCrankAxis(spec, command, tuple(quantities))

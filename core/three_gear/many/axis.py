@@ -32,6 +32,20 @@ _TASKS: dict[str, tuple[str, type[Batch]]] = {
     "synth momentary-dwell": ("momentary", Momentary),
     "analyze": ("links", Analysis),
 }
+_CHECKS = (
+    *("undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance", "sliding", "tooth-form"),
+    *("gear-collision", "shaft-clearance", "shaft-seat", "transmission-angle", "rounded-ratio", "dwell-tolerance"),
+    *("tip-fouling", "ring-tips"),  # of rings, which are left to the class
+)
+"""Names of the checks that are judged here, and of those that find nothing on the designs that are served."""
+_CHECKS_OF = {
+    "synth dwell": ("back-step", "dwell-window", "dwell-edge"),
+    "synth back-step": ("back-step-target",),
+    "synth variable-speed": (),
+    "synth momentary-dwell": (),
+    "analyze": ("dwell-window",),
+}
+"""Those of a task besides."""
 _DOMAIN = {path: (1.0, float(MOST_TEETH), 20.0) for path in TEETH} | {
     "gears.module": (1e-6, 1e6, 1.0),
     "dwell_tolerance": (1e-6, 360.0, 1.0),
@@ -49,14 +63,16 @@ _OTHERS = {
 
 
 def axis(
-    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], _codes: Sequence[str]
+    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], checks: Sequence[str]
 ) -> ThreeGearAxis | None:
     """The array form of a study of three-gear four-bars; None where the design classes have to serve.
 
     Parameters
-        spec, command, paths, quantities, _codes : as of `core.design_axis.Maker`
+        spec, command, paths, quantities, checks : as of `core.design_axis.Maker`
     """
-    if command not in _TASKS or not _served(spec, command, paths):
+    if command not in _TASKS or not set(checks) <= {*_CHECKS, *_CHECKS_OF[command]}:
+        return None
+    if not _served(spec, command, paths):
         return None
     made = ThreeGearAxis(spec, command, tuple(quantities))
     one = made.batch({path: np.array([20.0]) for path in TEETH})

@@ -13,9 +13,12 @@ from typing import Any
 import factory
 import pytest
 
+from gearlink.core.codes import rules
 from gearlink.core.errors import NoSolution
 from gearlink.core.explore import front
 from gearlink.core.explore.exploration import Exploration
+from gearlink.core.explore.one_by_one import single
+from gearlink.core.report import Check, Rule, Status
 from gearlink.core.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.study.spec import StudySpec
 
@@ -283,7 +286,6 @@ def test_a_design_that_its_own_class_sees_otherwise_is_a_fault_of_the_program(
     found = study(
         variables={"gears.idler": {"values": [72]}}, minimize={"frame_length": "1 mm"}, checks={"must_pass": "none"}
     )
-    single = front.single
     monkeypatch.setattr(front, "single", lambda base, _, *asked: single(base, [*other.items()], *asked))
     with pytest.raises(BrokenPromise, match=f"GL160: design 0 {words}"):
         _ = found.found.rows
@@ -297,3 +299,59 @@ def test_what_the_base_fails_is_said_to_be_left_out() -> None:
     assert (left.feasible, left.problem.waived) == (2, ("GL301",))
     assert "everything but GL301, which the base fails" in left.check("feasible-designs")[0].message
     assert (asked.feasible, asked.problem.asked) == (1, "everything")
+
+
+_NEW_CHECKS = {
+    "three-gear-four-bar": (
+        {"design": FEED, "command": "synth dwell", "variables": {"gears.idler": {"from": 60, "to": 90}}},
+        "frame_length",
+    ),
+    "gear-pair": (
+        {
+            "design": {"kind": "gear-pair", "module": 2, "teeth": [20, 40], "profile_shift": [0.2, 0.1]},
+            "command": "gear",
+            "variables": {"teeth[1]": {"from": 40, "to": 60}},
+        },
+        "center_distance",
+    ),
+    "slider-crank": (
+        {
+            "design": {"kind": "slider-crank", "stroke": 300, "rod": 500},
+            "command": "crank",
+            "variables": {"stroke": {"from": 200, "to": 300, "step": 10}},
+        },
+        "crank_length",
+    ),
+}
+
+
+@pytest.mark.parametrize("code", ["GL399", "GL303"])
+@pytest.mark.parametrize("kind", _NEW_CHECKS)
+def test_a_check_that_no_array_form_knows_is_judged_by_the_class(
+    kind: str, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A check new to the class, under a code of its own or beside others under one; the plain way is the other one."""
+    keys, quantity = _NEW_CHECKS[kind]
+    made = study(minimize={quantity: 1e-6}, **keys).problem
+    values = [single(made.base, made.changes_of(i), [quantity], ()).values[quantity] for i in range(made.order.count)]
+    limit = sorted(values)[len(values) // 2]
+    assert made.axis is not None, "else the test tests nothing"
+    rule = rules().get(code, Rule(code, "new", "", "", ""))
+    rule = rule._replace(checks=(*rule.checks, "new"))
+
+    command, owner = made.base.command, type(made.base.design())
+    outline, check = owner.outlines[command], owner.check
+
+    def with_new(design: Any, name: str) -> list[Check]:
+        value = getattr(design, quantity)
+        status: Status = "pass" if value >= limit else "fail"
+        return [rule.check(status, "", value, limit, "mm", name=name)] if name == "new" else check(design, name)
+
+    monkeypatch.setitem(rules(), code, rule)
+    monkeypatch.setattr(owner, "check", with_new)
+    new = outline._replace(checks=(*outline.checks, "new"))
+    monkeypatch.setattr(owner, "outlines", {**owner.outlines, command: new})
+    found = study(minimize={quantity: 1e-6}, checks={"must_pass": "all"}, **keys)
+    assert found.problem.axis is None
+    assert found.feasible == sum(value >= limit for value in values)
+    assert found.found.rows[0].figures[0] == limit
