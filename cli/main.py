@@ -41,14 +41,15 @@ def _prepare_process() -> None:
     """Leave out what costs time at the start of a process and serves nothing here.
 
     The collector would walk the modules and the parts of a picture over and over while they are made: a twelfth of
-    a report's time; a batch and a machine's forces call it themselves once there is something to free. And pydantic
+    a report's time; workers, studies and samples collect as Python does, a batch and a machine's forces call it
+    themselves once there is something to free. And pydantic
     would read the metadata of every installed package in search of plug-ins. Pictures are drawn into files,
     whatever backend the user's environment names, and a wrong name must not keep matplotlib from loading. The
     matrices here are too small for threads, and those of OpenBLAS wait for ever where the memory of the process is
     limited. A size of the terminal that is no size counts as none.
     """
     process.runs_the_command_alone = True
-    gc.set_threshold(400_000, 20, 100)
+    process.collect_rarely()
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ["MPLBACKEND"] = "agg"

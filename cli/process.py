@@ -3,6 +3,7 @@
 What saves time at the cost of others in the process is done only where there are none.
 """
 
+import gc
 import os
 
 TYPE_CHECKING = False  # as typing has it
@@ -56,3 +57,32 @@ def say_interrupted() -> None:
         os.write(2, b"interrupted\n")
     except OSError:
         pass
+
+
+_RARELY = (400_000, 20, 100)
+_pythons: "tuple[int, int, int] | None" = None
+"""The collector's thresholds before `collect_rarely`."""
+
+
+def collect_rarely() -> None:
+    """Let the collector look for garbage after many more objects than Python has it."""
+    global _pythons
+    _pythons = gc.get_threshold()
+    gc.set_threshold(*_RARELY)
+
+
+def collect_as_python_does() -> None:
+    """Take back `collect_rarely`: objects that know each other may be few and hold many MB."""
+    if _pythons is not None:
+        gc.set_threshold(*_pythons)
+
+
+class WhileMuchIsComputed:
+    """Collect as Python does as long as designs are computed, one after the other."""
+
+    def __enter__(self) -> None:
+        self._before = gc.get_threshold()
+        collect_as_python_does()
+
+    def __exit__(self, *_: object) -> None:
+        gc.set_threshold(*self._before)

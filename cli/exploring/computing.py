@@ -13,6 +13,7 @@ from gearlink.cli.exploring.store import Kept, Result
 from gearlink.cli.parallel.calm import calm
 from gearlink.cli.parallel.processors import processors
 from gearlink.cli.parallel.workers import workers
+from gearlink.cli.process import WhileMuchIsComputed
 from gearlink.core.explore.chunks import computed, designs_of
 from gearlink.core.explore.problem import Problem
 from gearlink.core.study.faults import BrokenPromise
@@ -72,7 +73,7 @@ def _first(problem: Problem, left: list[int], keep: Opened, advance: Advance) ->
 
 
 def _here(problem: Problem, todo: Sequence[int], keep: Opened, advance: Advance, asked: Callable[[], bool]) -> None:
-    with keep() as kept:
+    with keep() as kept, WhileMuchIsComputed():
         for number in todo:
             if asked():
                 return

@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from gearlink.cli.parallel.processors import processors
+from gearlink.cli.process import WhileMuchIsComputed
 from gearlink.cli.progress import progress
 
 _WORTH_SECONDS = 1.0
@@ -69,9 +70,10 @@ def _on_executor(
 
 def _here(function: Callable[[int], Any], numbers: Sequence[int], advance: Advance) -> list[Any]:
     found = []
-    for number in numbers:
-        found.append(function(number))
-        advance(1)
+    with WhileMuchIsComputed():
+        for number in numbers:
+            found.append(function(number))
+            advance(1)
     return found
 
 

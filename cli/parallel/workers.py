@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -16,6 +17,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any, ParamSpec, TypeVar
 
 from gearlink.cli.files import leave_nothing_behind
+from gearlink.cli.process import collect_as_python_does
 
 _GRACE_SECONDS = 1.0
 _AGAIN_SECONDS = 0.05
@@ -122,7 +124,12 @@ def _status(process: BaseProcess) -> int:
 
 
 def _begin() -> None:
-    """The parent alone answers Ctrl-C, so that no worker prints of it; and its end is a worker's."""
+    """The parent alone answers Ctrl-C, so that no worker prints of it; and its end is a worker's.
+
+    What the parent has loaded is no garbage: the collector, which shall look often, need not walk it.
+    """
+    gc.freeze()
+    collect_as_python_does()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     leave_nothing_behind()
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -112,11 +112,12 @@ class TipCorners(TipCorner):
         if near.size < _FEW:
             return self, slice(None)
         places = np.flatnonzero(near)
-
-        def part(value: Any) -> Any:
-            if isinstance(value, tuple):
-                return tuple(map(part, value))
-            return np.broadcast_to(value, near.shape)[places] if isinstance(value, np.ndarray) else value
-
-        given = {field.name: part(getattr(self.pair, field.name)) for field in fields(self.pair)}
+        given = {field.name: _part(getattr(self.pair, field.name), near.shape, places) for field in fields(self.pair)}
         return TipCorners(type(self.pair)(**given), self.gear), places
+
+
+def _part(value: Any, shape: tuple[int, ...], places: Any) -> Any:
+    """The values at some places of an array, or of each of a tuple; a number stays."""
+    if isinstance(value, tuple):
+        return tuple(_part(each, shape, places) for each in value)
+    return np.broadcast_to(value, shape)[places] if isinstance(value, np.ndarray) else value

@@ -188,9 +188,13 @@ class Batch:
         tips = tip_radius(self.z1, self.module) + tip_radius(self.z5, self.module)  # type: ignore[arg-type]
         return np.abs(frame - crank) - tips
 
-    @cached_property
+    @property
     def plain(self) -> dict[str, Callable[[], Any]]:
-        """The quantities that this form has but for those of meshes, in the units of design files."""
+        """The quantities that this form has but for those of meshes, in the units of design files.
+
+        Notes
+            Not kept: each function knows the batch, and a batch that knew them would not be freed with its last user.
+        """
         degrees = np.degrees
         return {
             "i3": lambda: -self.z3 / self.z5,
@@ -364,9 +368,9 @@ class Batch:
     def evaluated(self, outside: Mask) -> Evaluated:
         """All that a study asks for; what lies outside is left to the class."""
         gone = ~self.exists
-        found = {}
+        found, plain = {}, self.plain
         for name in self.wanted:
-            value = self.plain[name]() if name in self.plain else self.mesh_quantity(name)
+            value = plain[name]() if name in plain else self.mesh_quantity(name)
             empty: Any = "" if value.dtype.kind == "U" else np.nan
             found[name] = np.where(gone, empty, value)
         findings = [_without(each, gone) for each in self.findings()]

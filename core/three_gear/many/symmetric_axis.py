@@ -244,7 +244,7 @@ class Windows(Symmetric):
             longest[good] = many.longest_window(self.n[good], h)
         return longest
 
-    @cached_property
+    @property
     def plain(self) -> dict[str, Callable[[], Any]]:
         """With what a window has."""
         own = {"dwell_tolerance": lambda: np.degrees(0.5 * self.back_step[0])}

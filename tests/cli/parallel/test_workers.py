@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import itertools
 import os
 import signal
@@ -17,6 +18,8 @@ from types import SimpleNamespace
 import pytest
 from sweeps import mostly_slow
 
+from gearlink.cli import process
+from gearlink.cli.parallel import shares
 from gearlink.cli.parallel.workers import _close_by_one, _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
@@ -234,3 +237,19 @@ def test_a_connection_is_closed_by_one_thread_alone() -> None:
         reader.close()
         assert writer.closed
     assert not wrong
+
+
+def test_workers_collect_as_python_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command itself hardly ever collects; workers that did likewise grew by 1.9 MB with every chunk of a study."""
+    pythons = (701, 11, 9)  # odd ones, which nothing else sets
+    monkeypatch.setattr(process, "_pythons", pythons)
+    with workers(1) as pool:
+        assert pool.submit(gc.get_threshold).result() == pythons
+    assert gc.get_threshold() != pythons
+
+
+def test_this_process_collects_as_python_does_while_it_computes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "_pythons", (701, 11, 9))
+    before = gc.get_threshold()
+    assert shares._in_processes(lambda _: gc.get_threshold(), [1, 2], 1, lambda _: None) == [(701, 11, 9)] * 2
+    assert gc.get_threshold() == before
