@@ -27,7 +27,6 @@ Samples = Annotated[
 ]
 Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
 
-Factory = Annotated[str, typer.Option("--executor", metavar="MODULE:FACTORY", help="what makes an executor")]
 Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on this scheduler's Dask cluster")]
 
 
@@ -58,7 +57,6 @@ def _tolerance(
         bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
     ] = False,
     jobs: Jobs = 0,
-    executor: Factory = "",
     dask: Scheduler = "",
 ) -> None:
     """Yield of a design as made: spreads, capabilities, and which tolerance contributes what.
@@ -73,7 +71,7 @@ def _tolerance(
     options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed, "--sobol": sobol or None})
     added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
     options = options._replace(tables=(*options.tables, *added))
-    with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
+    with shares_by(jobs, dask, words="samples", quiet=options.quiet):
         raise typer.Exit(run_design("tolerance", spec, options))
 
 
@@ -94,7 +92,6 @@ def _register(
     samples: Samples = None,
     seed: Seed = None,
     jobs: Jobs = 0,
-    executor: Factory = "",
     dask: Scheduler = "",
 ) -> None:
     """Register: what play, pitch error and the other errors of the parts cost at the print, by source.
@@ -109,5 +106,5 @@ def _register(
     place = None if at is None else _place(at)
     options = keyed(options, "register", {"--at": place, "--method": method and method.value, "--radius": radius})
     options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed})
-    with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
+    with shares_by(jobs, dask, words="samples", quiet=options.quiet):
         raise typer.Exit(run_design("register", spec, options))

@@ -1,8 +1,8 @@
-"""Computing the chunks of a study: here, in processes, or by any executor; what is finished is kept at once."""
+"""Computing the chunks of a study: here, in processes, or on a cluster; what is finished is kept at once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class Means:
 
     Parameters
         jobs : int - processes; 0: chosen by the work to be done
-        executor : makes an executor and names it, in place of processes; None: none
+        executor : makes the executor of a cluster, in place of processes; None: none
         workers : int - of that executor
     """
 
@@ -188,12 +188,6 @@ def _survives(problem: Problem, first: int, last: int) -> bool:
     except BrokenExecutor:
         return False
     return True
-
-
-def shared(todo: Iterable[int], shard: tuple[int, int]) -> list[int]:
-    """The chunks of a share: I of N, counted from 1."""
-    index, count = shard
-    return [number for number in todo if number % count == index - 1]
 
 
 def kept_in(memory: Kept) -> Opened:

@@ -9,7 +9,7 @@ import typer
 
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.options import Options, folder, plain_file
-from gearlink.cli.typer_options import Dask, Jobs, keyed, place, share, takes
+from gearlink.cli.typer_options import Dask, Jobs, keyed, place, takes
 
 
 def register(app: typer.Typer) -> None:
@@ -19,7 +19,7 @@ def register(app: typer.Typer) -> None:
 
 @takes("format", "plot", "plot_format", "out", "overrides", "strict", "color", "quiet")
 def _explore(
-    sources: Annotated[list[str], typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
+    source: Annotated[str, typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
     options: Options,
     store: Annotated[
         Path | None, place(plain_file, "--store", metavar="FILE", help="keep what is finished in this file")
@@ -28,10 +28,7 @@ def _explore(
     budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
     seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
     jobs: Jobs = 0,
-    executor: Annotated[str, typer.Option(metavar="MODULE:FACTORY", help="what makes an executor to compute by")] = "",
     dask: Dask = "",
-    shard: Annotated[str, typer.Option(metavar="I/N", help="compute only the I-th of N shares")] = "1/1",
-    merge: Annotated[bool, typer.Option("--merge", help="put the named stores together in --store")] = False,
     show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
     write: Annotated[
         Path | None, place(folder, "--write", metavar="DIR", help="write the kept designs as files")
@@ -46,5 +43,5 @@ def _explore(
     from gearlink.cli.exploring.run import run_explore
 
     options = keyed(options, "sampling", {"--budget": budget, "--seed": seed})
-    asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, share(shard), tuple(sources))
+    asked = Exploring(options, source, store, resume, jobs, dask, show, write)
     raise typer.Exit(run_explore(asked))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gearlink.cli.evaluate import exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in, shared
+from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.exploring.store import (
     CannotStore,
@@ -17,10 +17,11 @@ from gearlink.cli.exploring.store import (
     Memory,
     chunks_of,
     is_store,
+    of_another_program,
     opened,
+    others,
     problem_in,
     ready,
-    same_study,
 )
 from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import Format
@@ -35,7 +36,7 @@ from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.preparing import problem
 from gearlink.core.explore.problem import Problem
-from gearlink.core.study.faults import WrongStudy
+from gearlink.core.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.wording import amount
 
 
@@ -44,11 +45,11 @@ def run_explore(asked: Exploring) -> int:
     try:
         return _run(asked)
     except CannotStore as error:
-        place = str(asked.store or asked.sources[0])
+        place = str(asked.store or asked.source)
         show_errors([Diagnostic(error.code, str(error), file=place, help=error.help)], asked.options)
         return ExitCode.WRONG_INPUT
     except (DesignFileError, CannotWrite) as error:
-        return show_refusal(error, asked.sources[0], asked.options)
+        return show_refusal(error, asked.source, asked.options)
 
 
 def _run(asked: Exploring) -> int:
@@ -58,21 +59,34 @@ def _run(asked: Exploring) -> int:
     for folder in (asked.write, asked.options.out if asked.options.plot else None):
         if folder is not None:
             require_folder(folder)
-    if asked.merge:
-        return _merge(asked)
-    if len(asked.sources) > 1:
-        raise _usage(f"one study, not {len(asked.sources)}; several stores go with --merge", asked.sources[1])
-    source = asked.sources[0]
+    source = asked.source
     if is_store(source):
-        with opened(Path(source)) as store:
-            made = problem_in(store)
-            return _answer(made, store, asked)
+        return _shown(Path(source), asked)
     made = _read(source, asked)
     if asked.show and not asked.show.startswith("m"):
         from gearlink.cli.exploring.designs import show
 
         return show(made, None, asked.show)
     return _computed(made, asked)
+
+
+def _shown(path: Path, asked: Exploring) -> int:
+    """Print what a store holds; where another program computed it, that is said.
+
+    Raises
+        CannotStore - GL158 where this program computes one of its designs otherwise
+    """
+    with opened(path) as store:
+        made = problem_in(store)
+        meta = store.meta()
+        for name, was, now in others(meta):
+            _tell(f"note: {visible(str(path))} was computed with {name} {visible(was)}; this is {now}", asked)
+        try:
+            return _answer(made, store, asked)
+        except BrokenPromise as error:
+            if not others(meta):
+                raise
+            raise of_another_program(path, meta, f"here, {str(error).removeprefix('GL160: ')}") from None
 
 
 def _read(source: str, asked: Exploring) -> Problem:
@@ -92,25 +106,21 @@ def _computed(made: Problem, asked: Exploring) -> int:
     keep = _keep(made, asked)
     with keep() as kept:
         done = kept.finished()
-    mine = shared(range(made.chunks), asked.shard)
-    todo = [number for number in mine if number not in done]
+    todo = [number for number in range(made.chunks) if number not in done]
     shown = progress(len(todo), "exploring", quiet=asked.options.quiet, each=made.chunk_size)
     with _means(asked) as means, shown as advance:
         whole = compute(made, todo, keep, means, advance)
     with keep() as kept:
         if not whole:
             return _interrupted(made, kept, asked)
-        if asked.shard != (1, 1) and len(kept.finished()) < made.chunks:
-            _tell(f"share {asked.shard[0]} of {asked.shard[1]} is computed; put all shares together by --merge", asked)
-            return ExitCode.OK
         return _answer(made, kept, asked)
 
 
 def _keep(made: Problem, asked: Exploring) -> Opened:
     """Where chunks are kept: in the store, which is made ready, or in memory."""
     if asked.store is None:
-        if asked.resume or asked.shard != (1, 1):
-            raise _usage(f"{'--resume' if asked.resume else '--shard'} needs --store FILE", "--store")
+        if asked.resume:
+            raise _usage("--resume needs --store FILE", "--store")
         return kept_in(Memory())
     path = asked.store
     with opened(path) as store:
@@ -121,11 +131,11 @@ def _keep(made: Problem, asked: Exploring) -> Opened:
 
 @contextmanager
 def _means(asked: Exploring) -> Iterator[Means]:
-    if asked.dask or asked.executor:
-        from gearlink.cli.parallel.executors import executor_of
+    if asked.dask:
+        from gearlink.cli.parallel.cluster import client
 
-        with executor_of(asked.executor, asked.dask) as (made, workers):
-            yield Means(executor=made, workers=workers)
+        with client(asked.dask) as cluster:
+            yield Means(executor=cluster.get_executor, workers=max(1, len(cluster.ncores())))
     else:
         yield Means(asked.jobs)
 
@@ -134,29 +144,9 @@ def _interrupted(made: Problem, kept: Kept, asked: Exploring) -> int:
     done = len(kept.finished())
     text = f"interrupted: {done} of {made.chunks} chunks are finished"
     if asked.store is not None:
-        text += f"; continue by: gearlink explore {asked.sources[0]} --store {asked.store} --resume"
+        text += f"; continue by: gearlink explore {asked.source} --store {asked.store} --resume"
     print(text, file=sys.stderr)
     return ExitCode.INTERRUPTED
-
-
-def _merge(asked: Exploring) -> int:
-    """Put the chunks of several stores of one study into one."""
-    if asked.store is None:
-        raise _usage("--merge needs --store FILE", "--store")
-    for source in asked.sources:
-        if not is_store(source):
-            raise CannotStore("GL159", f"{source} is no store", "--merge takes stores")
-    with opened(Path(asked.sources[0])) as first:
-        made = problem_in(first)
-    with opened(asked.store) as store:
-        ready(store, made, resume=asked.resume)
-        for source in asked.sources:
-            if Path(source).resolve() == asked.store.resolve():
-                continue
-            with opened(Path(source)) as other:
-                same_study(Path(source), other.meta(), made)
-                store.add(list(other.results()))
-        return _answer(made, store, asked)
 
 
 def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
@@ -164,10 +154,7 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
     missing = made.chunks - len(kept.finished())
     if missing:
         text = f"{missing} of {made.chunks} chunks are missing: continue with the study file, --store and --resume"
-        if not asked.merge:
-            raise CannotStore("GL159", text)
-        _tell(text, asked)
-        return ExitCode.OK
+        raise CannotStore("GL159", text)
     with patience("putting the designs together", quiet=asked.options.quiet):
         found = Found.of(made, together(made, chunks_of(kept, made)))
     if asked.show:

@@ -1,40 +1,46 @@
 """The store of a study: one SQLite file with what is kept of every finished chunk, written by one process.
 
 A chunk is either there whole or not at all, whatever ends the program; the result is made of the chunks alone, so it
-does not matter who computed them, in which order, or how often the work was broken off.
+does not matter who computed them, in which order, or how often the work was broken off. Each has a checksum, and so has
+what the store says of itself: what a disk, a copy or somebody changed is refused, not believed.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import platform
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Protocol
 
-from gearlink.cli.parallel.cluster import processor
+from gearlink.cli.program import program
 from gearlink.cli.reading.places import is_named_pipe
 from gearlink.core.errors import GearlinkError
 from gearlink.core.explore.chunks import Chunk, Miss
 from gearlink.core.explore.preparing import problem_of
-from gearlink.core.explore.problem import SCHEMA, Problem
-from gearlink.core.version import VERSION
+from gearlink.core.explore.problem import Problem
 
 Result = tuple[int, str, bytes]
 """Number of a chunk, and what `Chunk.counts` and `Chunk.data` gave."""
 _MAGIC = b"SQLite format 3\0"
 _ODD = (ValueError, TypeError, LookupError, AttributeError, RecursionError, OverflowError)
 """What reading a text or numbers raises that no run wrote."""
-_LONGEST_NAME = 200
+_FORMAT = "2"
+"""Of the tables below; stores of format 1 have no checksums."""
 _TABLES = """
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
-CREATE TABLE chunk (id INTEGER PRIMARY KEY, counts TEXT NOT NULL, rows BLOB NOT NULL);
-CREATE TABLE refined (id INTEGER PRIMARY KEY, variables BLOB NOT NULL, row BLOB NOT NULL);
+CREATE TABLE chunk (id INTEGER PRIMARY KEY, counts TEXT NOT NULL, rows BLOB NOT NULL, checksum BLOB NOT NULL);
 CREATE TABLE log (at TEXT, event TEXT);
 """
+
+
+_CHECKSUM = "checksum"
+_ANOTHER = "give another --store"
+_ANEW = "give the study file and another --store, and compute it again"
 
 
 class CannotStore(GearlinkError):
@@ -85,22 +91,39 @@ class Store:
 
     def __init__(self, connection: sqlite3.Connection, path: Path) -> None:
         self._connection, self._path = connection, path
+        connection.text_factory = lambda text: text.decode(errors="replace")  # its checksum tells what was no text
 
     def meta(self) -> dict[str, str]:
-        """What the store says of itself; empty where it has no schema yet."""
+        """What the store says of itself; empty where it has no schema yet.
+
+        Raises
+            CannotStore - GL159 where that is not what was written, GL158 of another format
+        """
         tables = {name for (name,) in self._connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
         if not tables:
             return {}
-        if not {"meta", "chunk", "refined"} <= tables:
-            raise CannotStore("GL159", f"{self._path} is a database of something else", "give another --store")
-        return dict(self._connection.execute("SELECT key, value FROM meta"))
+        if not {"meta", "chunk"} <= tables:
+            raise CannotStore("GL159", f"{self._path} is a database of something else", _ANOTHER)
+        found = dict(self._connection.execute("SELECT key, value FROM meta"))
+        checksum = found.pop(_CHECKSUM, None)
+        if found.get("schema") == "1":
+            message = f"{self._path} was written by an earlier gearlink, whose stores have no checksums"
+            raise CannotStore("GL158", message, _ANEW)
+        if checksum != _checksum_of_meta(found):
+            raise damaged(self._path, "what it says of its study")
+        if found["schema"] != _FORMAT:
+            message = f"{self._path} was written by gearlink {found.get('gearlink')}: its format is {found['schema']}"
+            raise CannotStore("GL158", f"{message}, this one reads {_FORMAT}", _ANEW)
+        return found
 
     def begin(self, problem: Problem) -> None:
         """Write schema and study, all or nothing."""
+        meta = meta_of(problem)
         with self._transaction():
             for statement in _TABLES.strip().split(";\n"):
                 self._connection.execute(statement.rstrip(";"))
-            self._connection.executemany("INSERT INTO meta VALUES (?, ?)", meta_of(problem).items())
+            meta[_CHECKSUM] = _checksum_of_meta(meta)
+            self._connection.executemany("INSERT INTO meta VALUES (?, ?)", meta.items())
 
     def finished(self) -> set[int]:
         """The numbers of the chunks that are there."""
@@ -108,12 +131,24 @@ class Store:
 
     def add(self, results: Sequence[Result]) -> None:
         """Keep some chunks in one transaction; one that is there already stays."""
+        rows = [(*result, _checksum(*result)) for result in results]
         with self._transaction():
-            self._connection.executemany("INSERT OR IGNORE INTO chunk VALUES (?, ?, ?)", results)
+            self._connection.executemany("INSERT OR IGNORE INTO chunk VALUES (?, ?, ?, ?)", rows)
 
     def results(self) -> Iterator[Result]:
-        """The chunks in the order of their numbers."""
-        yield from self._connection.execute("SELECT id, counts, rows FROM chunk ORDER BY id").fetchall()
+        """The chunks in the order of their numbers.
+
+        Raises
+            CannotStore - GL159 for one that is not what was written
+        """
+        before = -1
+        for *result, checksum in self._connection.execute("SELECT id, counts, rows, checksum FROM chunk ORDER BY id"):
+            number, counts, rows = result
+            sound = type(number) is int and isinstance(counts, str) and isinstance(rows, bytes)
+            if not (sound and number > before and checksum == _checksum(number, counts, rows)):
+                raise damaged(self._path, f"chunk {number}")
+            before = number
+            yield number, counts, rows
 
     def log(self, event: str) -> None:
         """Note an event; no result depends on it."""
@@ -148,9 +183,16 @@ def opened(path: Path) -> Iterator[Store]:
     except sqlite3.Error as error:
         raise _refused(path, error) from None
     try:
-        connection.execute("PRAGMA locking_mode=EXCLUSIVE")
-        connection.execute("PRAGMA journal_mode=WAL")
-        connection.execute("PRAGMA synchronous=NORMAL")
+        for setting in ("locking_mode=EXCLUSIVE", "journal_mode=WAL", "synchronous=NORMAL"):
+            connection.execute(f"PRAGMA {setting}")
+        connection.execute("SELECT count(*) FROM sqlite_master")  # which reads the whole schema
+    except sqlite3.Error as error:
+        connection.close()
+        raise _refused(path, error) from None
+    except UnicodeDecodeError:  # SQLite says what is wrong with the schema in bytes of the file
+        connection.close()
+        raise damaged(path, "its schema") from None
+    try:
         yield Store(connection, path)
     except sqlite3.Error as error:
         raise _refused(path, error) from None
@@ -162,9 +204,21 @@ def _refused(path: Path, error: sqlite3.Error) -> CannotStore:
     words = str(error)
     if "locked" in words:
         return CannotStore("GL159", f"{path} is in use by another run", "wait for its end, or give another --store")
-    if "not a database" in words or "malformed" in words:
-        return CannotStore("GL159", f"{path} is no store: {words}", "give another --store")
-    return CannotStore("GL116", f"cannot write {path}: {words}", "give another --store")
+    if "not a database" in words:
+        return CannotStore("GL159", f"{path} is no store: {words}", _ANOTHER)
+    if "malformed" in words or "no such" in words:
+        return damaged(path, f"the database ({words})")
+    return CannotStore("GL116", f"cannot write {path}: {words}", _ANOTHER)
+
+
+def _checksum(number: int, counts: str, rows: bytes) -> bytes:
+    """Of a chunk, over the bytes that are written."""
+    text = counts.encode()
+    return hashlib.sha256(b"%d %d %d\n%b%b" % (number, len(text), len(rows), text, rows)).digest()
+
+
+def _checksum_of_meta(meta: Mapping[str, Any]) -> str:
+    return hashlib.sha256(ascii(sorted(meta.items(), key=ascii)).encode()).hexdigest()  # whatever types it is read with
 
 
 def is_store(source: str) -> bool:
@@ -180,18 +234,14 @@ def is_store(source: str) -> bool:
 
 def meta_of(problem: Problem) -> dict[str, str]:
     """What a store says of itself."""
-    import numpy as np
-
     return {
-        "schema": str(SCHEMA),
+        "schema": _FORMAT,
         "spec": problem.hash,
         "study": problem.canonical_text,
         "name": problem.spec.name,
-        "gearlink": VERSION,
-        "numpy": np.__version__,
-        "cpu": processor(),
         "seed": str(problem.spec.sampling.seed),
         "columns": json.dumps(["index", *(name for name, _, _ in problem.shown)]),
+        **program(),
     }
 
 
@@ -210,26 +260,28 @@ def ready(store: Store, problem: Problem, *, resume: bool) -> None:
         message = f"{store._path} holds {done} of {problem.chunks} chunks already"
         raise CannotStore("GL159", message, "add --resume to continue it, or give another --store")
     same_study(store._path, meta, problem)
+    for _ in store.results():  # a damaged one is told of now, not after hours
+        pass
 
 
 def same_study(path: Path, meta: dict[str, str], problem: Problem) -> None:
-    """Refuse a store of another study or another program.
+    """Refuse to continue a store of another study or another program.
 
     Raises
         CannotStore - GL157, GL158
     """
-    own = meta_of(problem)
-    if meta.get("spec") != own["spec"]:
-        try:
-            key, was, now = _difference(json.loads(meta.get("study", "{}")), problem.canonical)
-        except _ODD:
-            raise damaged(f"the study in {path}") from None
+    if meta.get("spec") != problem.hash:
+        key, was, now = _difference(json.loads(meta["study"]), problem.canonical)
         message = f"{path} belongs to another study: {key} was {was}, is {now}"
-        raise CannotStore("GL157", message, "give another --store")
-    for name in ("gearlink", "numpy", "cpu"):
-        if meta.get(name) != own[name]:
-            message = f"{path} was begun with {name} {meta.get(name)}; this is {own[name]}"
-            raise CannotStore("GL158", message, "continue it where it was begun, or give another --store")
+        raise CannotStore("GL157", message, _ANOTHER)
+    for name, was, now in others(meta):
+        message = f"{path} was begun with {name} {was}; this is {now}"
+        raise CannotStore("GL158", message, "continue it where it was begun, or give another --store")
+
+
+def others(meta: Mapping[str, str]) -> list[tuple[str, str, str]]:
+    """What a store was begun with that is not of this program: name, what it was, what it is."""
+    return [(name, meta.get(name, ""), now) for name, now in program().items() if meta.get(name) != now]
 
 
 def _difference(old: Any, new: Any, path: str = "") -> tuple[str, str, str]:
@@ -249,29 +301,30 @@ def problem_in(store: Store) -> Problem:
     """The study that a store was made for, with its name.
 
     Raises
-        CannotStore - GL157 where there is none, GL158 of another schema
+        CannotStore - GL158 of another program that read studies otherwise, GL159 where there is none
     """
     meta = store.meta()
-    if meta.get("schema") != str(SCHEMA):
-        message = f"{store._path} holds no study" if not meta else f"its schema is {meta.get('schema')}, not {SCHEMA}"
-        raise CannotStore("GL158" if meta else "GL159", message, "give the study file in its place")
+    if not meta:
+        raise CannotStore("GL159", f"{store._path} holds no study", "give the study file in its place")
     try:
         made = problem_of(meta["study"])
+        same = made.hash == meta["spec"] and meta_of(made)["columns"] == meta["columns"]
     except (*_ODD, GearlinkError):
-        raise damaged(f"the study in {store._path}") from None
-    name = meta.get("name")
-    if made.hash != meta.get("spec") or not isinstance(name, str) or len(name) > _LONGEST_NAME:
-        raise damaged(f"the study in {store._path}")
-    return made.named(name)
+        same = False
+    if same:
+        return made.named(meta["name"])
+    if not others(meta):
+        raise damaged(store._path, "the study")
+    raise of_another_program(store._path, meta, "this one does not read its study as that did")
 
 
 def chunks_of(kept: Kept, problem: Problem) -> Iterator[Chunk]:
     """The finished chunks of a study.
 
     Raises
-        CannotStore - GL159 for one that no run of this study can have made
+        CannotStore - GL159 for one that no run of this study can have made, and where one is missing
     """
-    columns = len(problem.shown)
+    columns, count = len(problem.shown), 0
     for number, counts, data in kept.results():
         try:
             chunk = Chunk.of(counts, data, columns)
@@ -279,13 +332,24 @@ def chunks_of(kept: Kept, problem: Problem) -> Iterator[Chunk]:
         except _ODD:
             sound = False
         if not sound:
-            raise damaged(f"chunk {number}")
+            raise damaged(None, f"chunk {number}")
         yield chunk
+        count += 1
+    if count < problem.chunks:  # though their numbers are there
+        raise damaged(None, "the number of its chunks")
 
 
-def damaged(what: str) -> CannotStore:
-    """The refusal of a store whose content somebody has changed."""
-    return CannotStore("GL159", f"{what} is damaged", "give another --store, and compute the study again")
+def damaged(path: Path | None, what: str) -> CannotStore:
+    """The refusal of a store whose content is not what was written."""
+    return CannotStore(
+        "GL159", f"{'the store' if path is None else path} is damaged: {what} is not what was written", _ANEW
+    )
+
+
+def of_another_program(path: Path, meta: Mapping[str, str], what: str) -> CannotStore:
+    """The refusal to show a store of another program."""
+    was = ", ".join(f"{name} {was}" for name, was, _ in others(meta))
+    return CannotStore("GL158", f"{path} was computed with {was}: {what}", _ANEW)
 
 
 def _is_sound(chunk: Chunk, number: int, problem: Problem) -> bool:

@@ -1,34 +1,16 @@
-"""A Dask cluster that runs already, as an ordinary executor; and what two programs must share to give one result."""
+"""A Dask cluster that runs already, as an ordinary executor, all of whose workers have this program."""
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from gearlink.cli.program import program
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.core.version import VERSION
 
 _SECONDS = 20
-
-
-def processor() -> str:
-    """The type of this processor, as far as last bits of numbers depend on it."""
-    import numpy as np
-
-    core = "_core" if int(np.__version__.partition(".")[0]) > 1 else "core"
-    features = import_module(f"numpy.{core}._multiarray_umath").__cpu_features__
-    wide = next((name for name in ("AVX512_SKX", "AVX512F", "AVX2", "SVE", "ASIMD") if features.get(name)), "")
-    return f"{platform.machine()} {wide}".strip()
-
-
-def program() -> dict[str, str]:
-    """What last bits of numbers depend on."""
-    import numpy as np
-
-    return {"gearlink": VERSION, "numpy": np.__version__, "cpu": processor()}
 
 
 @contextmanager

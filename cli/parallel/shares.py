@@ -1,4 +1,4 @@
-"""Shares of a command's work: here, in processes, on an executor or on a cluster; the result is the same everywhere."""
+"""Shares of a command's work: here, in processes, or on a cluster; the result is the same everywhere."""
 
 from __future__ import annotations
 
@@ -18,23 +18,22 @@ Advance = Callable[[int], None]
 
 
 @contextmanager
-def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) -> Iterator[None]:
+def shares_by(jobs: int, dask: str, *, words: str, quiet: bool) -> Iterator[None]:
     """Compute the replications of `tolerance` and `register` by what a command line names.
 
     Parameters
         jobs : int - processes, 0: chosen by the work to be done
-        factory : str - "module:factory" of an executor, empty for processes
         dask : str - address of a scheduler, empty for none
         words : str - what is going on, beside the bar on a terminal
     Raises
-        DesignFileError - GL115 where an executor cannot be had, GL158 for a worker with another program
+        DesignFileError - GL115 where no cluster can be had, GL158 for a worker with another program
     """
     from gearlink.core.tolerance.shares import COMPUTED_BY
 
     def compute(function: Callable[[int], Any], numbers: Sequence[int]) -> list[Any]:
         with progress(len(numbers), words, quiet=quiet) as advance:
-            if factory or dask:
-                return _on_executor(function, numbers, factory, dask, advance)
+            if dask:
+                return _on_cluster(function, numbers, dask, advance)
             return _in_processes(function, numbers, jobs, advance)
 
     token = COMPUTED_BY.set(compute)
@@ -59,12 +58,10 @@ def _in_processes(function: Callable[[int], Any], numbers: Sequence[int], jobs: 
         return found + _given(pool, function, rest, advance)
 
 
-def _on_executor(
-    function: Callable[[int], Any], numbers: Sequence[int], factory: str, dask: str, advance: Advance
-) -> list[Any]:
-    from gearlink.cli.parallel.executors import executor_of
+def _on_cluster(function: Callable[[int], Any], numbers: Sequence[int], dask: str, advance: Advance) -> list[Any]:
+    from gearlink.cli.parallel.cluster import client
 
-    with executor_of(factory, dask) as (made, _), made() as pool:
+    with client(dask) as cluster, cluster.get_executor() as pool:
         return _given(pool, function, numbers, advance)
 
 

@@ -122,9 +122,9 @@ def test_workers_with_the_same_program_are_taken(distributed: type[Client]) -> N
     assert not client.open
 
 
-@pytest.mark.parametrize("name", ["gearlink", "numpy", "cpu"])
+@pytest.mark.parametrize("name", ["gearlink", "python", "numpy", "scipy", "cpu"])
 def test_a_worker_with_another_program_is_refused(distributed: type[Client], name: str) -> None:
-    """Last bits depend on each of the three."""
+    """Last bits depend on each of them."""
     own = clusters.program()
     distributed.programs = [own, {**own, name: "another"}]
     found = refusal("tcp://here:1")
@@ -151,19 +151,3 @@ def test_another_server_is_no_lack_of_memory(distributed: type[Client]) -> None:
     assert (found.code, found.key) == ("GL115", "tcp://there:8787")
     assert found.message == "what answers at tcp://there:8787 is no Dask scheduler (MemoryError)"
     assert "dashboard" in found.help
-
-
-@pytest.mark.parametrize(
-    ("has", "named"),
-    [
-        ({"AVX512_SKX": True, "AVX512F": True, "AVX2": True}, "x86_64 AVX512_SKX"),
-        ({"AVX512_SKX": False, "AVX2": True, "SSE2": True}, "x86_64 AVX2"),
-        ({"SSE2": True}, "x86_64"),
-    ],
-)
-def test_a_processor_is_named_by_its_widest_vectors(
-    monkeypatch: pytest.MonkeyPatch, has: dict[str, bool], named: str
-) -> None:
-    monkeypatch.setattr(clusters, "import_module", lambda _: SimpleNamespace(__cpu_features__=has))
-    monkeypatch.setattr("platform.machine", lambda: "x86_64")
-    assert clusters.processor() == named
