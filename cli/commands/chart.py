@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import print_report
+from gearlink.cli.commands.design import print_report, written_beside
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.figures.chart_list import CHARTS, DesignChart, Marked
-from gearlink.cli.files import CannotWrite, wrote
+from gearlink.cli.files import CannotWrite, require_folder, wrote
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -46,20 +46,24 @@ def run_chart(asked: Asked, options: Options) -> int:
         chart = _chart_named(asked.name)
         low, high = _range(asked.range, chart)
         curves = _curves(asked.curves, chart)
+        if options.plot:
+            require_folder(options.out)
         with patience(f"computing {asked.name}", quiet=options.quiet):
             report, marked = _report(chart, low, high, curves, asked, options)
-        if options.plot:
-            from gearlink.cli.figures.design_charts import write_chart
-
-            path = write_chart(chart, report.tables[0], curves, marked, options)
-            if not options.quiet:
-                print(wrote(path), file=sys.stderr)
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, asked.design or "<command line>", options)
     if marked is not None and marked.off_family > _LINK_TOLERANCE and not options.quiet:
         print(_off_family(marked), file=sys.stderr)
     print_report(report, options)
-    return ExitCode.OK
+
+    def draw() -> None:
+        from gearlink.cli.figures.design_charts import write_chart
+
+        path = write_chart(chart, report.tables[0], curves, marked, options)
+        if not options.quiet:
+            print(wrote(path), file=sys.stderr)
+
+    return written_beside(draw, "<--out>", options) if options.plot else ExitCode.OK
 
 
 def _list_charts(options: Options) -> int:

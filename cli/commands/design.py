@@ -1,4 +1,7 @@
-"""One command on one design file: read, build the design, report, render, plot."""
+"""One command on one design file: read, build the design, report, render, plot.
+
+What is computed is printed before it is drawn: no picture that cannot be made takes the numbers with it.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, wrote
+from gearlink.cli.files import CannotWrite, require_folder, wrote
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
@@ -52,9 +55,6 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
             kind.class_for(command, spec)
         with step("compute"), patience(f"computing {spec.name}", quiet=options.quiet):
             design, report = build(loaded, kind, command, spec, options)
-        if options.plot:
-            with step("draw"):
-                plot(command, design, options, report)
         saved = ExitCode.OK if options.save is None else _save(loaded, kind, command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
@@ -62,7 +62,28 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
         if options.save != STREAM:
             print_report(report, options)
     _notes(design, report, options)
-    return max(saved, exit_status(report, strict=options.strict))
+    with step("draw") if options.plot else nullcontext():
+        beside = plotted(command, design, options, report, source)
+    return max(saved, beside, exit_status(report, strict=options.strict))
+
+
+def plotted(command: str, design: Design, options: Options, report: Report, source: str) -> int:
+    """Write the figure that is asked for beside a result, and give the exit status of that."""
+    if not options.plot:
+        return ExitCode.OK
+    return written_beside(lambda: plot(command, design, options, report), source, options)
+
+
+def written_beside(write: Callable[[], object], source: str, options: Options) -> int:
+    """Write files beside a result that stands on standard output already, and give the exit status of that.
+
+    What keeps them from being written is told on standard error, in whatever form the result is.
+    """
+    try:
+        write()
+    except (CannotWrite, NoSolution) as error:
+        return show_refusal(error, source, options._replace(format=Format.TABLE))
+    return ExitCode.OK
 
 
 def _notes(design: Design, report: Report, options: Options) -> None:
@@ -77,7 +98,9 @@ def _notes(design: Design, report: Report, options: Options) -> None:
 
 
 def _before(options: Options) -> None:
-    """Refuse what `--save` cannot do before anything is computed."""
+    """Refuse what `--save` and `--plot` cannot do before anything is computed."""
+    if options.plot:
+        require_folder(options.out)
     if options.save is not None or options.round is not None:
         from gearlink.cli.commands.save import require_place
 

@@ -40,11 +40,9 @@ def laws(
 
 def run_laws(names: Sequence[str], options: Options) -> int:
     """Print the constants of all laws or the course of those named, and give the exit status."""
-    from gearlink.cli.commands.design import plot as draw
-    from gearlink.cli.commands.design import print_report
-    from gearlink.cli.files import CannotWrite
+    from gearlink.cli.commands.design import plotted, print_report
     from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-    from gearlink.cli.render.errors import show_errors, show_refusal
+    from gearlink.cli.render.errors import show_errors
     from gearlink.core.cams.law_tables import LawChoice, MotionLaws
     from gearlink.core.errors import NoSolution
 
@@ -62,13 +60,8 @@ def run_laws(names: Sequence[str], options: Options) -> int:
         return ExitCode.WRONG_INPUT
     design = MotionLaws(LawChoice(tuple(dict.fromkeys(chosen))))
     report = design.report("laws", samples=options.samples)
-    try:
-        if options.plot:
-            draw("laws", design, options, report)
-    except CannotWrite as error:
-        return show_refusal(error, "<--out>", options)
     print_report(report, options)
-    return ExitCode.OK
+    return plotted("laws", design, options, report, "<--out>")
 
 
 def _law(text: str) -> Law:

@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import plot, print_report
+from gearlink.cli.commands.design import plotted, print_report
 from gearlink.cli.commands.save import require_place, save
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import json_text
@@ -54,14 +54,14 @@ def run_suggested(command: str, source: str, options: Options) -> int:
     saved: int = ExitCode.OK
     try:
         require_place(options)
+        if options.plot:
+            require_folder(options.out)
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec = read_spec(loaded, kind, source)
         with patience(f"seeking changes with which {spec.name} holds", quiet=options.quiet):
             repaired, changes = repair(kind, command, spec, strict=options.strict)
             design, report = build(loaded, kind, command, repaired, options)
-        if options.plot:
-            plot(command, design, options, report)
         if options.save is not None:
             saved = save(loaded, kind, command, design, options, changes or ())
     except (DesignFileError, CannotWrite, NoSolution) as error:
@@ -69,7 +69,8 @@ def run_suggested(command: str, source: str, options: Options) -> int:
             print(_as_text(changes, options), file=sys.stderr)
         return show_refusal(error, source, options)
     _print(changes, report, options)
-    return max(saved, exit_status(report, strict=options.strict))
+    beside = plotted(command, design, options, report, source)
+    return max(saved, beside, exit_status(report, strict=options.strict))
 
 
 def repair(kind: Kind, command: str, spec: Any, *, strict: bool = False) -> tuple[Any, list[Change] | None]:

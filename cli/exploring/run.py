@@ -36,6 +36,7 @@ from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.preparing import problem
 from gearlink.core.explore.problem import Problem
+from gearlink.core.report import Report
 from gearlink.core.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.wording import amount
 
@@ -165,8 +166,22 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
 
 
 def _print(study: Exploration, asked: Exploring) -> int:
+    from gearlink.cli.commands.design import print_report, written_beside
+
     with patience("computing the results of the study", quiet=asked.options.quiet):
         report = study.report("explore")
+    if asked.options.format is Format.TABLE:
+        from gearlink.cli.exploring.page import show as show_page
+
+        show_page(study, report, asked.options)
+    else:
+        print_report(report, asked.options)
+    beside = written_beside(lambda: _write(study, report, asked), asked.source, asked.options)
+    return max(beside, exit_status(report, strict=asked.options.strict))
+
+
+def _write(study: Exploration, report: Report, asked: Exploring) -> None:
+    """Write the files that are asked for besides."""
     if asked.write is not None:
         from gearlink.cli.exploring.designs import write
 
@@ -177,15 +192,6 @@ def _print(study: Exploration, asked: Exploring) -> int:
         from gearlink.cli.commands.design import plot
 
         plot("explore", study, asked.options, report)
-    if asked.options.format is Format.TABLE:
-        from gearlink.cli.exploring.page import show as show_page
-
-        show_page(study, report, asked.options)
-    else:
-        from gearlink.cli.commands.design import print_report
-
-        print_report(report, asked.options)
-    return exit_status(report, strict=asked.options.strict)
 
 
 def _tell(text: str, asked: Exploring) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from gearlink.cli.figures.drawing import style
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,6 +31,8 @@ _LOW, _HIGH = "#CFE3F5", "#0B3C6F"
 def draw(_command: str, design: Design) -> Figure:
     """Scatter matrix of the objectives above, parallel coordinates below."""
     study = cast("Exploration", design)
+    if not study.kept:
+        return _empty(study)
     requirements = study.problem.objectives
     count = len(requirements)
     pairs = [(i, j) for i in range(1, count) for j in range(i)]
@@ -48,6 +51,16 @@ def draw(_command: str, design: Design) -> Figure:
     elif count == 2:
         axes.legend(handles=_marks(study), loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, **_LEGEND)
     _parallel(made.add_subplot(grid[across, :]), study, figures)
+    return made
+
+
+def _empty(study: Exploration) -> Figure:
+    """That there is nothing to draw."""
+    made = style.figure(8.0, 2.0, f"{study.spec.name}: no kept designs")
+    axes = made.add_subplot()
+    axes.axis("off")
+    words = f"nothing to draw: none of {amount(study.designs, 'design', spec=',')} satisfies {study.problem.asked}"
+    axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=9, transform=axes.transAxes)
     return made
 
 

@@ -68,16 +68,16 @@ STUDIES: tuple[Rule, ...] = (
     Rule(
         "GL158",
         "store or worker of another program",
-        "The store was made, or a worker runs, with another gearlink (its version or its code), Python, numpy or scipy, or on "
-        "another type of processor.",
+        "The store was made, or a worker runs, with another gearlink (its version or its code), Python, numpy or "
+        "scipy, or on another type of processor.",
         "Last bits of numbers would differ within one result. A finished store is shown nevertheless, with a note.",
         "Continue where it was begun, or begin a new store.",
     ),
     Rule(
         "GL159",
         "store exists or is damaged",
-        "The store is there already, and --resume was not given; or it is no store, or in use; or its content is not what was "
-        "written, as its checksums tell.",
+        "The store is there already, and --resume was not given; or it is no store, or in use; or its content is not "
+        "what was written, as its checksums tell.",
         "Results are never overwritten, and what a disk or a copy has changed is not believed.",
         "Add --resume to continue it, or give another --store. Put back a copy of a damaged one, or compute it again.",
     ),

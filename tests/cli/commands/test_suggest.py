@@ -223,7 +223,9 @@ def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, 
 
 def test_figure_is_that_of_the_repaired_design(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[Any] = []
-    monkeypatch.setattr(suggest, "plot", lambda command, design, *_: drawn.append((command, design.spec)))
+    monkeypatch.setattr(
+        "gearlink.cli.commands.design.plot", lambda command, design, *_: drawn.append((command, design.spec))
+    )
     path = tmp_path / "wrong.yaml"
     path.write_text(TWICE_WRONG)
     ended = gearlink("gear", path, "--suggest", "--plot", "--out", tmp_path, "--format", "json")

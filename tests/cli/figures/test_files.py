@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
 from gearlink.cli import process
+from gearlink.cli.figures import design_charts, write
 from gearlink.cli.figures.loading import load_what_is_drawn
+from gearlink.cli.files import CannotWrite
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [
@@ -115,3 +117,36 @@ assert ("antialiased" in Line2D.set.__doc__) is not {alone}
 assert "antialiased" in kwdoc(Line2D)
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+LINES = [
+    ["crank", "ty460_slider_crank.yaml"],
+    ["crank", "ty460_slider_crank.yaml", "--suggest"],
+    ["explore", "studies/gear_pair.yaml"],
+    ["laws", "--law", "velocity-345"],
+    ["chart", "back-step"],
+]
+
+
+@pytest.mark.parametrize(("error", "status"), [(ValueError("min() arg"), 3), (CannotWrite("cannot write: no room"), 2)])
+@pytest.mark.parametrize("line", LINES, ids=lambda line: "-".join(line[::2]))
+def test_a_picture_that_cannot_be_made_takes_no_result_with_it(
+    gearlink: Any,
+    designs: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    line: list[str],
+    error: Any,
+    status: int,
+) -> None:
+    def fails(*_: Any, **__: Any) -> None:
+        raise error
+
+    words = [designs / word if word.endswith(".yaml") else word for word in line]
+    alone = gearlink(*words, "--format", "json")
+    monkeypatch.setattr(write, "save", fails)
+    monkeypatch.setattr(design_charts, "save", fails)
+    ended = gearlink(*words, "--format", "json", "--plot", "--out", tmp_path)
+    assert (alone.status, ended.status) == (0, status)
+    assert ended.out == alone.out
+    assert str(error) in ended.err

@@ -78,3 +78,14 @@ def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
     page = (tmp_path / "idlers.html").read_text()
     assert 'id="row-' in page
     assert "linkRows" in page
+
+
+@pytest.mark.parametrize("objectives", [["frame_length"], ["frame_length", "back_step_angle", "gear_gap"]])
+def test_of_an_empty_front_there_is_nothing_to_draw(gearlink: Any, tmp_path: Path, objectives: list[str]) -> None:
+    data = {**KEYS, "minimize": dict.fromkeys(objectives, 1), "maximize": {}, "where": ["frame_length <= 20 mm"]}
+    path = tmp_path / "study.yaml"
+    path.write_text(json.dumps(data))
+    ended = gearlink("explore", path, "--plot", "--plot-format", "svg", "--out", tmp_path)
+    assert ended.status == 1
+    assert "0 satisfy everything" in ended.out
+    assert "nothing to draw: none of 62 designs" in (tmp_path / "idlers-explore.svg").read_text()
