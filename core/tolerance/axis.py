@@ -30,8 +30,17 @@ class ToleranceAxis(Protocol):
         """Whether these sources and quantities can be computed over arrays."""
         ...
 
-    def design(self, values: Mapping[str, Any]) -> Any:
-        """The design of one sample, of the class that computes it alone."""
+    def sets(self, key: str) -> bool:
+        """Whether a source is a size that `design` sets; the others are keys of the file."""
+        ...
+
+    def design(self, values: Mapping[str, Any], cut: Any = None) -> Any:
+        """The design of one sample, of the class that computes it alone.
+
+        Parameters
+            values : by source, of those that it sets
+            cut : the design with the sample's other keys; None: the nominal one
+        """
         ...
 
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:

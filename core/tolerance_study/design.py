@@ -38,7 +38,7 @@ class ToleranceStudy(Design):
             ("quantities", "requirements", "contributions"),
         )
     }
-    extra_tables = ("corners", "allocation", "band")
+    extra_tables = ("corners", "allocation", "band", "not_sampled")
     advises = False
 
     def __init__(self, spec: Any) -> None:
@@ -152,6 +152,10 @@ class ToleranceStudy(Design):
         rows = [(name, one.value, one.low, one.high) for name, one in self.result.passes.items()]
         return _table("requirements", ("name", "yield", "low", "high"), rows)
 
+    def table_not_sampled(self, _samples: int | None = None) -> Table:
+        """Checks without a row among the requirements, and why."""
+        return _table("not_sampled", ("name", "reason"), self.problem.not_sampled)
+
     @cached_property
     def slopes(self) -> dict[str, list[Slope]]:
         """Slopes of the quantities at the nominal design."""
@@ -199,7 +203,8 @@ class ToleranceStudy(Design):
     def outline(self, command: str) -> Outline:
         """Besides the study's own checks those of the nominal design."""
         own, nominal = super().outline(command), self.problem.nominal.outline(self.problem.base.command)
-        return Outline(own.quantities, (*nominal.checks, *own.checks), own.tables)
+        tables = (*own.tables, *(("not_sampled",) if self.problem.not_sampled else ()))
+        return Outline(own.quantities, (*nominal.checks, *own.checks), tables)
 
     def check(self, name: str) -> list[Check]:
         """A check of the study, or of its nominal design."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
@@ -19,6 +19,7 @@ from gearlink.core.explore.requirements import Condition, FaultFound, Names, con
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.spec_paths import part_at
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.axis import ToleranceAxis
 from gearlink.core.tolerance.correlation import coordinate_root, together
@@ -27,7 +28,8 @@ from gearlink.core.tolerance.spec import Tolerance
 
 ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
-_ABOUT = ("tolerance", "register", "loads")  # commands about a design, and their sections: no sample is for them
+_STUDIES = ("tolerance", "register")
+_ABOUT = (*_STUDIES, "loads")  # commands about a design, and their sections: no sample is for them
 _AXES = {"three-gear-four-bar": "three_gear.as_made.samples:ThreeGearSamples"}
 
 
@@ -40,12 +42,14 @@ class Problem:
         nominal : Design - of that base
         section : Tolerance
         axis : ToleranceAxis or None - of kinds that compute many designs at once
+        asked : Base - as the file has it, with what it asks to be searched for
     """
 
     base: Base
     nominal: Design
     section: Tolerance
     axis: ToleranceAxis | None
+    asked: Base
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
@@ -133,6 +137,43 @@ class Problem:
             message = f"the nominal design does not give it: {error}"
             raise WrongStudy([Fault("GL152", message, at)]) from error
         return found | {name: 0.0 for name in names if name in own}
+
+    @cached_property
+    def not_sampled(self) -> list[tuple[str, str]]:
+        """Checks of the file that no sample is judged by, and commands whose checks none is, each with the reason."""
+        return [*self._of_requests(), *self._of_other_commands()]
+
+    def _of_requests(self) -> Iterator[tuple[str, str]]:
+        """Checks that judge what the search was asked for: its results alone are made, and are not sought again."""
+        design, command = self.asked.design(), self.asked.command
+        asked = [
+            one.path
+            for one in design.as_found()
+            if one.value is None and part_at(self.asked.data, one.path) is not None
+        ]
+        if not asked:
+            return
+        judged = {
+            check.code for name in self.nominal.outline(self.base.command).checks for check in self.nominal.check(name)
+        }
+        left: dict[str, str] = {}
+        for name in design.outline(command).checks:
+            left |= {check.code: name for check in design.check(name) if check.code not in judged}
+        for code, name in left.items():
+            yield (
+                code,
+                f"{name} judges the search for {' and '.join(asked)}, done once: judge samples by a line of require",
+            )
+
+    def _of_other_commands(self) -> Iterator[tuple[str, str]]:
+        spec, kind = self.asked.spec(), self.base.kind
+        sampled = {name for names in self.base.codes.values() for name in names}
+        for command in spec.commands():
+            if command in (self.asked.command, *_STUDIES):
+                continue
+            if not sampled.issuperset(kind.design_class(command).judged(command, spec)):
+                why = "samples carry no loads" if command in _ABOUT else "tolerance.command may name this command"
+                yield command, f"its checks judge no sample: {why}"
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -242,7 +283,8 @@ def problem(spec: Any) -> Problem:
         known = ", ".join(one for one in kind.commands if one not in _ABOUT)
         raise NoSolution(f"no samples for the command {asked!r} of {kind.name}: take {known}", key="tolerance.command")
     try:
-        base = _with_links(Base(data, asked))
+        given = Base(data, asked)
+        base = _with_links(given)
         nominal = base.design()
     except (Refused, NoSolution) as error:
         missing = error.code == MissingSection.code and section.command is not None
@@ -252,7 +294,7 @@ def problem(spec: Any) -> Problem:
     if place is not None:
         module, _, name = place.partition(":")
         axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
-    return Problem(base, nominal, section, axis)
+    return Problem(base, nominal, section, axis, given)
 
 
 def _with_links(base: Base) -> Base:

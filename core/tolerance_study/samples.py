@@ -25,7 +25,7 @@ class Judged:
 
     Fields
         quantities : (N,) arrays by name - in the units of design files, NaN where one does not apply
-        passes : (N,) masks by code and by line of `require`
+        passes : (N,) masks by code that is judged on any of them, and by line of `require`
         exists, good : (N,) masks - whether the mechanism exists, and passes everything
     """
 
@@ -39,9 +39,9 @@ def judged(made: Problem, points: Reals) -> Judged:
     """Compute and judge the designs of some random points."""
     found = evaluated(made, made.sizes(points))
     exists: Mask = found.refused == 0
-    passes: dict[str, Mask] = {code: exists.copy() for code in made.base.codes}
+    judged_by = {finding.code for finding in found.findings}
+    passes: dict[str, Mask] = {code: exists.copy() for code in made.base.codes if code in judged_by}
     for finding in found.findings:
-        passes.setdefault(finding.code, exists.copy())
         passes[finding.code] &= ~finding.fails
     for one in made.requirements:
         passes[one.text] = exists & one.holds(one.expression.value(found.quantities))
@@ -70,7 +70,11 @@ def design_of(made: Problem, row: Mapping[str, Any]) -> Any:
     Raises
         Refused, NoSolution - where there is no such mechanism
     """
-    return made.axis.design(row) if made.axis is not None else made.base.design(row.items())
+    if made.axis is None:
+        return made.base.design(row.items())
+    own = {key: value for key, value in row.items() if made.axis.sets(key)}
+    cut = made.base.design([one for one in row.items() if one[0] not in own]) if len(own) < len(row) else None
+    return made.axis.design(own, cut)
 
 
 def _single(made: Problem, row: Mapping[str, Any]) -> Single:

@@ -117,7 +117,8 @@ def result(made: Problem) -> Result:
         count,
         _yield([one.good for one in rows], count),
         float(np.mean([one.missing for one in rows])),
-        {name: _yield([one.passes[name] for one in rows if name in one.passes], count) for name in names},
+        # A replication on whose designs a check says nothing: all that exist pass it.
+        {name: _yield([one.passes.get(name, 1.0 - one.missing) for one in rows], count) for name in names},
         {name: _spread([one.numbers[name] for one in rows]) for name in rows[0].numbers},
         {name: np.concatenate([values[name] for values in kept]) for name in rows[0].numbers},
     )

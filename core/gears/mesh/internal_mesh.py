@@ -1,4 +1,4 @@
-"""An internal mesh without profile shift: pinion in a ring gear, at the reference centre distance."""
+"""An internal mesh without profile shift: pinion in a ring gear, at the reference centre distance or near it."""
 
 from __future__ import annotations
 
@@ -30,8 +30,10 @@ class InternalMesh:
         pressure_angle : float [rad] - alpha
         addendum, clearance : float [module] - h_a*, c*
         rim : float [mm] - outer radius of the ring gear; None: 2 modules outside its root circle
+        distance : float [mm] - of the axes as made; None: a
     Raises
-        NoSolution - for a module that is not positive, or a ring that is not larger than the pinion
+        NoSolution - for a module that is not positive, a ring that is not larger than the pinion, or axes that stand
+            nearer than the base circles let them
     Example
         >>> mesh = InternalMesh(2.0, (48, 62))
         >>> mesh.center_distance, round(mesh.contact_ratio, 6)
@@ -47,6 +49,7 @@ class InternalMesh:
     addendum: float = 1.0
     clearance: float = 0.25
     rim: float | None = None
+    distance: float | None = None
 
     def __post_init__(self) -> None:
         pinion, ring = self.teeth
@@ -54,6 +57,11 @@ class InternalMesh:
             raise NoSolution(f"module {self.module:g} mm: it must be positive")
         if not 1 <= pinion < ring:
             raise NoSolution(f"a ring gear of {ring} teeth does not take a gear of {pinion}: it needs more teeth")
+        least = self.base_radius[1] - self.base_radius[0]
+        if self.distance is not None and not self.distance >= least:
+            raise NoSolution(
+                f"axes {self.distance:.6g} mm apart have no line of action: at least {least:.6g} mm are needed"
+            )
 
     internal: ClassVar[bool] = True
     """As of a GearPair with a ring."""
@@ -78,16 +86,29 @@ class InternalMesh:
             given_shift=(0.0, 0.0),
             addendum=self.addendum,
             clearance=self.clearance,
+            given_distance=self.distance,
+            tip=(0.0, 0.0),
         )
 
     @property
     def center_distance(self) -> float:
-        """Centre distance, m (z_2 - z_1)/2 [mm]."""
+        """Centre distance, as made or m (z_2 - z_1)/2 [mm]."""
+        return self._reference_distance if self.distance is None else self.distance
+
+    @property
+    def _reference_distance(self) -> float:
         return self.module * (self.teeth[1] - self.teeth[0]) / 2.0
 
     @property
+    def working_pressure_angle(self) -> float:
+        """alpha_w [rad]: cos(alpha_w) = a cos(alpha)/a_w."""
+        if self.distance is None:
+            return self.pressure_angle
+        return math.acos(self._reference_distance * math.cos(self.pressure_angle) / self.distance)
+
+    @property
     def reference_radius(self) -> Pair:
-        """Reference radii [mm], here the working ones too."""
+        """Reference radii [mm]."""
         return self.module * self.teeth[0] / 2.0, self.module * self.teeth[1] / 2.0
 
     @property
@@ -154,32 +175,32 @@ class InternalMesh:
     def contact_ratio(self) -> float:
         """Transverse contact ratio.
 
-        eps = (z_1 (tan alpha_a1 - tan alpha) - z_2 (tan alpha_a2 - tan alpha))/(2 pi)
+        eps = (z_1 (tan alpha_a1 - tan alpha_w) - z_2 (tan alpha_a2 - tan alpha_w))/(2 pi)
 
         Raises
             NoSolution - as `tip_pressure_angle`
         """
         tip_1, tip_2 = (math.tan(angle) for angle in self.tip_pressure_angle)
-        reference = math.tan(self.pressure_angle)
-        return (self.teeth[0] * (tip_1 - reference) - self.teeth[1] * (tip_2 - reference)) / (2.0 * math.pi)
+        working = math.tan(self.working_pressure_angle)
+        return (self.teeth[0] * (tip_1 - working) - self.teeth[1] * (tip_2 - working)) / (2.0 * math.pi)
 
     @cached_property
     def interference_margin(self) -> float:
         """How far the contact at the ring's tips stays from the pinion's base circle on the line of action [mm].
 
-        sqrt(r_a2^2 - r_b2^2) - a sin(alpha) >= 0
+        sqrt(r_a2^2 - r_b2^2) - a sin(alpha_w) >= 0
 
         Raises
             NoSolution - as `tip_pressure_angle`
         """
         reach = self.base_radius[1] * math.tan(self.tip_pressure_angle[1])
-        return reach - self.center_distance * math.sin(self.pressure_angle)
+        return reach - self.center_distance * math.sin(self.working_pressure_angle)
 
     @cached_property
     def tip_fouling_margin(self) -> float:
         """Room between the tips where they leave each other, as an arc on the ring's tip circle [mm].
 
-        z_1 (inv alpha_a1 + delta_1) - z_2 (inv alpha_a2 + delta_2) + (z_2 - z_1) inv alpha >= 0,
+        z_1 (inv alpha_a1 + delta_1) - z_2 (inv alpha_a2 + delta_2) + (z_2 - z_1) inv alpha_w >= 0,
         delta_1, delta_2 the angles at the two axes from the line of centres to where the tip circles cross
 
         Raises
@@ -203,5 +224,5 @@ class InternalMesh:
         delta_2 = math.atan2(area, squares + distance**2)
         inv_1, inv_2 = (involute(angle) for angle in self.tip_pressure_angle)
         z_1, z_2 = self.teeth
-        room = z_1 * (inv_1 + delta_1) - z_2 * (inv_2 + delta_2) + (z_2 - z_1) * involute(self.pressure_angle)
+        room = z_1 * (inv_1 + delta_1) - z_2 * (inv_2 + delta_2) + (z_2 - z_1) * involute(self.working_pressure_angle)
         return room / z_2 * a_2

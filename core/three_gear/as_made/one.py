@@ -7,7 +7,8 @@ are those of `gearlink.core.three_gear.dwell.by_roots`.
 from __future__ import annotations
 
 import math
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import placed
 from gearlink.core.errors import at_key
@@ -20,6 +21,10 @@ from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.dwell.dwells import MOMENTARY_DWELL, UNIDIRECTIONAL
 
+if TYPE_CHECKING:
+    from gearlink.core.gears.mesh.pair import GearPair
+    from gearlink.core.gears.train.meshed import AnyMesh
+
 _TURN = 2.0 * math.pi
 
 
@@ -30,15 +35,21 @@ class TolerancedDrive(ThreeGearFourBar):
         spec : ThreeGearSpec
         lengths : (crank, coupler, rocker, frame) [mm]
         window : (start, length) [rad] - crank angles over which `dwell_swing` is taken
+        cut : ThreeGearFourBar or None - the drive of the same file, whose teeth these are; None: it is made here
     """
 
     advises = False
 
     def __init__(
-        self, spec: Any, lengths: tuple[float, float, float, float], window: tuple[float, float] = (0.0, 0.0)
+        self,
+        spec: Any,
+        lengths: tuple[float, float, float, float],
+        window: tuple[float, float] = (0.0, 0.0),
+        cut: ThreeGearFourBar | None = None,
     ) -> None:
         super().__init__(spec)
         self.lengths, self.window = lengths, window
+        self.cut = ThreeGearFourBar(spec) if cut is None else cut
 
     coupler_length: float = placed("lengths.1")
     rocker_length: float = placed("lengths.2")
@@ -50,6 +61,25 @@ class TolerancedDrive(ThreeGearFourBar):
         with at_key("links"):
             check_linkage(linkage)
         return linkage
+
+    @cached_property
+    def meshes(self) -> dict[str, AnyMesh]:
+        """The teeth as they were cut, at the centre distances as made."""
+        if self.own_teeth:
+            return dict(self._own_pairs)
+        return {
+            name: at_distance(mesh, off) for (name, mesh), off in zip(self.cut.meshes.items(), self._off, strict=True)
+        }
+
+    @cached_property
+    def _own_pairs(self) -> dict[str, GearPair]:
+        pairs = zip(self.cut._own_pairs.items(), self._off, strict=True)
+        return {name: at_distance(pair, off) for (name, pair), off in pairs}
+
+    @property
+    def _off(self) -> tuple[float, float]:
+        """By how much the centre distances are greater than those that the teeth were cut for [mm]."""
+        return self.lengths[1] - self.cut.coupler_length, self.lengths[2] - self.cut.rocker_length
 
     dwell_crank_angles: list[float] = placed("by_roots.places")
 
@@ -80,3 +110,17 @@ class TolerancedDrive(ThreeGearFourBar):
         places = [start, start + length, *(place for place in inside if place < start + length)]
         angles = [motion.output_angle(self.linkage, self.train, place) for place in places]
         return 0.5 * (max(angles) - min(angles))
+
+
+def at_distance(mesh: Any, off: float) -> Any:
+    """A mesh whose teeth and tips stay as they are, its axes farther apart by `off` [mm].
+
+    Raises
+        NoSolution - where the axes stand nearer than the base circles let them
+    """
+    if off == 0.0:
+        return mesh
+    distance = abs(mesh.center_distance) + off
+    if hasattr(mesh, "ring_tip_margin"):  # without shifts, at its reference distance
+        return replace(mesh, distance=distance)
+    return replace(mesh, given_shift=mesh.profile_shift, given_distance=distance, tip=mesh.tip_alteration)

@@ -12,14 +12,18 @@ from gearlink.core.clearance.bodies import Clearance
 from gearlink.core.design import in_unit
 from gearlink.core.design_axis import Evaluated, Findings
 from gearlink.core.errors import NoSolution
+from gearlink.core.explore.one_by_one import Single, as_arrays, put_in
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.linkages.checks import WINDOW_FIT
+from gearlink.core.linkages.codes import DWELL_WINDOW
 from gearlink.core.linkages.fourbar.lengths import Lengths
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
-from gearlink.core.spec_paths import replaced
 from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.as_made.many import DriveSamples
+from gearlink.core.three_gear.as_made.meshes import findings_of_meshes
 from gearlink.core.three_gear.as_made.one import TolerancedDrive
 from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.tolerance.sources import GearOfSource, Parts
@@ -42,7 +46,8 @@ _ARRAYS = (
 )
 _LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_length": 3}
 _SWING = "dwell_swing"
-_VARYING = {"GL301", "GL302", "GL303"}
+_OF_LINKS = {"gear-collision", "shaft-clearance", "transmission-angle", "dwell-window"}
+"""Checks that the links as made decide; those of the meshes hang on the centre distances."""
 
 
 class ThreeGearSamples:
@@ -94,12 +99,28 @@ class ThreeGearSamples:
         exists = _turns(lengths, self._kind)
         with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
             values = {name: self._quantity(name, samples, lengths) for name in names}
-            findings = list(self._findings(samples))
-        for index in np.flatnonzero(samples.unsettled & exists):
-            exists[index] &= self._replace(int(index), samples, values)
+            findings = [*self._of_links(samples), *self._of_meshes(samples, exists)]
         for value in values.values():
             value[~exists] = np.nan
-        return Evaluated(values, findings, np.where(exists, 0, 1), ("links",))
+        found = Evaluated(values, findings, np.where(exists, 0, 1), ("links",))
+        other = _turns(lengths, "drag-link" if self._kind == "crank-rocker" else "crank-rocker")
+        alone = np.flatnonzero((samples.unsettled & exists) | other)
+        return put_in(found, alone, self._alone(alone, samples, names)) if alone.size else found
+
+    def _alone(self, places: Any, samples: DriveSamples, names: Sequence[str]) -> Evaluated:
+        """Some of the drives, each by its class."""
+        turned = np.broadcast_to(samples.frame_turn, samples.count)
+        found = []
+        for i in places.tolist():
+            made = self._made(self.nominal, samples.links.part(i), float(turned[i]), _SWING in names)
+            try:
+                values = {name: in_unit(made.raw(name), term(name).unit) for name in names}
+                checks = tuple(check for name in self._checks for check in made.check(name))
+                found.append(Single(values, checks))
+            except NoSolution as error:
+                found.append(Single({}, (), "links", error.message))
+        codes = dict.fromkeys(check.code for one in found for check in one.findings)
+        return as_arrays(found, names, list(codes))
 
     def _samples(self, columns: Mapping[str, Any]) -> DriveSamples:
         a, b, c, d = self._lengths
@@ -132,35 +153,28 @@ class ThreeGearSamples:
             )
         return nominal.back_step.start, nominal.dwell_angle
 
-    def _replace(self, index: int, samples: DriveSamples, values: Mapping[str, Reals]) -> bool:
-        """Compute one drive alone; False where it does not exist."""
-        part = samples.links.part(index)
-        turned = float(np.broadcast_to(samples.frame_turn, samples.count)[index])
-        made = self._made(self.nominal.spec, part, turned, _SWING in values)
-        try:
-            for name in values:
-                if name not in _LENGTHS:
-                    found = made.raw(name)
-                    values[name][index] = math.nan if found is None else in_unit(found, term(name).unit)
-        except NoSolution:
-            return False
-        return True
-
-    def _made(self, spec: Any, links: Lengths, frame_turn: float, in_window: bool) -> TolerancedDrive:
+    def _made(self, cut: ThreeGearFourBar, links: Lengths, frame_turn: float, in_window: bool) -> TolerancedDrive:
+        """One drive of links as made, whose teeth are those of a drive as cut."""
         a, b, c, d = (float(length) for length in _four(links))
         start, length = self._window if in_window else (0.0, 0.0)
-        return TolerancedDrive(spec, (a, b, c, d), (start - frame_turn, length))
+        return TolerancedDrive(cut.spec, (a, b, c, d), (start - frame_turn, length), cut)
 
-    def design(self, values: Mapping[str, float | complex]) -> TolerancedDrive:
-        """One drive as made, with any real key of the file changed."""
-        own = {key: value for key, value in values.items() if key in _KEYS or key.startswith(("pins.", "bearings."))}
-        spec = self.nominal.spec
-        for key in values.keys() - own.keys():
-            spec = replaced(spec, key, values[key])
+    def sets(self, key: str) -> bool:
+        """Whether a source is a length of the loop."""
+        return key in _KEYS or key.startswith(("pins.", "bearings."))
+
+    def design(self, values: Mapping[str, float | complex], cut: Any = None) -> TolerancedDrive:
+        """One drive as made."""
+        cut = self.nominal if cut is None else cut
         crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
-        samples = self._samples({key: np.array([value]) for key, value in (crank | own).items()})
+        samples = self._samples({key: np.array([value]) for key, value in (crank | dict(values)).items()})
         turned = float(np.broadcast_to(samples.frame_turn, samples.count)[0])
-        return self._made(spec, samples.links.part(0), turned, self.has_window)
+        links = samples.links.part(0)
+        if cut is not self.nominal:  # its gears may lie at other centre distances
+            _, b, c, _ = self._lengths
+            moved = links.coupler + (cut.coupler_length - b), links.rocker + (cut.rocker_length - c)
+            links = Lengths(links.crank, *moved, links.frame, links.assembly)
+        return self._made(cut, links, turned, self.has_window)
 
     @property
     def has_window(self) -> bool:
@@ -197,19 +211,39 @@ class ThreeGearSamples:
 
     # Findings
 
-    def _findings(self, samples: DriveSamples) -> Iterator[Findings]:
-        spec, count = self.nominal.spec, samples.count
-        if self.nominal.gear_gap is not None:
-            yield _below("GL301", samples.gear_gap, spec.limits.gear_gap, "mm")
-        limit = spec.limits.transmission_angle
-        yield _below("GL303", np.degrees(samples.min_transmission_angle), limit, "deg", limit + 5.0)
-        for pair in self.nominal.layout.shaft_pairs:
+    @property
+    def _checks(self) -> tuple[str, ...]:
+        return self.nominal.outlines["analyze"].checks
+
+    def _of_links(self, samples: DriveSamples) -> Iterator[Findings]:
+        """What is judged of every drive by its links, and what no deviation changes."""
+        nominal, limits = self.nominal, self.nominal.spec.limits
+        own = set(_OF_LINKS)
+        if nominal.gear_gap is not None:
+            yield _below("GL301", samples.gear_gap, limits.gear_gap, "mm")
+        else:  # a ring and its idler lie in a plane of their own
+            own.remove("gear-collision")
+        angle = limits.transmission_angle
+        yield _below("GL303", np.degrees(samples.min_transmission_angle), angle, "deg", angle + 5.0)
+        for pair in nominal.layout.shaft_pairs:
             yield self._shaft(pair, samples)
-        varying = _VARYING if self.nominal.gear_gap is not None else _VARYING - {"GL301"}
-        for name in self.nominal.outlines["analyze"].checks:
-            for check in self.nominal.check(name):
-                if check.code not in varying:
-                    yield _same(check, count)
+        if nominal.tolerance_dwell is None:  # no tolerance, or one that the output never leaves
+            own.remove("dwell-window")
+        elif nominal.spec.dwell_window is not None:
+            yield _window(np.degrees(samples.tolerance_dwell_angle), nominal.spec.dwell_window)
+        for name in self._checks:
+            if name not in own and name not in MESH_CHECKS:
+                yield from (_same(check, samples.count) for check in nominal.check(name))
+
+    def _of_meshes(self, samples: DriveSamples, exists: Mask) -> Iterator[Findings]:
+        """What is judged of the teeth at the centre distances as made; a mesh that cannot be takes its drive away."""
+        names = [name for name in self._checks if name in MESH_CHECKS]
+        (_, b, c, _), links = self._lengths, samples.links
+        made = [np.broadcast_to(length, (samples.count,)) for length in (links.coupler, links.rocker)]
+        if all((length == nominal).all() for length, nominal in zip(made, (b, c), strict=True)):
+            yield from (_same(check, samples.count) for name in names for check in self.nominal.check(name))
+            return
+        yield from findings_of_meshes(self.nominal, self._lengths, names, made, exists)
 
     def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
         """GL302 of two bodies, as `gearlink.core.clearance.bodies.least_gap` has it."""
@@ -241,6 +275,12 @@ def _below(code: str, value: Reals, limit: float, unit: str, warning: float | No
     fails: Mask = ~(value >= limit)
     warns = np.zeros_like(fails) if warning is None else ~fails & (value < warning)
     return Findings(code, np.asarray(value), np.full(value.shape, limit), fails, warns, unit)
+
+
+def _window(reached: Reals, asked: float) -> Findings:
+    """GL313, as `gearlink.core.linkages.checks.dwell_window_check` has it."""
+    fails: Mask = ~(reached >= asked * (1.0 - WINDOW_FIT))
+    return Findings(DWELL_WINDOW.code, reached, np.full(fails.shape, asked), fails, np.zeros_like(fails), "deg")
 
 
 def _same(check: Check, count: int) -> Findings:

@@ -123,7 +123,8 @@ def _columns(nominal: Any, count: int) -> dict[str, Any]:
 
 def test_a_drive_whose_lengths_are_nominal_is_the_nominal_drive_with_that_key() -> None:
     nominal = DRIVES["candy feed"]()
-    made = ThreeGearSamples(nominal).design({"limits.transmission_angle": 47.0})
+    cut = drive(38.94178567, 153.53024891, (40, 72, 40), limits={"transmission_angle": 47.0}, dwell_tolerance=0.5)
+    made = ThreeGearSamples(nominal).design({}, cut)
     (check,) = made.check("transmission-angle")
     assert (check.limit, check.value) == (47.0, pytest.approx(nominal.check("transmission-angle")[0].value, rel=1e-14))
     assert made.raw("dwell_angle") == pytest.approx(nominal.raw("dwell_angle"), rel=1e-12)
