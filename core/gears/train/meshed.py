@@ -256,7 +256,7 @@ class Meshed(GearQuantities, Design):
     def check(self, name: str) -> list[Check]:
         """Gear checks run over all meshes."""
         if name in MESH_CHECKS:
-            return [self._in_order(check, mesh) for mesh in self.mesh_names for check in self._mesh_check(name, mesh)]
+            return [check for mesh in self.mesh_names for check in self.check_mesh(name, mesh)]
         if name not in TRAIN_CHECKS:
             return super().check(name)
         if not self._judged(name):
@@ -267,6 +267,10 @@ class Meshed(GearQuantities, Design):
             known = {mesh: data for mesh, data in self.mesh_data.items() if _has_involutes(self.meshes[mesh])}
             found = judgement(name, known, self.spec)
         return [self._in_order(check, mesh) for mesh, checks in found.items() for check in checks]
+
+    def check_mesh(self, name: str, mesh: str) -> list[Check]:
+        """The findings of one of MESH_CHECKS on one mesh."""
+        return [self._in_order(check, mesh) for check in self._mesh_check(name, mesh)]
 
     def _in_order(self, check: Check, mesh: str) -> Check:
         """A finding whose gears 1 and 2 are those of the file's lists."""

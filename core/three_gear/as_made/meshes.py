@@ -31,26 +31,26 @@ def findings_of_meshes(
     Yields
         findings : Findings - one of every code and mesh, without values
     """
-    codes = dict.fromkeys(check.code for name in names for check in nominal.check(name))
-    for place, distances in enumerate(made, 1):
+    for place, (mesh, distances) in enumerate(zip(nominal.mesh_names, made, strict=True), 1):
 
-        def state(distance: float, place: int = place) -> State:
-            own = tuple(distance if i == place else length for i, length in enumerate(lengths))
-            return _state(TolerancedDrive(nominal.spec, own, cut=nominal), names)  # type: ignore[arg-type]
+        def state(distance: float, place: int = place, mesh: str = mesh) -> State:
+            a, b, c, d = (distance if i == place else length for i, length in enumerate(lengths))
+            return _state(TolerancedDrive(nominal.spec, (a, b, c, d), cut=nominal), mesh, names)
 
         states = over_sorted(state, distances)
         exists &= ~_with(states, _NO_MESH, distances.size)
-        for code in dict.fromkeys([*codes, *(code for found, _ in states for code in found if code != _NO_MESH)]):
-            fails = _with(states, code, distances.size)
-            nothing = np.full(distances.shape, np.nan)
+        judged = (check.code for name in names for check in nominal.check_mesh(name, mesh))
+        for code in dict.fromkeys([*judged, *(code for found, _ in states for code in found - {_NO_MESH})]):
+            fails, nothing = _with(states, code, distances.size), np.full(distances.shape, np.nan)
             yield Findings(code, nothing, nothing, fails, np.zeros_like(fails), "1")
 
 
-def _state(made: TolerancedDrive, names: Sequence[str]) -> State:
+def _state(made: TolerancedDrive, mesh: str, names: Sequence[str]) -> State:
     try:
-        return frozenset(check.code for name in names for check in made.check(name) if check.status == "fail")
+        found = [check for name in names for check in made.check_mesh(name, mesh)]
     except NoSolution:
         return frozenset((_NO_MESH,))
+    return frozenset(check.code for check in found if check.status == "fail")
 
 
 def over_sorted(state: Callable[[float], State], values: Reals) -> list[tuple[State, Any]]:

@@ -1,0 +1,221 @@
+"""Every check of every sample: what `tolerance` counts is what the same machine gets by itself.
+
+A sample is drawn, its sizes are put into the completed file, and that file is computed anew by its class, as `check`
+does: nothing is shared with the study, neither a search nor an array form. Widths and limits are such that each study
+has checks that hold for some samples and fail for others. Deviations that no key of a file can say are left at zero
+here; centre distances, which are no keys either, are compared with gear pairs of that distance.
+"""
+
+from __future__ import annotations
+
+import copy
+from typing import Any, NamedTuple
+
+import factory
+import numpy as np
+import pytest
+from pydantic import ValidationError
+from sweeps import mostly_slow
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import KINDS
+from gearlink.core.spec_paths import put
+from gearlink.core.three_gear.as_made.meshes import over_sorted
+from gearlink.core.tolerance_study.samples import judged
+
+SAMPLES = 8
+
+
+class Study(NamedTuple):
+    """A worked design, how far its sizes scatter to either side, changed keys, and codes that must mix."""
+
+    design: str
+    widths: dict[str, float]
+    mixed: set[str]
+    keys: dict[str, Any] = {}
+    command: str | None = None
+
+
+STUDIES = {
+    "window of given links": Study("standing_feed", {"links.crank": 0.5, "links.frame": 0.5}, {"GL301", "GL313"}),
+    "window of a synthesis by margin": Study(
+        "ring_feed", {"links.crank": 1.0, "links.frame": 1.0}, {"GL303"}, {"limits__transmission_angle": 42.7}
+    ),
+    "window in a play": Study(
+        "candy_feed",
+        {"links.crank": 0.6, "links.frame": 0.6},
+        {"GL313", "GL303"},
+        {
+            "dwell": None,
+            "links": {"crank": 38.942, "frame": 153.53},
+            "dwell_backlash": 14.3,
+            "dwell_window": 178,
+            "limits": {"transmission_angle": 61.5},
+        },
+    ),
+    "teeth of a drive alone": Study(
+        "drawn_feed", {"gears.profile_shift[0]": 0.5}, {"GL203"}, {"limits": {"contact_ratio": 1.5}}
+    ),
+    "two gears": Study("two_gear_standing", {"links.coupler": 8, "links.frame": 8}, {"GL303"}),
+    "rocker": Study("wide_lever", {"links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 50.8}),
+    "crank": Study("ty460_slider_crank", {"stroke": 60, "rod": 150, "offset": 60}, set()),
+    "pair by shifts": Study(
+        "gear_pair", {"profile_shift[0]": 0.5, "profile_shift[1]": 0.5}, {"GL203"}, {"limits__contact_ratio": 2.1}
+    ),
+    "pair by its distance": Study("ty460_input_gears", {"center_distance": 2.0}, {"GL205", "GL208"}),
+    "ring pair": Study("ring_pair", {"profile_shift[0]": 0.8}, {"GL201", "GL204", "GL207"}),
+    "mutilated": Study(
+        "mutilated_gear_press", {"links.crank": 6, "links.rocker": 20}, {"GL303"}, {"limits__transmission_angle": 53.13}
+    ),
+    "hypocycloid": Study("hypocycloid_slider", {"rod.length": 20}, {"GL311"}),
+    "teeth of a drive": Study("drawn_feed", {"links.crank": 6, "gears.profile_shift[0]": 0.3}, {"GL302"}),
+    "five-bar": Study("five_bar_path", {"links.input": 6, "links.coupler": 6, "phase": 20}, {"GL303"}),
+    "function": Study(
+        "five_bar_function_tolerances", {"phase": 0.02}, {"GL307"}, {"target__function__tolerance": 0.0006}
+    ),
+    "six-bar": Study("geared_six_bar", {"links.output": 8, "links.frame": 8}, {"GL303"}),
+    "press": Study("ty460", {"bed.rod": 60, "bed.stroke": 20}, {"GL401", "GL502"}),
+    "press and cams": Study(
+        "ty460", {"cam.base_radius": 6, "cam.roller_radius": 4}, {"GL401"}, {"limits__pressure_angle": 13.03}, "analyze"
+    ),
+    "gripper": Study(
+        "swing_gripper", {"links.input": 2, "pivots.output[0]": 2}, {"GL303"}, {"limits__transmission_angle": 69.7}
+    ),
+    "gripper's cams alone": Study(
+        "swing_gripper",
+        {"cam.roller.arm": 12, "cam.return_roller.arm": 12},
+        {"GL401"},
+        {"limits__pressure_angle": 27.55},
+    ),
+    "slider of a wide swing": Study(
+        "wide_swing_slider", {"slider.crank": 20, "slider.rod": 30}, {"GL303"}, {"limits__transmission_angle": 70.5}
+    ),
+    "wide swing": Study("wide_swing_twin_cam", {"unloader.pivot_ratio": 0.2, "cam.roller_radius": 3}, {"GL504"}),
+}
+
+
+def alone(made: Any, sizes: dict[str, float]) -> dict[str, bool] | None:
+    """Whether each code holds for the completed file with other sizes; None where there is no such machine."""
+    data = copy.deepcopy(made.base.data)
+    for key, value in sizes.items():
+        put(data, key, value)
+    kind, held = KINDS[data["kind"]], dict[str, bool]()
+    try:
+        design = kind.design(made.base.command, kind.spec_model().model_validate(data))
+        checks = [check for name in design.outline(made.base.command).checks for check in design.check(name)]
+    except (ValidationError, NoSolution):
+        return None
+    for check in checks:
+        held[check.code] = held.get(check.code, True) and check.status != "fail"
+    return held
+
+
+@pytest.mark.parametrize("name", mostly_slow(list(STUDIES), 12))
+def test_a_sample_passes_what_it_passes_by_itself(name: str) -> None:
+    study = STUDIES[name]
+    sources = {key: {"plus_minus": width, "law": "uniform"} for key, width in study.widths.items()}
+    section = {"sources": sources, "samples": 16} | ({"command": study.command} if study.command else {})
+    made = factory.design(study.design, command="tolerance", tolerance=section, **study.keys).problem
+    count = SAMPLES * (5 if made.is_quick else 1)
+    points = np.random.default_rng(3).random((count, made.coordinates))
+    found, sizes = judged(made, points), made.sizes(points)
+    seen: dict[str, list[bool]] = {}
+    for i in range(count):
+        held = alone(made, {key: float(column[i]) for key, column in sizes.items()})
+        assert bool(found.exists[i]) == (held is not None)
+        counted = {code: bool(mask[i]) for code, mask in found.passes.items()}
+        # a code that says nothing of this machine fails none; one without any finding has no row
+        assert counted == dict.fromkeys(counted, held is not None) | (held or {})
+        for code, passed in (held or {}).items():
+            seen.setdefault(code, []).append(passed)
+    assert {code for code, row in seen.items() if len(set(row)) == 2} >= study.mixed
+
+
+def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
+    tried = {factory.worked(study.design)["kind"] for study in STUDIES.values()}
+    assert tried == {name for name, kind in KINDS.items() if "tolerance" in kind.commands}
+
+
+DRIVES = {
+    "external": {"module": 2, "crank": 40, "idler": 72, "output": 40},
+    "ring": {"module": 1, "crank": 48, "idler": 36, "output": -118},
+    "few teeth": {"module": 2, "crank": 18, "idler": 36, "output": 18},
+    "ring whose tips reach too deep": {"module": 2, "crank": 24, "idler": 17, "output": -54},
+}
+LINKS = {
+    "external": {"crank": 38.942, "frame": 153.53},
+    "ring": {"crank": 23.539, "frame": 53.767},
+    "few teeth": {"crank": 18.0, "frame": 75.0},
+    "ring whose tips reach too deep": {"crank": 22.0, "frame": 46.0},
+}
+OF_DISTANCE = {"contact-ratio", "involute-interference", "root-clearance", "tip-fouling"}
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_teeth_of_a_drive_are_judged_at_the_distance_as_made(name: str) -> None:
+    """Half a module to either side, against gear pairs of given shifts and tips at that distance."""
+    gears = DRIVES[name]
+    data = {"kind": "three-gear-four-bar", "name": name, "gears": gears, "links": LINKS[name]}
+    data["limits"] = {"gear_gap": -50.0, "transmission_angle": 5.0}
+    width = {"plus_minus": 0.5 * gears["module"], "law": "uniform"}
+    sources = {"centers.crank_idler": width, "centers.idler_output": width}
+    made = factory.design(data, command="tolerance", tolerance={"sources": sources, "samples": 16}).problem
+    points = np.random.default_rng(5).random((24, 2))
+    found, sizes = judged(made, points), made.sizes(points)
+    wanted = [
+        {
+            code
+            for teeth, key in (
+                ((gears["crank"], gears["idler"]), "centers.crank_idler"),
+                ((gears["idler"], gears["output"]), "centers.idler_output"),
+            )
+            for code in pair_fails(gears["module"], teeth, float(sizes[key][i]))
+        }
+        for i in range(24)
+    ]
+    assert found.exists.all()
+    codes = {"GL203", "GL204", "GL205", "GL206"} & found.passes.keys()
+    got = [{code for code in codes if not found.passes[code][i]} for i in range(24)]
+    assert got == [row & codes for row in wanted]
+    assert len({frozenset(row) for row in got}) > 1
+
+
+def pair_fails(module: float, teeth: tuple[int, int], distance: float) -> set[str]:
+    """Codes of what depends on the centre distance that fail on a pair of its own."""
+    data = {
+        "kind": "gear-pair",
+        "module": module,
+        "teeth": list(teeth),
+        "profile_shift": [0.0, 0.0],
+        "tip_shortening": [0.0, 0.0],
+        "center_distance": distance,
+    }
+    pair = factory.design(data, command="gear")
+    # the clearance at the roots of a ring by standard teeth is not judged by a drive
+    names = OF_DISTANCE if teeth[1] > 0 else OF_DISTANCE - {"root-clearance"}
+    return {check.code for name in names for check in pair.check(name) if check.status == "fail"}
+
+
+def test_what_changes_few_times_is_looked_at_few_times() -> None:
+    """The same as looking at each of 4,096 numbers."""
+    values = np.random.default_rng(1).normal(size=4096)
+    asked = []
+
+    def state(value: float) -> frozenset[str]:
+        asked.append(value)
+        return frozenset(code for code, low in (("a", -1.0), ("b", 0.5), ("c", 9.0)) if value < low)
+
+    found = over_sorted(state, values)
+    assert len(asked) < 60
+    got: list[frozenset[str]] = [frozenset()] * values.size
+    for each, places in found:
+        for place in places:
+            got[place] = each
+    assert got == [state(value) for value in values]
+    assert sorted(int(place) for _, places in found for place in places) == list(range(values.size))
+
+
+def test_a_single_machine_has_one_state() -> None:
+    (state, places), *rest = over_sorted(lambda _: frozenset("x"), np.ones(1))
+    assert (state, places.tolist()) == (frozenset("x"), [0])
+    assert all(not more.size for _, more in rest)
