@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.design_axis import Evaluated
-from gearlink.core.explore.one_by_one import as_arrays, put_in, single
+from gearlink.core.design_axis import Evaluated, as_arrays, put_in
+from gearlink.core.explore.one_by_one import single
 from gearlink.core.explore.pareto import best_boxes, counted, front
 from gearlink.core.explore.preparing import problem_of
 from gearlink.core.explore.problem import Problem

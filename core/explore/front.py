@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from gearlink.core.design_axis import Single
 from gearlink.core.explore.chunks import RANKED, Chunk, Miss, evaluated, fold, judged, multiples_of
-from gearlink.core.explore.one_by_one import Single, single
+from gearlink.core.explore.one_by_one import single
 from gearlink.core.explore.order import Sample
 from gearlink.core.explore.pareto import best_boxes, boxes, front, knee, spread
 from gearlink.core.explore.problem import Problem

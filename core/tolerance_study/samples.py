@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearlink.core.design import in_unit
-from gearlink.core.design_axis import Evaluated
+from gearlink.core.design_axis import Evaluated, Single, as_arrays
 from gearlink.core.errors import NoSolution
 from gearlink.core.explore.base import Refused
-from gearlink.core.explore.one_by_one import Single, as_arrays, findings_of
+from gearlink.core.explore.one_by_one import findings_of
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.tolerance.sampling import replication, rounded_up

@@ -10,9 +10,8 @@ import numpy as np
 
 from gearlink.core.clearance.bodies import Clearance
 from gearlink.core.design import in_unit
-from gearlink.core.design_axis import Evaluated, Findings
+from gearlink.core.design_axis import Evaluated, Findings, Single, as_arrays, put_in
 from gearlink.core.errors import NoSolution
-from gearlink.core.explore.one_by_one import Single, as_arrays, put_in
 from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.linkages.checks import WINDOW_FIT
 from gearlink.core.linkages.codes import DWELL_WINDOW
