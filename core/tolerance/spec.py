@@ -88,6 +88,11 @@ class ToleranceSource(Spec):
             raise _wrong("GL171", "upper without lower: give both, or plus_minus")
         if self.lower is not None and self.upper is None:
             raise _wrong("GL171", "lower without upper: give both, or plus_minus")
+        if not given and self.grades is not None:
+            text = (
+                "grades alone say no size to begin with, from which --allocate chooses: add class: js8, or plus_minus"
+            )
+            raise _wrong("GL171", text)
         if not given:
             raise _wrong("GL171", f"no limits: give one of {', '.join(_SIZES)}")
         if len(given) > 1:

@@ -176,7 +176,8 @@ def table_rows(study: Any) -> list[tuple[Any, ...]]:
     Parameters
         study : ToleranceStudy
     Returns
-        rows : (source, grade, plus_minus [mm], cost, yield of the samples, whether one grade coarser keeps the target)
+        rows : (source, grade, plus_minus [mm], cost, yield of the samples, whether one grade coarser keeps the target
+            by the slopes, and in words why it is not taken then)
     Raises
         WrongStudy - without target, or without a source whose grade may be chosen, or where no grades reach it
     """
@@ -186,33 +187,68 @@ def table_rows(study: Any) -> list[tuple[Any, ...]]:
     entries = [made.sources[i].entry for i in places]
     graded = [Graded(entry.grades[0], entry.grades[1], entry.cost) for entry in entries if entry.grades]
     linear = _linear_yield(study, places)
-    found, reached = _confirmed(made, places, choices(graded, linear, target, ratio))
+    found, reached, refused = _confirmed(made, places, choices(graded, linear, target, ratio))
     rows = []
     for i, one, grade in zip(places, graded, found.grades, strict=True):
         coarser = [grade + (place == i) for place, grade in zip(places, found.grades, strict=True)]
         free = grade < one.coarsest and linear(coarser) >= target
         source = made.sources[i]
         half = 0.5 * standard_tolerance(abs(source.nominal), grade)
-        rows.append((source.key, grade, half, one.cost * ratio ** (_MIDDLE_GRADE - grade), reached, free))
+        cost = one.cost * ratio ** (_MIDDLE_GRADE - grade)
+        rows.append(
+            (source.key, grade, half, cost, reached, free, _why_not(refused.get(tuple(coarser))) if free else "")
+        )
     return rows
+
+
+def _why_not(sampled: float | None) -> str:
+    """Why grades that reach the target by the slopes are not taken."""
+    if sampled is None:
+        return "by the slopes alone; samples of like grades missed the target"
+    return f"by the slopes alone; samples prove no more than {100 * sampled:.6g} %"
+
+
+def require(made: Problem) -> None:
+    """Refuse what gives no grades, before anything is computed.
+
+    Raises
+        WrongStudy - without target, without a source whose grade may be chosen, without a requirement that has slopes
+    """
+    _places(made)
+    if not _limited(made):
+        window = getattr(made.base.spec(), "dwell_window", None)
+        line = "QUANTITY >= NUMBER" if window is None else f"tolerance_dwell_angle >= {window:g} deg"
+        message = f"--allocate chooses by the slopes of quantities, and a check names none: add require: [{line}]"
+        raise no("GL171", message, "require")
+
+
+def _limited(made: Problem) -> set[str]:
+    """Quantities that a requirement compares with a number."""
+    trees = {one.expression.tree for one in made.requirements if not isinstance(one.limit, str)}
+    return {tree for tree in trees if isinstance(tree, str)}
 
 
 def _places(made: Problem) -> list[int]:
     """Which sources have grades to choose from."""
+    if made.section.target_yield is None:
+        raise no("GL171", "--allocate needs a yield to reach, such as target_yield: 0.997", "target_yield")
     found = [i for i, source in enumerate(made.sources) if source.entry.grades is not None and source.kind != "pin"]
-    if made.section.target_yield is None or not found:
-        what = "target_yield" if made.section.target_yield is None else "grades: [finest, coarsest] on a source"
-        raise no("GL171", f"--allocate needs {what}")
+    if not found:
+        key = made.sources[0].key
+        raise no(
+            "GL171", f"--allocate needs grades to choose from, such as {key}: {{class: js8, grades: [5, 9]}}", "sources"
+        )
     return found
 
 
 def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
     """The yield of grades by the slopes, with the laws and correlations of the file: exact where it can be."""
     made = study.problem
-    names = {one.expression.tree for one in made.requirements if isinstance(one.expression.tree, str)}
-    asked = [name for name in study.varying if name in names]
+    asked = [name for name in study.varying if name in _limited(made)]
     if not asked:
-        raise no("GL171", "--allocate needs a line of require that compares one quantity with a number", "require")
+        raise no(
+            "GL171", "no source moves what the lines of require compare with numbers: nothing to choose by", "require"
+        )
     by_grade = [_by_grade(made.sources[i]) for i in places]
     alone = len(asked) == 1 and made.correlation is None
     if alone and all(source.kind != "pin" and source.law.form in ("normal", "fixed") for source in made.sources):
@@ -264,8 +300,10 @@ def _along(gain: Sequence[float], off: Any) -> Reals:
     return error
 
 
-def _confirmed(made: Problem, places: Sequence[int], found: Iterator[Choice]) -> tuple[Choice, float]:
-    """The first choice whose samples reach the target, and the lower end of their yield.
+def _confirmed(
+    made: Problem, places: Sequence[int], found: Iterator[Choice]
+) -> tuple[Choice, float, dict[tuple[int, ...], float]]:
+    """The first choice whose samples reach the target, the lower end of their yield, and that of what missed it.
 
     Notes
         What fails more often in the samples than by the slopes is expected to do so with the next choices too: those
@@ -276,11 +314,11 @@ def _confirmed(made: Problem, places: Sequence[int], found: Iterator[Choice]) ->
     target, more = made.section.target_yield or 0.0, 1.0
     tried: list[tuple[float, Choice]] = []
     for choice in found:
-        if tried and (1.0 - choice.reached) * more > 1.0 - target:
+        if tried and _expected_to_miss(choice, more, target):
             continue
         low = _sampled(made, places, choice.grades)
         if low >= target:
-            return choice, low
+            return choice, low, {choice.grades: low for low, choice in tried}
         tried.append((low, choice))
         if len(tried) == _TRIALS:
             break
@@ -293,6 +331,11 @@ def _confirmed(made: Problem, places: Sequence[int], found: Iterator[Choice]) ->
     named = ", ".join(f"{made.sources[i].key} IT{grade}" for i, grade in zip(places, best.grades, strict=True))
     message = f"by the slopes {named} reach the target yield, but samples of them prove no more than {100 * low:.6g} %"
     raise no("GL171", f"{message}: take finer grades or more --samples, or loosen the requirement", "target_yield")
+
+
+def _expected_to_miss(choice: Choice, more: float, target: float) -> bool:
+    """Whether a choice misses the target if it fails so many times as often as by the slopes."""
+    return (1.0 - choice.reached) * more > 1.0 - target
 
 
 def _sampled(made: Problem, places: Sequence[int], grades: Grades) -> float:

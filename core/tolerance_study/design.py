@@ -187,7 +187,13 @@ class ToleranceStudy(Design):
     def table_allocation(self, _samples: int | None = None) -> Table:
         """The cheapest grades that reach the target yield, and which of them may be loosened for free."""
         rows = allocation.table_rows(self)
-        return _table("allocation", ("source", "grade", "plus_minus", "cost", "yield_low", "one_coarser_holds"), rows)
+        columns = ("source", "grade", "plus_minus", "cost", "yield_low", "one_coarser_holds", "remark")
+        return _table("allocation", columns, rows)
+
+    def require_table(self, name: str) -> None:
+        """Refuse an allocation that has nothing to choose by."""
+        if name == "allocation":
+            allocation.require(self.problem)
 
     @cached_property
     def courses(self) -> list[Course]:

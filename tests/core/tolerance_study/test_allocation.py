@@ -18,6 +18,7 @@ from gearlink.core.study.faults import WrongStudy
 from gearlink.core.tolerance.iso_286 import standard_tolerance
 from gearlink.core.tolerance.laws import Law, normal_between
 from gearlink.core.tolerance.sampling import replication
+from gearlink.core.tolerance_study import allocation
 from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, drawn_yield, normal_yield
 
 GRADES = range(5, 11)
@@ -118,6 +119,60 @@ def test_grades_reach_the_target_under_every_law(law: dict[str, Any]) -> None:
 def _process(law: dict[str, Any], limit: float) -> dict[str, Any]:
     """A law for other limits than +-0.02: its peak keeps its place between them."""
     return law | ({"mode": law["mode"] * limit / 0.02} if "mode" in law else {})
+
+
+def test_what_the_slopes_allow_and_the_samples_refuse_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As if samples of the first choice had shown half of the machines to fail."""
+    yields = iter((0.5, 0.995))
+    tried: list[tuple[int, ...]] = []
+
+    def sampled(_made: Any, _places: Any, grades: tuple[int, ...]) -> float:
+        tried.append(grades)
+        return next(yields)
+
+    monkeypatch.setattr(allocation, "_sampled", sampled)
+    monkeypatch.setattr(allocation, "_expected_to_miss", lambda *_: False)
+    table = study({"law": "uniform"}, samples=256).table_allocation()
+    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
+    first, taken = tried
+    assert tuple(row["grade"] for row in rows) == taken
+    remarks = {}
+    for place, row in enumerate(rows):
+        coarser = tuple(grade + (i == place) for i, grade in enumerate(taken))
+        remarks[coarser] = row["remark"]
+        assert bool(row["remark"]) == row["one_coarser_holds"]
+    assert remarks[first] == "by the slopes alone; samples prove no more than 50 %"
+
+
+@pytest.mark.parametrize(
+    ("missing", "words", "place"),
+    [
+        ({"require": []}, r"add require: \[tolerance_dwell_angle >= 110 deg\]", "require"),
+        ({"require": [], "window": None}, r"add require: \[QUANTITY >= NUMBER\]", "require"),
+        ({"target_yield": None}, r"target_yield: 0\.997", "target_yield"),
+        (
+            {"sources": {"links.crank": {"plus_minus": 0.02}}},
+            r"links\.crank: \{class: js8, grades: \[5, 9\]\}",
+            "sources",
+        ),
+    ],
+)
+def test_an_allocation_without_ground_is_refused_before_any_sample(
+    missing: dict[str, Any], words: str, place: str
+) -> None:
+    wish = {"dwell_tolerance": 11.0, "dwell_window": missing.get("window", 110)}
+    section = {key: value for key, value in missing.items() if key != "window"}
+    given = {"sources": {"links.crank": {"plus_minus": 0.02, "grades": [4, 11]}}, "target_yield": 0.99, "samples": 64}
+    made = factory.design(CANDY | wish | {"tolerance": given | section}, command="tolerance")
+    with pytest.raises(WrongStudy, match=words) as found:
+        made.report("tolerance", tables=("allocation",))
+    assert found.value.faults[0].place == ("tolerance", place)
+    assert "result" not in vars(made)
+
+
+def test_grades_alone_are_no_size() -> None:
+    with pytest.raises(ValueError, match="add class: js8"):
+        study({}, sources={"links.crank": {"grades": [5, 10]}})
 
 
 @pytest.mark.slow
