@@ -22,7 +22,7 @@ from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_always import always_stepping as two_gear_frames
 from gearlink.core.planet_linkages.two_gear_family import Family
 from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.synthesis import families, internal_families
+from gearlink.core.three_gear.families import external, internal
 from gearlink.core.three_gear.synthesis.always import always_stepping as three_gear_frames
 
 STEP = 0.5  # deg
@@ -79,7 +79,7 @@ def two_gears(planet: int, ring: int, coupler: float, rocker: float, assembly: i
 
 def three_gears(z1: int, z3: int, z5: int, crank: float, assembly: int = 1) -> Case | None:
     """Module 2, so that radii are teeth; z5 < 0 is a ring round the train."""
-    form: Any = internal_families if z5 < 0 else families
+    form: Any = internal if z5 < 0 else external
     i2, i3 = -z1 / z3, -z3 / z5
     links = crank, float(z1 + z3), float(abs(z3 + z5))
     try:
