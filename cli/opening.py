@@ -23,11 +23,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.design import Design
+    from gearlink.core.report import Quantity
+
+    class Shown(Quantity):
+        """A quantity whose value is of the type that its name brings: a number, a text, a list."""
+
+        value: Any
 
     class Opened(Design):
         """A design of some kind: type checkers know the methods of all, and take quantities by name for any type."""
 
         def __getattr__(self, name: str) -> Any: ...
+
+        def quantity(self, name: str) -> Shown | Any:
+            """None where it does not apply to this design; who asks for it by its name knows whether it does."""
 
 
 _KEYWORDS = "<design>"
