@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from time import perf_counter
 from typing import Any
+
+import numpy as np
 
 from gearlink.core.design import in_unit
 from gearlink.core.design_axis import Evaluated, Single, as_arrays
@@ -13,10 +16,13 @@ from gearlink.core.explore.base import Refused
 from gearlink.core.explore.one_by_one import findings_of
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.tolerance.sampling import replication, rounded_up
+from gearlink.core.tolerance.sampling import REPLICATIONS, replication, rounded_up
+from gearlink.core.tolerance.shares import seen
 from gearlink.core.tolerance_study.problem import Problem
 
 Columns = Mapping[str, Reals | Points]
+_BLOCK = 8192  # of the array form; of one by one, from the fewest up to what takes so many seconds
+_FEWEST, _SECONDS = 16, 0.05
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,39 @@ class Judged:
 
 
 def judged(made: Problem, points: Reals) -> Judged:
-    """Compute and judge the designs of some random points."""
+    """Compute and judge the designs of some random points, block by block.
+
+    Notes
+        Blocks of the array form are all of one size, since the last bit of a design may depend on those beside it;
+        designs computed one by one depend on nothing, and their blocks are such as take a tenth of a second.
+    """
+    blocks: list[Judged] = []
+    first, size = 0, _BLOCK if made.is_quick else _FEWEST
+    while first < len(points):
+        start = perf_counter()
+        block = points[first : first + size]
+        blocks.append(_judged(made, block))
+        first += len(block)
+        seen(len(block))
+        if not made.is_quick and perf_counter() - start < _SECONDS:
+            size *= 2
+    return blocks[0] if len(blocks) == 1 else _together(blocks)
+
+
+def _together(blocks: Sequence[Judged]) -> Judged:
+    """Blocks as one; where a check says nothing of a block's designs, all that exist pass it."""
+    return Judged(
+        {name: np.concatenate([one.quantities[name] for one in blocks]) for name in blocks[0].quantities},
+        {
+            name: np.concatenate([one.passes.get(name, one.exists) for one in blocks])
+            for name in dict.fromkeys(name for one in blocks for name in one.passes)
+        },
+        np.concatenate([one.exists for one in blocks]),
+        np.concatenate([one.good for one in blocks]),
+    )
+
+
+def _judged(made: Problem, points: Reals) -> Judged:
     found = evaluated(made, made.sizes(points))
     exists: Mask = found.refused == 0
     judged_by = {finding.code for finding in found.findings}
@@ -97,3 +135,8 @@ def _extra(made: Problem) -> Sequence[str]:
 def judged_replication(made: Problem, number: int) -> Judged:
     """One replication of the study."""
     return judged(made, replication(made.coordinates, rounded_up(made.samples), made.section.seed, number))
+
+
+def replication_size(made: Problem) -> int:
+    """Samples of a replication."""
+    return rounded_up(made.samples) // REPLICATIONS

@@ -14,7 +14,7 @@ from gearlink.core.tolerance.correlation import groups
 from gearlink.core.tolerance.sampling import Estimate, estimate, replication, rounded_up
 from gearlink.core.tolerance.sources import Scatter
 from gearlink.core.tolerance_study.problem import Problem
-from gearlink.core.tolerance_study.samples import evaluated, judged
+from gearlink.core.tolerance_study.samples import evaluated, judged, replication_size
 from gearlink.core.tolerance_study.shares import replicated
 
 _KINK = 0.1  # of the whole scatter: sides that differ by more belong to no line
@@ -135,7 +135,8 @@ def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
         I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; A. Janon et al., ESAIM P&S 18 (2014) 342; M. J. W. Jansen,
         Comput. Phys. Comm. 117 (1999) 35
     """
-    rows = list(replicated(made, partial(_indices_of, names=tuple(names))))
+    work = replication_size(made) * (2 + len(made.sources))
+    rows = list(replicated(made, partial(_indices_of, names=tuple(names)), work))
     return {
         name: [_estimated(np.array([row[name][i] for row in rows])) for i in range(len(made.sources))] for name in names
     }

@@ -14,16 +14,17 @@ from gearlink.core.tolerance_study.problem import Problem, problem
 Found = TypeVar("Found")
 
 
-def replicated(made: Problem, function: Callable[[Problem, int], Found]) -> Iterable[Found]:
+def replicated(made: Problem, function: Callable[[Problem, int], Found], work: int = 1) -> Iterable[Found]:
     """What a function finds in every replication, in order.
 
     Parameters
         made : Problem
         function : of the problem and the replication's number - of a module, so that it can be sent elsewhere
+        work : int - designs of a replication, as it tells `seen`
     """
     if is_shared():
-        return of_replications(partial(_by_text, function, text_of(made)))
-    return of_replications(partial(function, made))
+        return of_replications(partial(_by_text, function, text_of(made)), work)
+    return of_replications(partial(function, made), work)
 
 
 def _by_text(function: Callable[[Problem, int], Found], text: str, number: int) -> Found:

@@ -12,7 +12,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.tolerance.quantiles import Quantile, Window, quantile, window
 from gearlink.core.tolerance.sampling import Estimate, estimate, share_estimate
 from gearlink.core.tolerance_study.problem import Problem
-from gearlink.core.tolerance_study.samples import judged_replication
+from gearlink.core.tolerance_study.samples import judged_replication, replication_size
 from gearlink.core.tolerance_study.shares import replicated
 
 QUANTILES = (0.00135, 0.5, 0.99865)
@@ -109,7 +109,7 @@ def counted(made: Problem, number: int) -> Counted:
 
 def result(made: Problem) -> Result:
     """Compute a study, and sum up its replications."""
-    rows = list(replicated(made, counted))
+    rows = list(replicated(made, counted, replication_size(made)))
     count = sum(one.count for one in rows)
     names = list(dict.fromkeys(name for one in rows for name in one.passes))
     kept = [one.values for one in rows if one.values]

@@ -11,6 +11,7 @@ import pytest
 from sweeps import ALL
 
 from gearlink.cli.parallel import shares
+from gearlink.cli.parallel.watch import Watch
 
 DESIGN = """\
 kind: three-gear-four-bar
@@ -189,7 +190,8 @@ def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFi
             return future
 
     done: list[int] = []
-    assert shares._given(Dying(), abs, [0, 1, 2, 3], done.append) == [0, 1, 2, 3]
+    watch = Watch(4, 1, done.append, quiet=False)
+    assert shares._given(Dying(), abs, [0, 1, 2, 3], watch) == [0, 1, 2, 3]
     assert sum(done) == 4
     assert "killed" in capsys.readouterr().err
 

@@ -85,7 +85,7 @@ def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
     made = factory.design(CANDY | {"tolerance": SMALL, "register": {"method": "mc"}}, command="register")
     sent: list[Any] = []
 
-    def elsewhere(function: Any, numbers: Any) -> list[Any]:
+    def elsewhere(function: Any, numbers: Any, _work: int) -> list[Any]:
         sent.append(function.args)
         return [function(number) for number in list(numbers)[:2]]
 

@@ -21,6 +21,8 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS
 from gearlink.core.spec_paths import put
 from gearlink.core.three_gear.as_made.meshes import over_sorted
+from gearlink.core.tolerance.shares import SEEN
+from gearlink.core.tolerance_study import samples
 from gearlink.core.tolerance_study.samples import judged
 
 SAMPLES = 8
@@ -134,6 +136,34 @@ def test_a_sample_passes_what_it_passes_by_itself(name: str) -> None:
 def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
     tried = {factory.worked(study.design)["kind"] for study in STUDIES.values()}
     assert tried == {name for name, kind in KINDS.items() if "tolerance" in kind.commands}
+
+
+@pytest.mark.parametrize(
+    ("name", "widths"), [("standing_feed", {"links.crank": 0.5}), ("ring_pair", {"profile_shift[0]": 0.8})]
+)
+def test_blocks_change_no_verdict(monkeypatch: pytest.MonkeyPatch, name: str, widths: dict[str, float]) -> None:
+    """Also where a check says nothing of a whole block; 1e-9 are last bits that steps to a root may leave otherwise."""
+    sources = {key: {"plus_minus": width, "law": "uniform"} for key, width in widths.items()}
+    made = factory.design(name, command="tolerance", tolerance={"sources": sources, "samples": 16}).problem
+    points = np.random.default_rng(4).random((40, made.coordinates))
+    whole = judged(made, points)
+    monkeypatch.setattr(samples, "_BLOCK", 7)
+    monkeypatch.setattr(samples, "_FEWEST", 1)
+    told: list[int] = []
+    token = SEEN.set(told.append)
+    try:
+        parts = judged(made, points)
+    finally:
+        SEEN.reset(token)
+    assert {code: mask.tolist() for code, mask in parts.passes.items()} == {
+        code: mask.tolist() for code, mask in whole.passes.items()
+    }
+    assert (parts.good == whole.good).all()
+    assert (parts.exists == whole.exists).all()
+    for quantity, values in whole.quantities.items():
+        np.testing.assert_allclose(parts.quantities[quantity], values, rtol=1e-9, atol=1e-9)
+    assert sum(told) == 40
+    assert len(told) > 4
 
 
 DRIVES = {
