@@ -1,156 +1,27 @@
 """Two-gear four-bars of given gears, coupler and rocker in one unknown, the frame: momentary dwell, back-step, window.
 
-The output stands still where the line CD passes through the pitch point P of the gears on AB. With u = PC along that
-line, positive towards D, the triangle BCP and the triangle of A, P and D give
-
-    d^2 = r5^2 + (u - c)^2 + q (u - c) (r2^2 + u^2 - b^2)/u,   q = r5/r2, negative for a ring gear
-
-so that standstills come in pairs, and a pair is one momentary dwell where d^2 is stationary in u:
-
-    2 (1 + q) u^3 - c (2 + q) u^2 - c q (b^2 - r2^2) = 0
-
-With a sun the output stands still in drag links alone, with frames from that of the momentary dwell up to the change
-point; with a ring gear in crank-rockers alone, with frames from the change point up to that of the momentary dwell.
+From the frame of the momentary dwell on the output steps back, the further the nearer its frame is to the change point;
+see `two_gear_frames` for both.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, least_band, longest_in_band
-from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.numerics.gauss import integral
-from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.planet_linkages.two_gear_frames import Family, beyond_reach, frame_range, momentary_frame
 
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
 _PROBES = (1e-3, 1e-2, 0.1)  # shares of the way to the momentary dwell at which a hump shows
 _PROBED = 1e-9
 _TURN = 2.0 * math.pi
-
-
-@dataclass(frozen=True, slots=True)
-class Family:
-    """Gears and links without the frame.
-
-    crank, coupler, rocker : float [mm] - the crank is the centre distance of the gears
-    ratio : float - i = -z2/z5 for a sun, +z2/z5 for a ring gear
-    assembly : +1 or -1
-    """
-
-    crank: float
-    coupler: float
-    rocker: float
-    ratio: float
-    assembly: int = 1
-
-    @property
-    def ring(self) -> bool:
-        """Whether the output is a ring gear."""
-        return self.ratio > 0.0
-
-    def drive(self, frame: float) -> PlanetLinkage:
-        """The drive of a frame [mm]."""
-        linkage = FourBar(self.crank, self.coupler, self.rocker, frame, self.assembly)
-        return PlanetLinkage(linkage, self.ratio, "crank")
-
-
-def frame_range(family: Family) -> tuple[float, float]:
-    """Frames between which the output may stand still at all, by the class of the linkage.
-
-    sun, drag link:       0 < d < a + b + c - 2 max(a, b, c)
-    ring, crank-rocker:   a + |b - c| < d < b + c - a
-
-    Returns
-        low, high : float [mm] - the linkage flattens at the high end (sun), at both (ring)
-    Raises
-        NoSolution - where no frame makes such a linkage of the links
-    Example
-        >>> frame_range(Family(54.0, 48.0, 50.0, -2.0)), frame_range(Family(50.0, 80.0, 90.0, 0.375))
-        ((0.0, 44.0), (60.0, 120.0))
-
-    Source
-        Grashof's rule; that each gear stands in one class alone: own derivation for the sun
-    """
-    a, b, c = family.crank, family.coupler, family.rocker
-    if family.ring:
-        if not a < min(b, c):
-            raise NoSolution(
-                f"with a ring gear the output stands still in a crank-rocker alone: the crank, {a:.9g} mm by the "
-                f"gears, must be shorter than coupler and rocker; make both longer than that, or the module smaller",
-                key="links.coupler" if b <= c else "links.rocker",
-            )
-        return math.fsum((a, abs(b - c))), math.fsum((b, c, -a))
-    longest = max(a, b, c)
-    high = math.fsum((a, b, c, -2.0 * longest))
-    if high <= 0.0:
-        raise NoSolution(
-            f"with a sun the output stands still in a drag link alone, the frame its shortest link; with crank "
-            f"{a:.9g} (by the gears), coupler {b:.9g} and rocker {c:.9g} mm there is none: the longest must be "
-            f"shorter than the other two together, {a + b + c - longest:.9g} mm",
-            key="links.rocker" if c == longest else "links.coupler",
-        )
-    return 0.0, high
-
-
-def stationary_frames(family: Family) -> list[float]:
-    """Frames [mm] of the range at which the number of standstills changes, from the cubic in u; one or none.
-
-    Example
-        >>> [round(d, 9) for d in stationary_frames(Family(54.0, 48.0, 50.0, -2.0))]
-        [17.077972858]
-
-    Source
-        own derivation, see the module
-    """
-    q, c = -1.0 / family.ratio, family.rocker
-    r2 = family.crank / abs(1.0 + q)
-    k = (family.coupler - r2) * (family.coupler + r2)
-    terms = (2.0 * (1.0 + q), -c * (2.0 + q), -c * q * k)
-    low, high = frame_range(family)
-    found = []
-    for u in _places(*terms):
-        cosine = (u - k / u) / (2.0 * r2)
-        square = q * q * r2 * r2 + (u - c) ** 2 + 2.0 * q * r2 * (u - c) * cosine
-        if abs(cosine) <= 1.0 and low * low < square < high * high:
-            found.append(math.sqrt(square))
-    return sorted(found)
-
-
-def _places(cubic: float, square: float, constant: float) -> list[float]:
-    """Real roots u, none of them 0, of cubic u^3 + square u^2 + constant; it turns at 0 and at -2 square/(3 cubic)."""
-    if constant == 0.0:
-        return [-square / cubic] if square else []
-    far = 1.0 + (abs(square) + math.sqrt(abs(constant * cubic)) + abs(constant)) / abs(cubic)
-    turning = -2.0 * square / (3.0 * cubic)
-    return roots_on(lambda u: (cubic * u + square) * u * u + constant, sorted({-far, 0.0, turning, far}))
-
-
-def momentary_frame(family: Family) -> float:
-    """Frame with which the output stops once a turn without stepping back.
-
-    Returns
-        frame : float [mm] - d*
-    Raises
-        NoSolution - where the links and gears have none, naming the teeth that have
-    Example
-        >>> round(momentary_frame(Family(50.0, 80.0, 90.0, 0.375)), 9)
-        82.462174487
-
-    Source
-        own derivation, see the module
-    """
-    found = stationary_frames(family)
-    if not found:
-        from gearlink.core.planet_linkages.two_gear_refusals import never
-
-        raise NoSolution(never(family), key="gears.ring" if family.ring else "gears.sun")
-    return found[0]
 
 
 def stepping(family: Family) -> tuple[float, float]:
@@ -281,8 +152,6 @@ def solved(
     quiet, steep = stepping(family)
     most = measure(family.drive(steep))
     if not target <= most:
-        from gearlink.core.planet_linkages.two_gear_refusals import beyond_reach
-
         raise NoSolution(beyond_reach(what, share * most, family.drive(steep)))
     ends = (-target, most - target)  # at the momentary dwell itself rounding may leave a back-step
     return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)

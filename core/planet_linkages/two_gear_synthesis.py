@@ -16,7 +16,7 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_always import always_stepping
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
-from gearlink.core.planet_linkages.two_gear_refusals import beyond_reach
+from gearlink.core.planet_linkages.two_gear_frames import Family, beyond_reach, momentary_frame
 from gearlink.core.real_speed import per_time
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
@@ -84,10 +84,10 @@ class Synthesis(TwoGearFourBar):
         return 2 if self.__dict__.get("always") else 0
 
     @cached_property
-    def family(self) -> kernel.Family:
+    def family(self) -> Family:
         """Gears and links without the frame."""
         links = self.spec.links
-        return kernel.Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+        return Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
 
     @cached_property
     def always(self) -> AlwaysStepping | None:
@@ -112,7 +112,7 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def sought_frame(self) -> float:
         """The double root of the standstills' equation."""
-        return kernel.momentary_frame(self.family)
+        return momentary_frame(self.family)
 
 
 class BackStepSynthesis(Synthesis):

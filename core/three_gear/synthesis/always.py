@@ -15,8 +15,8 @@ def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
     Example
         >>> from gearlink.core.three_gear.families.external import with_crank
         >>> found = always_stepping(with_crank(54.0, 78.0, 49.0, 72.778), GearTrain(54, 78, 49))
-        >>> round(math.degrees(found.least_step[1]), 3)
-        13.137
+        >>> round(found.least_step[1], 6)
+        0.455302
     """
     if family.low is None or family.low != family.least or family.least == 0.0:
         return None
