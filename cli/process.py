@@ -5,6 +5,7 @@ What saves time at the cost of others in the process is done only where there ar
 
 import gc
 import os
+import sys
 
 TYPE_CHECKING = False  # as typing has it
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ def do_before_the_end() -> None:
 
 def say_interrupted() -> None:
     """Say so on standard error, past its stream, which may be in the middle of writing."""
+    if sys.stderr is None:  # closed by the parent: its number may be another file's
+        return
     try:  # noqa: SIM105 - contextlib is not loaded yet, and a signal is no time for it
         os.write(2, b"interrupted\n")
     except OSError:
