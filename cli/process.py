@@ -33,7 +33,7 @@ def end_at_interrupt() -> None:
     """
     import _signal  # type: ignore[import-not-found]  # of Python; `signal` takes longer to load than --version to answer
 
-    if _signal.getsignal(_signal.SIGINT) is not _signal.default_int_handler:
+    if _signal.getsignal(_signal.SIGINT) not in (_signal.default_int_handler, _signal.SIG_DFL):
         return
     own = os.getpid()
 

@@ -166,6 +166,16 @@ def _wipe() -> None:
 process.before_the_end.append(_wipe)
 
 
+def _forget() -> None:
+    """In a process that was forked: the line is its parent's, who alone draws and wipes it out."""
+    global _drawn
+    _drawn = ""
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget)
+
+
 def _write(text: str) -> None:
     """Past the stream, which may be in the middle of something, where it has a descriptor."""
     try:

@@ -143,6 +143,10 @@ from gearlink.cli.parallel.workers import workers
 module._AFTER, module._EVERY = 0.0, 1e-5
 
 def writes(number):
+    assert not module._drawn
+    with module.progress(1, "of a worker", quiet=False):
+        pass
+    module._wipe()  # as a signal that ends the worker does: the line is not its own
     print("x" * 100, file=sys.stderr, flush=True)
     return number
 
