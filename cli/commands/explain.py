@@ -306,16 +306,14 @@ def _index(format: Format) -> str:
 
 
 def _unknown(subject: str, format: Format) -> int:
-    from difflib import get_close_matches
-
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
+    from gearlink.cli.texts.near_names import near_names
     from gearlink.core.nomenclature import TERMS
 
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
-    lower = {name.lower(): name for name in [*(name.rpartition(".")[2] for name in everything), *everything]}
-    near = [lower[name] for name in get_close_matches(subject.lower(), lower, n=3, cutoff=0.5)]
-    remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes"
+    near = near_names(subject, [*(name.rpartition(".")[2] for name in everything), *everything])
+    remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes, `gearlink new` the kinds"
     wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))
     return ExitCode.WRONG_INPUT

@@ -242,6 +242,33 @@ def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> No
     assert near in ended.err
 
 
+@pytest.mark.parametrize(
+    "word", ["envelope", "space", "indexing", "plate cam", "globoidal", "planetary", "translating"]
+)
+def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
+    """Names that share some letters with it had been given: indexing: findings, sliding, bending."""
+    ended = gearlink("explain", word)
+    assert ended.status == 2
+    assert "nearest" not in ended.err
+    assert "`gearlink new` the kinds" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("word", "near"),
+    [
+        ("height", "path_height"),
+        ("four-bar", "two-gear-four-bar, three-gear-four-bar"),
+        ("gear-train", "gear-train-mobility"),
+        ("dwel", "dwell"),
+        ("phi31", "phi13"),
+        ("trasmission", "transmission-angle"),
+        ("GL3O1", "GL301"),
+    ],
+)
+def test_a_part_of_a_name_and_a_slip_are_near(gearlink: Any, word: str, near: str) -> None:
+    assert f"nearest: {near}" in gearlink("explain", word).err
+
+
 @pytest.mark.parametrize("width", [60, 80, 100])
 def test_text_fits_the_width(gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
