@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,7 +31,7 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
             made = sheets_of(whole_design(kind, spec))
-            chosen, paths = _chosen(made, names, kind.name), []
+            chosen, paths = _chosen(made, names, spec, source), []
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
                 paths.append(_write(made, chosen[number], spec, options))
     except (DesignFileError, CannotWrite) as error:
@@ -40,9 +41,10 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     return ExitCode.OK
 
 
-def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
+def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
     """The sheets asked for, each once; `drawing` is that of every cam."""
     chosen: list[str] = []
+    kind = spec.kind
     for name in names or tuple(made):
         found = [sheet for sheet in made if sheet == name or sheet.rpartition("-")[0] == name]
         if not found:
@@ -51,8 +53,8 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
         chosen += found
     if not chosen:
-        help_ = f"its picture is that of the design commands, with --plot; {_who_has()}"
-        message = f"a {kind} has no further sheets"
+        help_ = f"its sheet is drawn by `gearlink {spec.commands()[0]} {shlex.quote(source)} --plot`; {_who_has()}"
+        message = f"`sheet` draws motion, timing, pressure angles and cams, of which this {kind} has none"
         raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))
 

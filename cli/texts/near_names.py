@@ -46,7 +46,7 @@ def _words(name: str) -> list[str]:
 
 
 def slips(one: str, other: str, most: int) -> int:
-    """Letters to add, to drop, to change or to exchange with their neighbour, from one word to another; -1 above `most`.
+    """Letters to add, drop, change or exchange with their neighbour, from one word to another; -1 above `most`.
 
     Example
         >>> slips("dwel", "dwell", 1), slips("phi31", "phi13", 1), slips("space", "place", 1)
