@@ -21,7 +21,8 @@ def as_csv(contour: Contour, spec: Any) -> bytes:
 
     Notes
         The rows of a spline are the points that the cubics pass through. A value that does not exist (no contact,
-        a straight pitch curve, the pressure angle at a corner) is left empty.
+        a straight pitch curve, the pressure angle at a corner) is left empty; the column `curve` stands where a piece
+        of the contour has a name.
     """
     text = io.StringIO()
     for key, value in describe(contour, spec).items():
@@ -36,14 +37,15 @@ def _rows(contour: Contour) -> Iterator[list[Any]]:
     layers = tuple(dict.fromkeys(layer for piece in drawn for layer in piece.stretch.layers))
     leading = [head for head in contour.part.extra_columns if head in ("k", "cam_angle [deg]")]
     trailing = [head for head in contour.part.extra_columns if head not in leading]
-    yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, "curve"]
+    named = ["curve"] if any(piece.stretch.name for piece in drawn) else []
+    yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, *named]
     if contour.part.teeth:
         yield from _tooth_by_tooth(contour)
         return
     for piece, shown in rows_of(drawn):
         columns = _columns(piece, layers, contour.part.extra_columns, len(leading))
         for row in zip(*(column[shown] for column in columns), strict=True):
-            yield [*(_cell(value) for value in row), piece.stretch.name]
+            yield [*(_cell(value) for value in row), *([piece.stretch.name] if named else ())]
 
 
 def _tooth_by_tooth(contour: Contour) -> Iterator[list[Any]]:

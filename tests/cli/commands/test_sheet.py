@@ -182,7 +182,7 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
     ("name", "asked", "words"),
     [
         ("ty460_slider_crank", ("timing",), "it has motion"),
-        ("six_bar_two_trains", (), "of which this geared-six-bar has none"),
+        ("six_bar_two_trains", (), "of which this gear-train-mobility has none"),
         ("gear_pair", (), "its sheet is drawn by `gearlink gear "),
         ("ty460", ("motions",), "it has motion, timing, pressure, drawing-1, drawing-2"),
     ],

@@ -6,6 +6,7 @@ import math
 import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -368,3 +369,14 @@ def test_every_kind_with_gears_has_parts(designs: Path) -> None:
     }
     for name, names in wanted.items():
         assert list(parts.makers(design(worked(name)))) == names
+
+
+def test_rexs_bears_no_false_date(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The schema requires a date: the day of the export, which makes the file the same all day, or the one given."""
+    made = design("gear_pair", command="gear")
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    before = datetime.now(UTC).date()
+    first, after = ET.fromstring(as_rexs(made)).get("date"), datetime.now(UTC).date()
+    assert first in {f"{day.isoformat()}T00:00:00+00:00" for day in (before, after)}
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    assert ET.fromstring(as_rexs(made)).get("date") == "2023-11-14T22:13:20+00:00"
