@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from typing import Any
 
 from gearlink.core.explore.base import Base, Refused
+from gearlink.core.explore.entries import OF_ANY_LENGTH, beyond_lists, no_lists, odd_comparisons
 from gearlink.core.explore.order import Variable
 from gearlink.core.explore.problem import Problem, numeric
 from gearlink.core.explore.requirements import (
@@ -19,7 +21,7 @@ from gearlink.core.explore.requirements import (
     objective,
 )
 from gearlink.core.kinds import KINDS
-from gearlink.core.study.expressions import Expression
+from gearlink.core.study.expressions import Expression, parse
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.study.spec import StudySpec, VariableSpec
 
@@ -79,6 +81,7 @@ class _Reading:
     def __init__(self, spec: StudySpec, base: Base) -> None:
         self.spec, self.base = spec, base
         self.faults: list[Fault] = []
+        self._ends: list[list[tuple[str, Any]]] = []  # first and last value of each variable, as changes of the base
 
     def variables(self) -> Iterator[Variable]:
         """The variables that are in order; of the others a fault each."""
@@ -144,8 +147,10 @@ class _Reading:
         tried = list(_tried(variable, before))
         if not tried:
             return Fault("GL111", f"the range of {variable.path} holds no value", place, "widen it")
+        paths = (variable.path, *variable.also)
+        self._ends += [[(path, value) for path in paths] for value in (tried[0], tried[-1])]
         for value in tried:
-            message = self.base.takes([(path, value) for path in (variable.path, *variable.also)])
+            message = self.base.takes([(path, value) for path in paths])
             if message:
                 key = "values" if variable.values else "from" if value == tried[0] else "to"
                 at = (*place, key) if self.spec.variables[variable.path].points is None else place
@@ -216,10 +221,36 @@ class _Reading:
             below = error.key.split(".") if self.spec.of is None and error.key else ()
             self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
             return ()
+        longest, kind = self._longest(names, whole), self.base.kind.name
         for requirement, place in requirements:
-            self.faults += no_lists(requirement.expression.names, whole, place)
-            self.faults += odd_comparisons(requirement, values, place)
+            for name in requirement.expression.names:
+                at = self._place_of(name, requirement.expression.text, place)
+                self.faults += no_lists([name], whole, at)
+                self.faults += beyond_lists([name], longest, at, kind)
+                self.faults += odd_comparisons(requirement, [name], values, at, kind)
+        self.faults = list(dict.fromkeys(self.faults))  # of a definition that serves several lines one
         return self._must_pass(failing)
+
+    def _place_of(self, name: str, text: str, place: Place) -> Place:
+        """Where the file names a quantity: in a line itself, or in the definition that the line stands on."""
+        if name in parse(text).names:
+            return place
+        return next(("define", key) for key, given in self.spec.define.items() if name in parse(given).names)
+
+    def _longest(self, names: Iterable[str], whole: dict[str, Any]) -> dict[str, Any]:
+        """The quantities of the base, with a longer list in place of one where a variable's ends give one.
+
+        Notes
+            A gear more makes a mesh more; only where an entry is missing in the base, other designs are asked.
+        """
+        found = {name: value for name, value in whole.items() if name not in OF_ANY_LENGTH}
+        missing = list(beyond_lists(names, found, (), ""))
+        together = [[each for ends in self._ends[i::2] for each in ends] for i in (0, 1)]
+        for changes in (*together, *self._ends) if missing else ():
+            with suppress(Refused):
+                others = self.base.values(self.base.design(changes), whole)
+                found |= {name: others[name] for name in found if _length(others[name]) > _length(found[name])}
+        return found
 
     def _failing(self, design: Any) -> set[str]:
         from gearlink.core.errors import NoSolution
@@ -243,47 +274,8 @@ class _Reading:
         return tuple(sorted(set(asked)))
 
 
-def no_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Iterator[Fault]:
-    """Entries that are asked of numbers and words; `whole`: the quantities without index."""
-    for name in names:
-        plain, _, index = name.partition("[")
-        if index and whole[plain] is not None and not isinstance(whole[plain], (list, tuple)):
-            yield Fault("GL152", f"{plain} is no list: it has no entry {index.rstrip(']')}", place, f"take {plain}")
-
-
-def beyond_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Iterator[Fault]:
-    """Entries that are asked of lists that do not have them; `whole`: the quantities without index."""
-    for name in names:
-        plain, _, index = name.partition("[")
-        value = whole[plain]
-        if index and isinstance(value, (list, tuple)) and int(index.rstrip("]")) >= len(value):
-            last = f"the last is {plain}[{len(value) - 1}]" if value else "it is empty"
-            yield Fault(
-                "GL152", f"{plain} is a list of {len(value)}: it has no {name}", place, f"counted from 0, {last}"
-            )
-
-
-def odd_comparisons(requirement: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
-    """What is wrong with the quantities of a requirement, by their values in the base."""
-    expression = requirement.expression
-    words = isinstance(requirement, Condition) and isinstance(requirement.limit, str)
-    for name in expression.names:
-        value = values[name]
-        if isinstance(value, (list, tuple)):
-            message = f"{name} is a list of {len(value)}"
-            yield Fault("GL152", message, place, f"take one of them, {name}[0]")
-        elif isinstance(value, str) and not words:
-            yield Fault("GL152", f"{name} is a word ({value}), not a number", place, f"where: {name} == {value}")
-        elif value is not None and not isinstance(value, str) and words:
-            yield Fault("GL152", f"{name} is a number, not a word", place)
-        elif (
-            isinstance(requirement, Condition)
-            and requirement.sign == "=="
-            and isinstance(value, float)
-            and name == expression.text
-        ):
-            message = f"{name} is a real number, which equals nothing exactly"
-            yield Fault("GL152", message, place, "compare it by >= and <=")
+def _length(value: Any) -> int:
+    return len(value) if isinstance(value, (list, tuple)) else -1
 
 
 def _decimals_below(times: str | None, before: dict[str, Variable]) -> int:

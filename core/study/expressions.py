@@ -120,6 +120,8 @@ class _Reader:
         self.at = self._end + len(rest) - len(rest.lstrip())
         found = _TOKEN.match(self._text, self._end)
         if found is None:
+            if rest.strip().startswith("["):
+                raise NotAnExpression("an index is a whole number counted from 0, as in tip_radius[0]", self.at)
             if rest.strip():
                 raise NotAnExpression(f"{rest.strip()[0]!r} is no part of an expression", self.at)
             self.kind, self.token = "", ""

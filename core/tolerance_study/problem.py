@@ -14,7 +14,7 @@ import numpy as np
 from gearlink.core.design import Design
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.explore.base import Base, Refused
-from gearlink.core.explore.preparing import beyond_lists, no_lists, odd_comparisons
+from gearlink.core.explore.entries import beyond_lists, no_lists, odd_comparisons
 from gearlink.core.explore.requirements import Condition, FaultFound, Names, condition
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
@@ -121,10 +121,11 @@ class Problem:
         at = ("tolerance", "require", place)
         names = list(one.expression.names)
         whole = self._nominal_values({name.partition("[")[0] for name in names}, at)
-        faults = [*no_lists(names, whole, at), *beyond_lists(names, whole, at)]
+        kind = self.base.kind.name
+        faults = [*no_lists(names, whole, at), *beyond_lists(names, whole, at, kind)]
         if not faults:
             values = self._nominal_values(names, at)
-            faults = [*_absent(values, at), *odd_comparisons(one, values, at)]
+            faults = [*_absent(values, at), *odd_comparisons(one, names, values, at, kind)]
         if faults:
             raise WrongStudy(faults)
 

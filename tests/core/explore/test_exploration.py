@@ -355,3 +355,99 @@ def test_a_check_that_no_array_form_knows_is_judged_by_the_class(
     assert found.problem.axis is None
     assert found.feasible == sum(value >= limit for value in values)
     assert found.found.rows[0].figures[0] == limit
+
+
+@pytest.mark.parametrize(
+    ("keys", "place", "message", "helps"),
+    [
+        (
+            {"define": {"x": "i3 + crank_idler.tip_radius[7]", "y": "2 * x"}, "minimize": {"y": 1}},
+            ("define", "x"),
+            "crank_idler.tip_radius is a list of 2: it has no crank_idler.tip_radius[7]",
+            "counted from 0: [0] crank, [1] idler",
+        ),
+        (
+            {"where": ["idler_output.tip_radius[2] > 9"]},
+            ("where", 0),
+            "idler_output.tip_radius is a list of 2: it has no idler_output.tip_radius[2]",
+            "counted from 0: [0] idler, [1] output",
+        ),
+        (
+            {"maximize": {"mesh_13.tip_radius[2]": 1}},
+            ("maximize", "mesh_13.tip_radius[2]"),
+            "no quantity 'mesh_13.tip_radius[2]' of this kind of design",
+            "nearest: ",
+        ),
+        (
+            {"define": {"x": "crank_idler.tip_radius"}, "minimize": {"x": 1}},
+            ("define", "x"),
+            "crank_idler.tip_radius is a list of 2",
+            "take one of them, crank_idler.tip_radius[0]; counted from 0: [0] crank, [1] idler",
+        ),
+        (
+            {"define": {"x": "frame_length[0]"}, "minimize": {"x": 1}},
+            ("define", "x"),
+            "frame_length is no list: it has no entry 0",
+            "take frame_length",
+        ),
+        (
+            {"where": ["crank_idler.tip_radius[-1] > 9"]},
+            ("where", 0),
+            "'crank_idler.tip_radius[-1]' cannot be read: "
+            "an index is a whole number counted from 0, as in tip_radius[0]",
+            "",
+        ),
+    ],
+)
+def test_an_entry_that_no_design_has_is_refused_at_once(
+    keys: dict[str, Any], place: tuple[Any, ...], message: str, helps: str
+) -> None:
+    """Computed to the end, all designs were told to be without a mechanism."""
+    plain = {"variables": {"gears.idler": {"from": 40, "to": 90}}, "minimize": {"frame_length": 1}}
+    with pytest.raises(WrongStudy) as caught:
+        _ = study(**{**plain, **keys}).problem
+    ((found,)) = caught.value.faults
+    assert (found.code, found.place, found.message) == ("GL152", place, message)
+    assert found.help.startswith(helps)
+
+
+def test_an_entry_that_other_designs_have_is_taken() -> None:
+    """The base steps back and stands still twice where others of the study do so but once, or never."""
+    base = {k: v for k, v in FEED.items() if k != "dwell"} | {"links": {"crank": 38.857, "frame": 153.552}}
+    variables = {"links.crank": {"from": 10, "to": 38, "step": 7}}
+    never = {**base, "links": {"crank": 10, "frame": 153.552}}
+    for design in (base, never):
+        found = study(
+            design=design,
+            command="analyze",
+            variables=variables,
+            minimize={"dwell_crank_angles[1]": 1},
+            checks={"must_pass": "none"},
+        )
+        assert found.designs == 5
+
+
+FIVE_BAR: dict[str, Any] = {
+    "kind": "geared-five-bar",
+    "gears": {"module": 2.5, "input": 20, "output": 20},
+    "links": {"input": 20, "coupler": 60, "follower": 60, "output": 20, "frame": 50},
+    "phase": 90,
+    "coupler_point": {"along": 60},
+    "limits": {"transmission_angle": 0},
+}
+
+
+@pytest.mark.parametrize(("entry", "exists"), [(1, True), (2, False)])
+def test_an_entry_that_only_the_variables_bring_is_taken(entry: int, exists: bool) -> None:
+    """With an idler the five-bar has a second mesh; without one, as in the base, its frame is another."""
+    keys: dict[str, Any] = {
+        "design": FIVE_BAR,
+        "command": "analyze",
+        "variables": {"gears.idler": {"values": [18]}, "links.frame": {"values": [80]}},
+        "maximize": {f"contact_ratio[{entry}]": 0.1},
+    }
+    if exists:
+        assert study(**keys).feasible == 1
+    else:
+        with pytest.raises(WrongStudy, match="is a list of 2"):
+            _ = study(**keys).problem
