@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 import typer.main
 
-from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn
+from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn, Unchanged
 from gearlink.cli.bench.command import register as register_bench
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
@@ -24,9 +24,9 @@ from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
-from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options, folder
+from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
 from gearlink.cli.quick import run_line
-from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, place, share, takes
+from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes
 from gearlink.core.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
@@ -106,9 +106,9 @@ def _batch(
     format: Annotated[BatchFormat, option("format", help="form of the summary")] = BatchFormat.TABLE,
     fail_on: Annotated[FailOn, typer.Option("--fail-on", help="what gives exit status 1")] = FailOn.FAILURE,
     out: Annotated[Path | None, option("out", help="write reports and tables of each design")] = None,
-    cache: Annotated[
-        Path | None, place(folder, "--cache", metavar="DIR", help="keep results; skip unchanged designs")
-    ] = None,
+    unchanged: Annotated[
+        Unchanged, typer.Option("--unchanged", help="with --out: skip designs that passed and have not changed since")
+    ] = Unchanged.COMPUTE,
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
     jobs: Jobs = 0,
     dask: Dask = "",
@@ -124,9 +124,11 @@ def _batch(
 
     if options.plot and out is None:
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
+    if unchanged is Unchanged.SKIP and out is None:
+        raise typer.BadParameter("--unchanged skip needs --out DIR, where the results stand", param_hint="--unchanged")
     design = options._replace(strict=options.strict or fail_on is FailOn.WARNING)
     more = tuple(dict.fromkeys(one.value for one in added or ()))
-    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, share(shard), jobs, dask, more)))
+    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, unchanged, share(shard), jobs, dask, more)))
 
 
 register(app)

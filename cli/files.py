@@ -176,11 +176,11 @@ def in_place(path: Path) -> str:
     return ", in place of an earlier one that differs" if str(path) in _in_place_of_others else ""
 
 
-def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
+def read_plain_file(path: Path, limit: int) -> bytes:
     """What a plain file holds, up to `limit` bytes; links are not followed, pipes and devices not read.
 
     Raises
-        OSError - for anything else, a larger file, and with `private` a file that is not this user's alone
+        OSError - for anything else, and for a larger file
     """
     flags = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     if path.is_symlink():
@@ -188,11 +188,8 @@ def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
     if path.is_dir():  # whose descriptor Python would name in place of the path
         raise OSError(0, "it is no plain file", str(path))
     with open(os.open(path, os.O_RDONLY | flags), "rb") as stream:
-        found = os.fstat(stream.fileno())
-        if not stat.S_ISREG(found.st_mode):
+        if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
             raise OSError(0, "it is no plain file", str(path))
-        if private and hasattr(os, "geteuid") and (found.st_uid != os.geteuid() or found.st_mode & 0o077):
-            raise OSError(0, "others own it or may read it", str(path))
         data = stream.read(limit + 1)
     if len(data) > limit:
         raise OSError(0, f"it is larger than {limit} bytes", str(path))

@@ -23,6 +23,18 @@ _WITHOUT = {"report": "html", "new": "yaml", "schema": "json"}
 """Commands with one format, and no option for it."""
 
 
+_ON_DASK = "`--dask ADDRESS` computes on a cluster, `--jobs N` in processes"
+_GONE = {
+    ("batch", "--cache"): "`--out DIR --unchanged skip` leaves out designs that passed and have not changed since",
+    ("explore", "--shard"): _ON_DASK,
+    ("explore", "--merge"): f"one store holds the whole study: {_ON_DASK}",
+    ("explore", "--executor"): _ON_DASK,
+    ("tolerance", "--executor"): _ON_DASK,
+    ("register", "--executor"): _ON_DASK,
+}
+"""What serves in place of options that were once there."""
+
+
 def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     """Put into an error of usage what would have been right; it stays as it is where nothing is known.
 
@@ -58,6 +70,8 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
 
 
 def _of_option(name: str, arguments: Sequence[str], command: Any, tree: Any) -> str:
+    if (command.name, name) in _GONE:
+        return _GONE[command.name, name]
     if name in _FORMATS:
         choices = [
             f"{param.opts[0]} takes {', '.join(values)}" for param in command.params if (values := _values(param))

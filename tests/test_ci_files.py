@@ -86,7 +86,7 @@ def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     scripts = tmp_path / "gearlink" / "bin"
     scripts.mkdir(parents=True)
     (scripts / "gearlink").symlink_to(Path(sys.executable).parent / "gearlink")
-    given = {"PATHS": "designs/thesis_example_2.yaml", "FAIL_ON": defaults["fail-on"], "CACHE": defaults["cache"]}
+    given = {"PATHS": "designs/thesis_example_2.yaml", "FAIL_ON": defaults["fail-on"]}
     environment = os.environ | {"RUNNER_TEMP": str(tmp_path)} | given
     ended = subprocess.run(["bash", "-ec", script], cwd=ROOT, env=environment, capture_output=True, text=True)
     assert (ended.returncode, ended.stderr) == (0, "")
@@ -100,9 +100,8 @@ def test_the_action_takes_every_line_of_its_paths(tmp_path: Path) -> None:
     called.chmod(0o755)
     given = {
         "RUNNER_TEMP": str(tmp_path),
-        "PATHS": "a.yaml b.yaml\n  --executor=c.yaml\n",
+        "PATHS": "a.yaml b.yaml\n  --dask=c.yaml\n",
         "FAIL_ON": "failure",
-        "CACHE": "",
     }
     command = [
         "bash",
@@ -114,7 +113,7 @@ def test_the_action_takes_every_line_of_its_paths(tmp_path: Path) -> None:
         _read("action.yml")["runs"]["steps"][-1]["run"],
     ]
     words = subprocess.run(command, env=given, capture_output=True, text=True, check=True).stdout.split("\n")
-    assert words[words.index("--") + 1 :] == ["a.yaml", "b.yaml", "--executor=c.yaml", ""]
+    assert words[words.index("--") + 1 :] == ["a.yaml", "b.yaml", "--dask=c.yaml", ""]
 
 
 def test_the_hook_checks_design_files() -> None:

@@ -1,4 +1,4 @@
-"""Many designs in one run: shares, processes, cache, summaries for people and for CI.
+"""Many designs in one run: shares, processes, summaries for people and for CI.
 
 Begin with `run`.
 """

@@ -32,7 +32,7 @@ def as_junit(results: Sequence[Outcome]) -> str:
     lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<testsuites name="gearlink">']
     for file, group in by_file.items():
         failures = sum(_is_failure(o) for o in group)
-        errors = sum(o.report is None for o in group)
+        errors = sum(not o.has_report for o in group)
         seconds = sum(o.seconds for o in group)
         lines.append(
             f'  <testsuite name={_attribute(file)} tests="{len(group)}" failures="{failures}" errors="{errors}" '
@@ -45,19 +45,19 @@ def as_junit(results: Sequence[Outcome]) -> str:
 
 
 def _is_failure(outcome: Outcome) -> bool:
-    return outcome.report is not None and outcome.status != 0
+    return outcome.has_report and outcome.status != 0
 
 
 def _junit_case(outcome: Outcome) -> Iterator[str]:
     kind, name = outcome.kind or "unreadable", f"{outcome.name}: {outcome.command or 'read'}"
     case = f'<testcase classname={_attribute(kind)} name={_attribute(name)} time="{outcome.seconds:.6f}"'
     found = list(_findings(outcome))
-    if outcome.report is not None and not found:
+    if outcome.has_report and not found:
         yield f"    {case} />"
         return
     tag = head = "system-out"
-    if outcome.report is None or _is_failure(outcome):
-        tag = "error" if outcome.report is None else "failure"
+    if not outcome.has_report or _is_failure(outcome):
+        tag = "failure" if outcome.has_report else "error"
         _, code, _, message, _, _ = found[0]
         head = f"{tag} message={_attribute(message)} type={_attribute(code)}"
     text = "\n".join(

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.batch.options import BatchOptions
+from gearlink.cli.batch.options import BatchOptions, Unchanged
 from gearlink.cli.batch.outcome import Fix, Outcome
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, refused_sections
 from gearlink.cli.exit_codes import ExitCode
@@ -34,11 +34,11 @@ def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
     """What became of each command that a file asks for; nothing raised here ends a batch."""
     if next(_files) % _AT_A_TIME == 0:
         gc.collect()
-    if options.cache is None:
+    if options.unchanged is not Unchanged.SKIP:
         return list(_Computing(path, options).outcomes())
-    from gearlink.cli.batch.cache import cached_outcomes
+    from gearlink.cli.batch.unchanged import taken_or_computed
 
-    return cached_outcomes(path, options, lambda: list(_Computing(path, options).outcomes()))
+    return taken_or_computed(path, options, lambda: list(_Computing(path, options).outcomes()))
 
 
 class _Computing:
@@ -66,9 +66,10 @@ class _Computing:
         errors: Sequence[Diagnostic] = (),
         places: tuple[tuple[int, int], ...] = (),
         fixes: tuple[tuple[Fix, ...], ...] = (),
+        wrote: tuple[str, ...] = (),
     ) -> Outcome:
         seconds, named = perf_counter() - self._start, (self._file, self._kind, self._name, self._command)
-        return Outcome(*named, status, report, tuple(errors), places, fixes, seconds)
+        return Outcome(*named, status, report, tuple(errors), places, fixes, seconds, wrote)
 
     def _commands(self) -> Iterator[Outcome]:
         loaded, kind = open_design(self._file, self._options.design)
@@ -98,14 +99,15 @@ class _Computing:
         only = options.findings_only
         design, report = build(loaded, kind, command, spec, options.design, findings_only=only, designs=designs)
         kept.append(design)
+        wrote: tuple[str, ...] = ()
         if options.out is not None:
             from gearlink.cli.batch.out import write_results
 
-            write_results(self._path, design, report, options)
+            wrote = write_results(self._path, design, report, options)
         status = exit_status(report, strict=options.design.strict)
         if not options.with_places:
-            return self._ended(status, report)
-        return self._ended(status, report, (), _places(loaded, report), _fixes(loaded, report))
+            return self._ended(status, report, wrote=wrote)
+        return self._ended(status, report, (), _places(loaded, report), _fixes(loaded, report), wrote)
 
 
 def _added(kind: Kind, spec: Any, options: BatchOptions) -> Iterator[str]:

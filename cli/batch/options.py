@@ -40,25 +40,31 @@ class FailOn(StrEnum):
     WARNING = "warning"
 
 
+class Unchanged(StrEnum):
+    """What becomes of designs that have not changed since they passed."""
+
+    COMPUTE = "compute"
+    SKIP = "skip"
+
+
 @dataclass(frozen=True, slots=True)
 class BatchOptions:
     """What the user asked for; `design` holds what each design is run with.
 
     `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose;
     `dask` is the address of a scheduler whose workers compute, in place of processes.
-    `cache_key` signs what `cache` keeps. `added` are commands that run on files with a section
-    `tolerance` as well.
+    `unchanged` says what becomes of designs whose results in `out` are those that would be made again. `added` are
+    commands that run on files with a section `tolerance` as well.
     """
 
     design: Options = field(default_factory=Options)
     format: BatchFormat = BatchFormat.TABLE
     out: Path | None = None
-    cache: Path | None = None
+    unchanged: Unchanged = Unchanged.COMPUTE
     shard: tuple[int, int] = (1, 1)
     jobs: int = 0
     dask: str = ""
     added: tuple[str, ...] = ()
-    cache_key: bytes = field(default=b"", repr=False)
 
     @property
     def findings_only(self) -> bool:

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.report import Report
 
 
-def write_results(source: Path, design: Design, report: Report, options: BatchOptions) -> None:
-    """Write STEM-COMMAND.json, STEM-COMMAND-TABLE.csv and the plot into the design's place below `out`.
+def write_results(source: Path, design: Design, report: Report, options: BatchOptions) -> tuple[str, ...]:
+    """Write STEM-COMMAND.json, STEM-COMMAND-TABLE.csv and the plot into the design's place below `out`; their names.
 
     Raises
         CannotWrite - where the folder or the disk does not take a file, or a link stands in the way
@@ -32,16 +32,31 @@ def write_results(source: Path, design: Design, report: Report, options: BatchOp
     *folders, stem = place_of(source)
     folder = _folder(options.out, folders)
     results = folder / f"{stem}-{report.command.replace(' ', '-')}"
-    write_atomically(Path(f"{results}.json"), lambda stream: stream.write(as_json(report).encode()))
+    written = [Path(f"{results}.json")]
+    write_atomically(written[0], lambda stream: stream.write(as_json(report).encode()))
     for table in report.tables:
         text = io.StringIO()
         write_rows(table_rows(table), text)
         data = text.getvalue().encode()
-        write_atomically(Path(f"{results}-{table.name}.csv"), lambda stream, data=data: stream.write(data))  # type: ignore[misc]
+        written.append(Path(f"{results}-{table.name}.csv"))
+        write_atomically(written[-1], lambda stream, data=data: stream.write(data))  # type: ignore[misc]
     if options.design.plot:
         from gearlink.cli.figures.write import write_plot
 
-        write_plot(report.command, design, options.design._replace(out=folder), stem=stem, checks=report.checks)
+        drawn = options.design._replace(out=folder)
+        written.append(write_plot(report.command, design, drawn, stem=stem, checks=report.checks))
+    return tuple(path.name for path in written)
+
+
+def note_of(source: Path, options: BatchOptions) -> Path:
+    """Where it is noted what a design's results were made of: beside them, by a name that none of them has.
+
+    Raises
+        CannotWrite - as `write_results`
+    """
+    assert options.out is not None
+    *folders, stem = place_of(source)
+    return _folder(options.out, folders) / f"{stem}~made-of.json"
 
 
 def place_of(source: Path) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.reading.diagnostics import Diagnostic
@@ -26,7 +27,8 @@ class Outcome:
 
     `places` holds line and column of each check that did not pass, where the output of the batch shows them, `fixes`
     what its remedy replaces together; nothing where the file does not have all of its values.
-    `note` is what the cache could not do for its file.
+    `wrote` names the files of its results; of a design that was not computed `unchanged` is the report in them, where
+    the output of the batch shows reports.
     """
 
     file: str
@@ -39,12 +41,19 @@ class Outcome:
     places: tuple[tuple[int, int], ...] = ()
     fixes: tuple[tuple[Fix, ...], ...] = ()
     seconds: float = 0.0
-    cached: bool = False
-    note: str = ""
+    wrote: tuple[str, ...] = ()
+    unchanged: dict[str, Any] | None = None
+
+    @property
+    def has_report(self) -> bool:
+        """Whether the command gave a report, now or when its results were written."""
+        return self.report is not None or self.unchanged is not None
 
     @property
     def verdict(self) -> str:
         """One word: pass, warn, fail, error or fault."""
+        if self.unchanged is not None:
+            return "pass"
         if self.report is None:
             return "error" if self.status == ExitCode.WRONG_INPUT else "fault"
         found = {check.status for check in self.to_repair}

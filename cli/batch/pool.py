@@ -138,9 +138,7 @@ def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[
 
     with client(options.dask) as cluster:
         pool = cluster.get_executor()
-        there = replace(
-            options, out=options.out and options.out.absolute(), cache=options.cache and options.cache.absolute()
-        )
+        there = replace(options, out=options.out and options.out.absolute())
         given = {pool.submit(_chunk, [path.absolute()], there): path for path in files}
         for future in _as_they_end(given):
             if future is None:

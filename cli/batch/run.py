@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format
-from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.reading.places import design_files
 from gearlink.core.wording import amount
@@ -35,7 +33,6 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
         files = options.share_of(files)
     except DesignFileError as error:
         return _refused(error, options)
-    options = _with_key(options)
     try:
         results, interrupted = run_files(files, options)
     except DesignFileError as error:  # of the cluster; those of files stand among the results
@@ -44,7 +41,6 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     from gearlink.cli.batch.summary import write_batch
 
     write_batch(results, options, sys.stdout)
-    _tell([outcome.note for outcome in results if outcome.note], options)
     if interrupted:
         print(f"interrupted after {len({r.file for r in results})} of {amount(len(files), 'file')}", file=sys.stderr)
         return ExitCode.INTERRUPTED
@@ -58,23 +54,3 @@ def _refused(error: DesignFileError, options: BatchOptions) -> int:
     in_json = options.format in (BatchFormat.JSON, BatchFormat.JSONL)
     show_errors(error.diagnostics, options.design._replace(format=Format.JSON if in_json else options.design.format))
     return ExitCode.WRONG_INPUT
-
-
-def _with_key(options: BatchOptions) -> BatchOptions:
-    """The options with the key that a cache needs; without a cache where there is none."""
-    if options.cache is None:
-        return options
-    from gearlink.cli.batch.key import NoKey, own_key
-
-    try:
-        return replace(options, cache_key=own_key())
-    except NoKey as error:
-        _tell([f"nothing is kept or taken from it: {error}"], options)
-        return replace(options, cache=None)
-
-
-def _tell(notes: Sequence[str], options: BatchOptions) -> None:
-    """Say once what the cache could not do."""
-    if notes and not options.design.quiet:
-        others = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
-        print(f"note: cache: {visible(notes[0])}{others}", file=sys.stderr)

@@ -34,7 +34,9 @@ def write_batch(results: Sequence[Outcome], options: BatchOptions, stream: IO[st
 def _entry(outcome: Outcome) -> dict[str, Any]:
     """An outcome with its whole report or its errors."""
     entry: dict[str, Any] = {"file": outcome.file, "exit": int(outcome.status), "result": outcome.verdict}
-    entry |= {"seconds": round(outcome.seconds, 6), "cached": outcome.cached}
+    entry |= {"seconds": round(outcome.seconds, 6), "unchanged": outcome.unchanged is not None}
+    if outcome.unchanged is not None:
+        return entry | outcome.unchanged
     if outcome.report is not None:
         return entry | as_plain(outcome.report)
     entry |= {"kind": outcome.kind, "name": outcome.name, "command": outcome.command, "ok": False}
@@ -132,6 +134,6 @@ def _show_table(results: Sequence[Outcome], console: Console) -> None:
         grid.add_column(head, no_wrap=True)
     grid.add_column("ms", justify="right", no_wrap=True)
     for o in results:
-        time = "cached" if o.cached else f"{1e3 * o.seconds:.0f}"
+        time = "unchanged" if o.unchanged is not None else f"{1e3 * o.seconds:.0f}"
         grid.add_row(o.file, o.command, Text(o.verdict, style=_STYLE[o.verdict]), time)
     show_grid(grid, console)

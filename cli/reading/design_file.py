@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.options import Keyed
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
+from gearlink.cli.reading.files_read import note
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
 from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, nearest_file, piped
 from gearlink.cli.reading.yaml_reader import (
@@ -67,9 +68,11 @@ def read_at_most(source: str | os.PathLike[str], limit: int, stdin: BinaryIO | N
         return held[:limit]
     try:
         with nullcontext(stdin or sys.stdin.buffer) if source == "-" else open(source, "rb") as stream:
-            return stream.read(limit)
+            content = stream.read(limit)
     except (OSError, ValueError) as error:
         raise DesignFileError([_unreadable("<stdin>" if source == "-" else os.fspath(source), error)]) from None
+    note(source, content)
+    return content
 
 
 def parse(data: bytes, file: str, *, overrides: Sequence[str | Keyed] = ()) -> LoadedFile:

@@ -25,7 +25,6 @@ FOLDERS = {
     "sheet": ("sheet", "crank.yaml", "mechanism", "--out"),
     "chart": ("chart", "speed-swing", "--plot", "--out"),
     "batch": ("batch", "crank.yaml", "--out"),
-    "cache": ("batch", "crank.yaml", "--cache"),
     "schema": ("schema", "--write"),
     "write": ("explore", "study.yaml", "--write"),
     "store": ("explore", "study.yaml", "--store"),

@@ -21,10 +21,8 @@ FEED_WITH_TOLERANCES = "designs/candy_feed_tolerances.yaml"
 STUDY = "designs/studies/dwell_feed.yaml"
 TEXTS = [
     f"register {FEED_WITH_TOLERANCES} --at nowhere",
-    f"tolerance {FEED_WITH_TOLERANCES} --executor nothing",
     f"explore {STUDY} --show x",
     f"explore {STUDY} --show m99",
-    f"explore {STUDY} --shard 5/3",
     f"explore {STUDY} --budget inf",
     f"batch {FEED} --shard 0/3",
     f"export {FEED} --part nothing",
@@ -136,3 +134,21 @@ def test_a_text_that_is_none_names_its_option(gearlink: Any, line: str) -> None:
     ended = gearlink(*words)
     assert ended.status == 2
     assert next(word for word in reversed(words) if word.startswith("--")) in ended.err
+
+
+@pytest.mark.parametrize(
+    ("line", "serves"),
+    [
+        (f"batch {FEED} --cache kept", "--out DIR --unchanged skip"),
+        (f"explore {STUDY} --shard 1/3", "--dask ADDRESS"),
+        (f"explore --merge {STUDY}", "one store holds the whole study"),
+        (f"explore {STUDY} --executor here:make", "--jobs N"),
+        (f"tolerance {FEED_WITH_TOLERANCES} --executor=here:make", "--jobs N"),
+        (f"register {FEED_WITH_TOLERANCES} --executor here:make", "--jobs N"),
+    ],
+)
+def test_options_that_are_gone_say_what_serves_instead(gearlink: Any, line: str, serves: str) -> None:
+    ended = gearlink(*line.split())
+    assert (ended.status, ended.out) == (2, "")
+    assert "No such option" in ended.err
+    assert serves in " ".join(ended.err.split())

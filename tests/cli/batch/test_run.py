@@ -1,4 +1,4 @@
-"""`batch`: whatever the format, the number of processes, the share or the cache, the outcomes are the same."""
+"""`batch`: whatever the format, the number of processes or the share, the outcomes are the same."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def folder(tmp_path: Path, designs: Path) -> Path:
 
 def plain(ended: Any) -> list[dict[str, Any]]:
     """The designs of a JSON result without what may differ from run to run."""
-    return [{k: v for k, v in d.items() if k not in ("seconds", "cached")} for d in ended.json["designs"]]
+    return [{k: v for k, v in d.items() if k not in ("seconds", "unchanged")} for d in ended.json["designs"]]
 
 
 def test_verdicts(gearlink: Any, folder: Path) -> None:
@@ -84,33 +84,6 @@ def test_warning_as_failure(gearlink: Any, folder: Path) -> None:
 def test_pattern(gearlink: Any, folder: Path) -> None:
     ended = gearlink("batch", f"{folder}/*.yml", "--format", "json")
     assert [Path(d["file"]).name for d in ended.json["designs"]] == ["fail.yml"]
-
-
-class TestCache:
-    @pytest.fixture(autouse=True)
-    def state(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / ".state"))
-
-    def test_second_run_is_kept_and_equal(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
-        cache = tmp_path / "cache"
-        first = gearlink("batch", folder, "--format", "json", "--cache", cache)
-        second = gearlink("batch", folder, "--format", "json", "--cache", cache)
-        assert plain(first) == plain(second)
-        assert [d["cached"] for d in first.json["designs"]] == [False] * 4
-        assert [d["cached"] for d in second.json["designs"]] == [True] * 4
-        assert first.status == second.status
-
-    def test_changed_file_is_computed(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
-        cache = tmp_path / "cache"
-        gearlink("batch", folder, "--format", "json", "--cache", cache)
-        (folder / "pass.yaml").write_text(CRANK.format(stroke=300))
-        again = gearlink("batch", folder, "--format", "json", "--cache", cache)
-        assert {Path(d["file"]).name for d in again.json["designs"] if not d["cached"]} == {"pass.yaml"}
-
-    def test_strictness_is_part_of_the_key(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
-        cache = tmp_path / "cache"
-        assert gearlink("batch", folder / "sub", "--cache", cache).status == ExitCode.OK
-        assert gearlink("batch", folder / "sub", "--cache", cache, "--strict").status == ExitCode.FINDING
 
 
 class TestOut:
@@ -176,11 +149,10 @@ class TestFormats:
             "kind: three-gear-four-bar\ngears: {module: 2.5, crank: 20, idler: 20, output: 60}\n"
             "links:\n  crank: 18\n  frame: 121.4   # too short\n"
         )
-        for _ in range(2):  # the second time from the cache
-            out = gearlink("batch", path, "--format", "sarif", "--cache", tmp_path / "cache").out
-            (result,) = (r for r in json.loads(out)["runs"][0]["results"] if r["ruleId"] == "GL301")
-            (change,) = result["fixes"][0]["artifactChanges"]
-            assert change["artifactLocation"] == result["locations"][0]["physicalLocation"]["artifactLocation"]
+        out = gearlink("batch", path, "--format", "sarif").out
+        (result,) = (r for r in json.loads(out)["runs"][0]["results"] if r["ruleId"] == "GL301")
+        (change,) = result["fixes"][0]["artifactChanges"]
+        assert change["artifactLocation"] == result["locations"][0]["physicalLocation"]["artifactLocation"]
         (replacement,) = change["replacements"]
         region, lines = replacement["deletedRegion"], path.read_text().splitlines(keepends=True)
         row = lines[region["startLine"] - 1]
@@ -219,8 +191,8 @@ class TestFormats:
 
     @pytest.mark.quick(1)
     @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
-    def test_places_are_kept(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
-        line = ("batch", folder, "--format", form, "--cache", tmp_path / "cache")
+    def test_what_is_skipped_changes_no_finding(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
+        line = ("batch", folder, "--format", form, "--out", tmp_path / ".out", "--unchanged", "skip")
         first, again = (re.sub(r'time="[\d.]+"', "", gearlink(*line).out) for _ in range(2))
         assert first == again
         assert "fail.yml" in first

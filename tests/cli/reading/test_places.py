@@ -101,7 +101,7 @@ def test_a_link_to_what_is_no_design_is_not_read(gearlink: Any, here: Path) -> N
     assert gearlink("crank", "files/d.yaml").status == 0
 
 
-@pytest.mark.parametrize("more", [(), ("--cache", "kept")])
+@pytest.mark.parametrize("more", [(), ("--out", "kept", "--unchanged", "skip")])
 def test_a_link_through_a_place_that_is_closed_costs_its_one_file(
     gearlink: Any, here: Path, monkeypatch: pytest.MonkeyPatch, more: tuple[str, ...]
 ) -> None:
