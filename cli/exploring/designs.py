@@ -80,7 +80,7 @@ def _put(text: str, stream: IO[bytes]) -> None:
 
 
 def write(found: Found, folder: Path) -> tuple[int, int]:
-    """Write the kept designs as NAME-0001.yaml and so on, in their order.
+    """Write the kept designs as NAME-INDEX.yaml: each is called by its index in the table, as it is for --show.
 
     Returns
         count, others : int - how many were written; how many files of such names stand there besides
@@ -88,10 +88,11 @@ def write(found: Found, folder: Path) -> tuple[int, int]:
     Raises
         CannotWrite
     """
-    stem = safe_stem(found.problem.spec.name)
-    for number, row in enumerate(found.rows, 1):
-        text = text_of(found.problem, found, row.index)
-        write_atomically(folder / f"{stem}-{number:04d}.yaml", partial(_put, text))
-    numbers = [path.stem.removeprefix(f"{stem}-") for path in folder.glob(f"{glob.escape(stem)}-*.yaml")]
-    others = sum(number.isdecimal() and int(number) > len(found.rows) for number in numbers)
+    stem, written = safe_stem(found.problem.spec.name), set()
+    for row in found.rows:
+        path = folder / f"{stem}-{row.index}.yaml"
+        write_atomically(path, partial(_put, text_of(found.problem, found, row.index)))
+        written.add(path.name)
+    there = (path for path in folder.glob(f"{glob.escape(stem)}-*.yaml") if path.name not in written)
+    others = sum(path.stem.removeprefix(f"{stem}-").isdecimal() for path in there)
     return len(found.rows), others
