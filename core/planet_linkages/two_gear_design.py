@@ -325,13 +325,11 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """The one frame with which the output stops for a moment: no step of a grid meets it."""
         target = self.spec.target
         if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
-            from gearlink.core.planet_linkages import two_gear_family as kernel
+            from gearlink.core.planet_linkages.two_gear_frames import Family, momentary_frame
 
             links = self.spec.links
-            family = kernel.Family(
-                self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly
-            )
-            yield (("links.frame", kernel.momentary_frame(family)),)
+            family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+            yield (("links.frame", momentary_frame(family)),)
 
     def check_dwell_condition(self) -> Check:
         """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""
