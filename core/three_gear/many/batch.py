@@ -192,8 +192,7 @@ class Batch:
     def plain(self) -> dict[str, Callable[[], Any]]:
         """The quantities that this form has but for those of meshes, in the units of design files.
 
-        Notes
-            Not kept: each function knows the batch, and a batch that knew them would not be freed with its last user.
+        Not kept: each function knows the batch, and a batch that knew them would not be freed with its last user.
         """
         degrees = np.degrees
         return {
