@@ -50,9 +50,11 @@ STUDIES: dict[str, tuple[dict[str, Any], str, dict[str, Any], str]] = {
 def garbage() -> Iterator[list[Any]]:
     """What only the collector can free, in place of freeing it."""
     gc.disable()
+    gc.freeze()  # else every collection walks all that the tests have loaded
     yield gc.garbage
     gc.set_debug(0)
     gc.garbage.clear()
+    gc.unfreeze()
     gc.enable()
 
 
