@@ -43,6 +43,7 @@ class Problem:
         section : Tolerance
         axis : ToleranceAxis or None - of kinds that compute many designs at once
         asked : Base - as the file has it, with what it asks to be searched for
+        commands : of the file
     """
 
     base: Base
@@ -50,6 +51,7 @@ class Problem:
     section: Tolerance
     axis: ToleranceAxis | None
     asked: Base
+    commands: tuple[str, ...]
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
@@ -169,7 +171,7 @@ class Problem:
     def _of_other_commands(self) -> Iterator[tuple[str, str]]:
         spec, kind = self.asked.spec(), self.base.kind
         sampled = {name for names in self.base.codes.values() for name in names}
-        for command in spec.commands():
+        for command in self.commands:
             if command in (self.asked.command, *_STUDIES):
                 continue
             if not sampled.issuperset(kind.design_class(command).judged(command, spec)):
@@ -295,7 +297,7 @@ def problem(spec: Any) -> Problem:
     if place is not None:
         module, _, name = place.partition(":")
         axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
-    return Problem(base, nominal, section, axis, given)
+    return Problem(base, nominal, section, axis, given, tuple(spec.commands()))
 
 
 def _with_links(base: Base) -> Base:

@@ -139,6 +139,36 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "source", "left"),
+    [
+        ("belt_feed", "links.frame", {"GL314": "dwell-edge judges the search for dwell,"}),
+        (
+            "two_gear_standing",
+            "links.frame",
+            {"GL313": "for dwell,", "GL314": "for dwell,", "gear": "tolerance.command"},
+        ),
+        ("wide_lever", "links.frame", {"GL307": "target judges the search for target,", "gear": "tolerance.command"}),
+        ("loaded_feed", "links.crank", {"loads": "samples carry no loads"}),
+        ("slider_crank_tolerances", "rod", {}),
+    ],
+)
+def test_what_no_sample_is_judged_by_has_no_row_and_a_reason(name: str, source: str, left: dict[str, str]) -> None:
+    section = {"sources": {source: {"plus_minus": 0.01}}, "samples": 16}
+    made = factory.design(name, command="tolerance", tolerance=section)
+    table, rows = made.table("not_sampled"), set(made.table("requirements").data[0])
+    found = dict(zip(*table.data, strict=True))
+    assert found.keys() == left.keys()
+    assert all(words in found[code] for code, words in left.items())
+    assert not rows & found.keys()
+    assert ("not_sampled" in made.outline("tolerance").tables) == bool(left)
+    nominal = made.problem.nominal
+    judged_too = {
+        check.code for each in nominal.outline(made.problem.base.command).checks for check in nominal.check(each)
+    }
+    assert rows == judged_too
+
+
+@pytest.mark.parametrize(
     ("name", "widths"), [("standing_feed", {"links.crank": 0.5}), ("ring_pair", {"profile_shift[0]": 0.8})]
 )
 def test_blocks_change_no_verdict(monkeypatch: pytest.MonkeyPatch, name: str, widths: dict[str, float]) -> None:
