@@ -16,7 +16,7 @@ from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.standing import HOLDS, PASSES, Standing, left_of, own_grade, steps_to_limit, warned
+from gearlink.core.remedies.standing import FAILS, HOLDS, PASSES, Standing, left_of, own_grade, steps_to_limit, warned
 from gearlink.core.remedies.ways import REFUSAL, Way, can_be_built, counts, greatest_length, refusal_ways
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.results import cached_property
@@ -91,14 +91,13 @@ class Bench:
         return self._found[found.name, index]
 
     def _sought(self, found: Check, index: int) -> Remedy:
-        earlier = tuple(self._of_earlier(found.name, index))
         self._begin()
         for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
 
             def good(tried: Remedy, wanted: int = wanted) -> bool:
                 return self._grade(tried, found.name, index) >= wanted
 
-            whole = self._whole(chain(earlier, self._closed(found.name)), good)
+            whole = self._whole(chain(self._of_earlier(found.name), self._closed(found.name)), good)
             for remedy in chain(whole, self._all(found.name, good, index)):
                 if not self._is_affordable_elsewhere(remedy):
                     break
@@ -106,16 +105,20 @@ class Bench:
                     return remedy
         return ()
 
-    def _of_earlier(self, name: str, index: int) -> Iterator[Remedy]:
-        """The remedies of the findings that are shown before one: where one of them repairs both, both name it."""
+    def _of_earlier(self, name: str) -> Iterator[Remedy]:
+        """The closed forms of what fails before a check: where one of them repairs both, both name it.
+
+        They are trials of that check, and do not count for this one.
+        """
+        left = self._left
         with suppress(NoSolution):  # then there are no findings of a command, and none before this one
             for each in chain.from_iterable(map(self._before.checks, self._commands)):
-                self._before.ranks(each)
-                for place, found in enumerate(self._before.found(each)[: index if each == name else None]):
-                    if remedy := self.remedy(found, place):
-                        yield remedy
                 if each == name:
                     return
+                if any(rank == FAILS for rank in self._before.ranks(each)):
+                    for remedy in self._closed(each):
+                        yield remedy
+                        self._left = left
 
     def _whole(self, remedies: Iterable[Remedy], good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
         """Those that are good and with which nothing fails, before those that repair one of several findings."""

@@ -16,8 +16,9 @@ PASSES, HOLDS = 2, 1
 """Grades of a change: what is to pass passes and nothing is worse; something warns. 0: something fails."""
 Ranks = tuple[int, ...]
 """How bad the findings of a check are."""
-_FAILS = 2
-_RANK = {"pass": 0, "warn": 1, "fail": _FAILS}
+FAILS = 2
+"""The rank of a finding that fails."""
+_RANK = {"pass": 0, "warn": 1, "fail": FAILS}
 
 
 class Standing:
@@ -79,7 +80,7 @@ class Standing:
 
     def holds(self, command: str) -> bool:
         """Whether it is not refused, and nothing of the command fails."""
-        return self.stands(command) and all(max(self.ranks(name), default=0) < _FAILS for name in self.checks(command))
+        return self.stands(command) and all(max(self.ranks(name), default=0) < FAILS for name in self.checks(command))
 
     def checks(self, command: str) -> tuple[str, ...]:
         """The checks that a command shows."""

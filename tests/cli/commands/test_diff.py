@@ -82,7 +82,7 @@ def test_table_shows_physical_units(gearlink: Any, two: Any) -> None:
     out = gearlink("diff", *two(CRANK, CRANK.replace("310", "341"))).out
     row = next(line for line in out.splitlines() if line.startswith("stroke"))
     assert row.split() == ["stroke", "310", "341", "mm", "+10", "%"]
-    assert out.splitlines()[-1].endswith(": 1 input, 4 quantities")
+    assert out.splitlines()[-1].endswith(": 1 input, 6 quantities")
 
 
 def test_members_of_long_lists_stand_below_each_other(gearlink: Any, two: Any) -> None:
