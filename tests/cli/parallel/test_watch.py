@@ -124,5 +124,5 @@ def test_the_bar_moves_within_a_share(monkeypatch: pytest.MonkeyPatch, jobs: int
 
 
 def _found(jobs: int) -> list[int]:
-    with shares.shares_by(jobs, "", "", words="samples", quiet=False):
+    with shares.shares_by(jobs, "", words="samples", quiet=False):
         return list(of_replications(work, 100))

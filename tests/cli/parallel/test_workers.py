@@ -20,6 +20,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli import process
 from gearlink.cli.parallel import shares
+from gearlink.cli.parallel.watch import Watch
 from gearlink.cli.parallel.workers import _close_by_one, _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
@@ -251,5 +252,6 @@ def test_workers_collect_as_python_does(monkeypatch: pytest.MonkeyPatch) -> None
 def test_this_process_collects_as_python_does_while_it_computes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(process, "_pythons", (701, 11, 9))
     before = gc.get_threshold()
-    assert shares._in_processes(lambda _: gc.get_threshold(), [1, 2], 1, lambda _: None) == [(701, 11, 9)] * 2
+    watch = Watch(2, 1, lambda _: None, quiet=True)
+    assert shares._in_processes(lambda _: gc.get_threshold(), [1, 2], 1, watch) == [(701, 11, 9)] * 2
     assert gc.get_threshold() == before
