@@ -114,6 +114,8 @@ class TwoGearLoads(PlanetLinkageLoads):
         tolerance = None if step is None else 0.5 * step.angle
         if self.spec.dwell is not None and self.spec.dwell.tolerance is not None:
             tolerance = math.radians(self.spec.dwell.tolerance)
+        if self.design.output_tolerance is not None:
+            tolerance = self.design.output_tolerance
         if tolerance is None:
             return []
         dwell = tolerance_dwell(self.design.drive, tolerance)

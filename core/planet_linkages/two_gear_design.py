@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
@@ -16,23 +17,25 @@ from gearlink.core.gears.train.names import TRAIN_CHECKS
 from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages import standstills
-from gearlink.core.linkages.checks import check_linkage, transmission_check
+from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.linkages.fourbar.loop import rates_of
-from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.motion_extremes import names
+from gearlink.core.planet_linkages import two_gear_tables
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.real_speed import OUTPUT_SPEEDS, per_time
 from gearlink.core.remedies.ways import down, either, up
-from gearlink.core.report import Check, Remedy, Table
+from gearlink.core.report import Check, Remedy
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.planet_linkages.two_gear_spec import TwoGearFourBarSpec
 
 # As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
@@ -72,6 +75,7 @@ QUANTITIES = (
     "back_step_time",
     *FEED_QUANTITIES,
 )
+OF_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "tolerance_dwell_time")
 CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash")
 
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
@@ -88,13 +92,14 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
     kind = "two-gear-four-bar"
     spec: TwoGearFourBarSpec
     outlines = {
-        "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
+        "analyze": Outline((*QUANTITIES, *OF_DWELL), ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
 
     extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing")
     ways = {
         "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
+        "dwell-window": (*_LINKS, up("dwell_tolerance", step=0.01), down("dwell_window", step=0.1)),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_FEWER, *_TEETH),
         **train_ways(2, *_TEETH),
@@ -267,6 +272,28 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
     back_step_crank_angle: float | None = placed("back_step.crank_angle")
 
     @property
+    def output_tolerance(self) -> float | None:
+        """Tolerance of the output to either side within which its dwell is measured [rad]; None without one."""
+        given = self.spec.dwell_tolerance
+        return None if given is None else math.radians(given)
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance; None without one.
+
+        Raises
+            NoSolution - for a tolerance so wide that the whole turn lies within it
+        """
+        from gearlink.core.planet_linkages.two_gear_family import tolerance_dwell
+
+        with at_key("dwell_tolerance"):
+            return None if self.output_tolerance is None else tolerance_dwell(self.drive, self.output_tolerance)
+
+    tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
+    tolerance_dwell_start: float | None = placed("tolerance_dwell.start")
+    tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
+
+    @property
     def min_transmission_angle(self) -> float:
         """Least transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
@@ -276,60 +303,37 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """The bodies in the plane of the gears."""
         return two_gear_layout(self)
 
-    def table_motion(self, samples: int | None = None) -> Table:
-        """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
-        import numpy as np
-
-        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.linkages.fourbar.refine import dead_point_distance
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees, ratio = turn_degrees(samples), self.gear_ratio
-        sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
-        start = solve(self.linkage, 0.0).coupler_angle
-        output = (1.0 - ratio) * degrees + ratio * np.degrees(sweep.coupler_angle - start)
-        columns = {
-            "crank_angle": (degrees, "deg"),
-            "output_angle": (output, "deg"),
-            "speed_ratio": ((1.0 - ratio) + ratio * sweep.coupler_velocity, "1"),
-            "acceleration_ratio": (ratio * sweep.coupler_acceleration, "1"),
-            "coupler_ratio": (sweep.coupler_velocity, "1"),
-            "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
-        }
-        rates = {
-            "output_speed": ("speed_ratio", 1),
-            "output_acceleration": ("acceleration_ratio", 2),
-            "coupler_speed": ("coupler_ratio", 1),
-        }
-        return Table.of("motion", self.timed(columns, "crank_angle", rates))
-
-    def table_links(self, samples: int | None = None) -> Table:
-        """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
-        import numpy as np
-
-        from gearlink.core.linkages.fourbar.link_motion import columns, combined, four_bar_motions
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees = turn_degrees(samples)
-        motions = four_bar_motions(self.linkage, np.radians(degrees))
-        start, still = solve(self.linkage, 0.0), np.zeros_like(degrees)
-        carrier = (np.radians(degrees), np.ones_like(degrees), still, still)
-        coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
-        motions["output"] = combined((1.0 - self.gear_ratio, carrier), (self.gear_ratio, coupler))
-        whole, rates = columns(motions)
-        return Table.of("links", self.timed({"crank_angle": (degrees, "deg"), **whole}, "crank_angle", rates))
+    table_motion, table_links = two_gear_tables.motion, two_gear_tables.links
 
     # Checks
 
     def candidates(self, check: str, /) -> Iterator[Remedy]:
-        """The one frame with which the output stops for a moment: no step of a grid meets it."""
+        """The frame that a synthesis finds: no step of a grid meets the momentary dwell, few the window."""
         target = self.spec.target
+        if check == "dwell-window" and self.spec.dwell_window is not None:
+            with suppress(NoSolution):
+                yield (("links.frame", self._frame_for(math.radians(self.spec.dwell_window))),)
         if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
             from gearlink.core.planet_linkages.two_gear_frames import Family, momentary_frame
 
             links = self.spec.links
             family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
             yield (("links.frame", momentary_frame(family)),)
+
+    def _frame_for(self, window: float) -> float:
+        """The frame with which the output keeps nearest to its place over a window [mm], to 0.01 mm."""
+        from gearlink.core.planet_linkages.two_gear_family import flattest
+        from gearlink.core.planet_linkages.two_gear_frames import Family
+
+        links = self.spec.links
+        family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+        return round(flattest(family, window, "the window")[0], 2)
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for a window within its tolerance."""
+        dwell, tolerance, asked = self.tolerance_dwell, self.output_tolerance, self.spec.dwell_window
+        if dwell is not None and tolerance is not None and asked is not None:
+            yield dwell_window_check(dwell.crank_angle, math.radians(asked), tolerance)
 
     def check_dwell_condition(self) -> Check:
         """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""

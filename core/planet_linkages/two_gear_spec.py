@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.linkages.dwell_band_spec import DwellBand
-from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -94,6 +94,12 @@ class TwoGearFourBarSpec(DrivenSpec):
     target: MotionTarget | None = None
     dwell: StandingDwell | None = None
     back_step: BackStepAngle | None = None
+    dwell_tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
+        None, description="output tolerance +- within which a dwell is measured"
+    )
+    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output must stay within that tolerance"
+    )
     feed: Annotated[Any, Deferred("linkages.spec_sections:Feed")] | None = Field(
         None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
     )
@@ -115,6 +121,17 @@ class TwoGearFourBarSpec(DrivenSpec):
         if self.links.frame is not None and sections:
             message = "links.frame is what {section} has sought: leave one of them out"
             raise PydanticCustomError("GL111", message, {"key": "links.frame", "section": sections[0]})
+        return self
+
+    @model_validator(mode="after")
+    def _one_tolerance(self) -> TwoGearFourBarSpec:
+        if self.dwell_tolerance is not None and self.dwell is not None:
+            message = "dwell_tolerance measures links that are given, dwell has the frame sought: leave one of them out"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+        if self.dwell_window is not None and self.dwell_tolerance is None:
+            raise PydanticCustomError(
+                "GL111", "dwell_window goes with dwell_tolerance: give that too", {"key": "dwell_window"}
+            )
         return self
 
     def _syntheses(self) -> tuple[str, ...]:

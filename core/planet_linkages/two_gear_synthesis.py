@@ -17,7 +17,6 @@ from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_always import always_stepping
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
 from gearlink.core.planet_linkages.two_gear_frames import Family, beyond_reach, momentary_frame
-from gearlink.core.real_speed import per_time
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
 
@@ -158,6 +157,14 @@ class DwellSynthesis(Synthesis):
     outlines = with_analysis(
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
     )
+
+    def completion(self) -> Iterator[Found]:
+        """The tolerance and the window besides the frame, so that an analysis measures the dwell by them."""
+        yield from super().completion()
+        if self._request.tolerance is not None:
+            yield Found("dwell_tolerance", float(self._request.tolerance), "from dwell.tolerance")
+            if self._request.window is not None:
+                yield Found("dwell_window", float(self._request.window), "from dwell.window")
 
     # The request
 
@@ -315,18 +322,6 @@ class DwellSynthesis(Synthesis):
         """The longest dwell within the tolerance asked for; without one within the band which the back-step fills."""
         tolerance = self.asked_tolerance or self.dwell_tolerance
         return None if tolerance is None else kernel.tolerance_dwell(self.drive, tolerance)
-
-    @property
-    def tolerance_dwell_angle(self) -> float | None:
-        """Its length [rad]."""
-        return None if self.tolerance_dwell is None else self.tolerance_dwell.crank_angle
-
-    @property
-    def tolerance_dwell_start(self) -> float | None:
-        """Crank angle of its start [rad]."""
-        return None if self.tolerance_dwell is None else self.tolerance_dwell.start
-
-    tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
 
     @property
     def window_limit(self) -> float | None:
