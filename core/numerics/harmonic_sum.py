@@ -44,12 +44,19 @@ class HarmonicSum:
             least, greatest : (float, float)
         Notes
             Signs of the derivative at 40 places a wave of the highest frequency, then bracketed roots; on a long
-            interval only of those next to which an end's value may be the least or the greatest.
+            interval only of those next to which an end's value may be the least or the greatest. Of several places
+            with the same value but for rounding it is the first, whatever the processor's cosines.
         Example
             >>> HarmonicSum(5.0, ((2.0, 1.0, 0.0),)).extremes(-1.0, 1.0)[1]
             (0.0, 7.0)
         """
         return _extremes(self, start, end)
+
+    def rounding(self, farthest: float) -> float:
+        """By how much two values that are the same may differ for |x| <= farthest: by an ulp or two of each term, and
+        by what the rounded angles f x + p move it."""
+        terms = math.fsum(abs(a) * (4.0 + abs(f) * farthest + abs(p)) for a, f, p in self.terms)
+        return 2.0**-52 * (abs(self.constant) + terms)
 
     def few_roots(self, start: float, end: float, count: int) -> list[float]:
         """Roots of the derivative, looked for in `count` steps, that may be the least or the greatest of an interval.
@@ -84,4 +91,9 @@ def _extremes(total: HarmonicSum, start: float, end: float) -> tuple[tuple[float
     else:
         places = roots_on(total.slope, [start + (end - start) * i / count for i in range(count + 1)])
     found = [(x, total.value(x)) for x in (start, end, *places)]
-    return min(found, key=lambda pair: pair[1]), max(found, key=lambda pair: pair[1])
+    values, rounding = [value for _, value in found], total.rounding(max(abs(start), abs(end)))
+    least, greatest = min(values), max(values)
+    return (
+        min((x, value) for x, value in found if value <= least + rounding),
+        min((x, value) for x, value in found if value >= greatest - rounding),
+    )

@@ -69,3 +69,12 @@ def test_a_slope_that_rounds_to_zero_at_a_place_of_the_grid() -> None:
     total = HarmonicSum(3.0, ((0.5599376245269254, -3.0, -0.5 * math.pi), (0.5, 3.0, 0.0), (0.5, -3.0, math.pi)))
     (_, least), (_, greatest) = total.extremes(0.0, 100.0 * math.pi)
     assert (least, greatest) == pytest.approx((3.0 - 0.5599376245269254, 3.0 + 0.5599376245269254), abs=1e-14)
+
+
+@pytest.mark.parametrize("phase", [-0.7, 0.1, 0.3, 1.1])
+def test_of_places_that_are_alike_the_first_is_given(phase: float) -> None:
+    """cos 2x has two tops and two bottoms a turn; which of the two is the larger double, rounding decides."""
+    (low, least), (high, greatest) = HarmonicSum(3.0, ((2.0, 2.0, phase),)).extremes(0.0, math.tau)
+    assert (least, greatest) == (pytest.approx(1.0, abs=1e-15), pytest.approx(5.0, abs=1e-15))
+    assert high == pytest.approx(-phase / 2.0 % math.pi, abs=1e-12)
+    assert low == pytest.approx((math.pi - phase) / 2.0 % math.pi, abs=1e-12)
