@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -270,11 +271,21 @@ def test_the_edge_of_a_dwell_shows_what_it_is_judged_by(module: float) -> None:
     [(20, 69, 115.44535400634571, 2.4995416995056456), (41, 106, 13.829586868504954, 0.003874342583871178)],
 )
 def test_the_longest_window_leaves_one_frame(teeth: int, idler: int, window: float, tolerance: float) -> None:
-    """There rounding decides on which side of the request the frame that was found lies."""
+    """There rounding decides on which side of the request the frame that was found lies, or whether there is one: which
+    double is the longest window depends on the processor's sines. A hundred ulp below there is a frame on each."""
     gears = {"module": 2, "crank": teeth, "idler": idler, "output": teeth}
-    data = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"window": window, "tolerance": tolerance}}
-    made = design(data, command="synth dwell")
-    assert made.frame_length_interval == pytest.approx([made.frame_length] * 2, rel=1e-6)
+
+    def lengths(ulps: int) -> list[float]:
+        dwell = {"window": window - ulps * math.ulp(window), "tolerance": tolerance}
+        made = design({"kind": "three-gear-four-bar", "gears": gears, "dwell": dwell}, command="synth dwell")
+        return [made.frame_length, *made.frame_length_interval]
+
+    found = [lengths(100)]
+    for ulps in (0, 1, 2, 4, 8):
+        with suppress(NoSolution):
+            found.append(lengths(ulps))
+    for frame, *interval in found:
+        assert interval == pytest.approx([frame] * 2, rel=1e-6)
 
 
 RING = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 39, "idler": 50, "output": -163}}
