@@ -145,7 +145,7 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
         (
             "two_gear_standing",
             "links.frame",
-            {"GL313": "for dwell,", "GL314": "for dwell,", "gear": "tolerance.command"},
+            {"GL314": "for dwell,", "gear": "tolerance.command"},
         ),
         ("wide_lever", "links.frame", {"GL307": "target judges the search for target,", "gear": "tolerance.command"}),
         ("loaded_feed", "links.crank", {"loads": "samples carry no loads"}),
