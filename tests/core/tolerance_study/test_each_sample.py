@@ -104,6 +104,7 @@ def alone(made: Any, sizes: dict[str, float]) -> dict[str, bool] | None:
     kind, held = KINDS[data["kind"]], dict[str, bool]()
     try:
         design = kind.design(made.base.command, kind.spec_model().model_validate(data))
+        design.advises = False  # the verdict is asked for, not what would help
         checks = [check for name in design.outline(made.base.command).checks for check in design.check(name)]
     except (ValidationError, NoSolution):
         return None
