@@ -211,17 +211,22 @@ class _Reading:
             *((requirement, ("where", i)) for i, requirement in enumerate(conditions)),
         ]
         names = dict.fromkeys(name for requirement, _ in requirements for name in requirement.expression.names)
+        entries = [(name, place) for name, place in self._defined_entries() if name not in names]
         try:
             design = self.base.design()
             values = self.base.values(design, names)
-            whole = self.base.values(design, dict.fromkeys(name.partition("[")[0] for name in names))
+            every = [*names, *(name for name, _ in entries)]
+            whole = self.base.values(design, dict.fromkeys(name.partition("[")[0] for name in every))
             failing = self._failing(design)
         except Refused as error:
             message = f"the base design cannot be computed: {error}"
             below = error.key.split(".") if self.spec.of is None and error.key else ()
             self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
             return ()
-        longest, kind = self._longest(names, whole), self.base.kind.name
+        longest, kind = self._longest(every, whole), self.base.kind.name
+        for name, at in entries:
+            self.faults += no_lists([name], whole, at)
+            self.faults += beyond_lists([name], longest, at, kind)
         for requirement, place in requirements:
             for name in requirement.expression.names:
                 at = self._place_of(name, requirement.expression.text, place)
@@ -230,6 +235,13 @@ class _Reading:
                 self.faults += odd_comparisons(requirement, [name], values, at, kind)
         self.faults = list(dict.fromkeys(self.faults))  # of a definition that serves several lines one
         return self._must_pass(failing)
+
+    def _defined_entries(self) -> Iterator[tuple[str, Place]]:
+        """Entries of lists that definitions name, whether a line stands on them or not."""
+        for key, text in self.spec.define.items():
+            for name in parse(text).names:
+                if "[" in name:
+                    yield name, ("define", key)
 
     def _place_of(self, name: str, text: str, place: Place) -> Place:
         """Where the file names a quantity: in a line itself, or in the definition that the line stands on."""

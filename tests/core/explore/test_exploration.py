@@ -367,6 +367,12 @@ def test_a_check_that_no_array_form_knows_is_judged_by_the_class(
             "counted from 0: [0] crank, [1] idler",
         ),
         (
+            {"define": {"x": "i3 + crank_idler.tip_radius[7]", "y": "i3"}, "minimize": {"y": 1}},
+            ("define", "x"),
+            "crank_idler.tip_radius is a list of 2: it has no crank_idler.tip_radius[7]",
+            "counted from 0: [0] crank, [1] idler",
+        ),
+        (
             {"where": ["idler_output.tip_radius[2] > 9"]},
             ("where", 0),
             "idler_output.tip_radius is a list of 2: it has no idler_output.tip_radius[2]",
