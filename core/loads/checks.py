@@ -69,7 +69,8 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
         if inside and play:
             lag = math.degrees(0.5e-3 * play / mesh.radius)
             text += (
-                f"; that at {inside[0]:.5g} deg lies where the output must stand or run true: it lags by {lag:.3g} deg"
+                f"; that at {inside[0]:.5g} deg lies where the output must stand or run true: "
+                f"the link {mesh.second} lags by {lag:.3g} deg"
             )
             yield codes.LOAD_REVERSAL.check("fail", f"{text}; load the output one way", float(len(places)), 0.0)
         else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -166,10 +166,18 @@ class MeshLoad:
         return np.asarray(np.abs(self.force(phi)))
 
     @cached_property
+    def _mesh(self) -> Any:
+        return next(mesh for mesh in self.design.machine.at(np.zeros(1)).meshes if mesh.name == self.name)
+
+    @property
     def radius(self) -> float:
         """Pitch radius of the second gear [m]."""
-        meshes = self.design.machine.at(np.zeros(1)).meshes
-        return next(mesh.mate_radius for mesh in meshes if mesh.name == self.name)
+        return float(self._mesh.mate_radius)
+
+    @property
+    def second(self) -> str:
+        """The link of the second gear."""
+        return str(self._mesh.second)
 
     @cached_property
     def tooth_force_max(self) -> float:

@@ -291,3 +291,10 @@ def test_a_safety_below_1_never_passes(least: float, status: str) -> None:
     spec = {"kind": "gear-pair", "module": 4, "teeth": [72, 72], "profile_shift": [0, 0], **gears}
     found = factory.design({**spec, "limits": {"safety_bending": least}}, command="gear").check("bending")
     assert {check.status for check in found if 0.1 < check.value < 1.0} == {status}
+
+
+def test_the_lag_is_half_the_play_over_the_radius_of_the_gear_that_is_named() -> None:
+    """0.1 mm in the racks, a pinion of 100 mm: 0.05/100 rad, which the pinion lags by."""
+    press = factory.design("loaded_press", command="loads", loads__backlash=0.1)
+    (found,) = (each for each in press.check("load-reversal") if each.message.startswith("rack_upper"))
+    assert f"the link pinion lags by {math.degrees(0.05 / 100.0):.3g} deg" in found.message
