@@ -22,7 +22,8 @@ LOAD_REVERSAL = Rule(
     "load reversal",
     "A tooth force, or the force of a roller between two cams, changes its sign.",
     "There the teeth change flanks through the backlash: it rattles, and while it does the second gear "
-    "of the mesh lags by backlash/(2 r_w), r_w its own. Within a dwell or a synchronous zone that is an error of place.",
+    "of the mesh lags by backlash/(2 r_w), r_w its own. Within a dwell or a synchronous zone that is an error of "
+    "place.",
     "Add a constant load or a spring on the output, lower the speed, lighten what is driven, or take backlash away.",
     "roots of F_t(phi)",
     "own derivation: the flank that touches follows from the sign of F_t",

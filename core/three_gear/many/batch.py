@@ -290,15 +290,14 @@ class Batch:
         return doubtful
 
     def _of_band(self) -> Iterator[Findings]:
-        """GL313 where a window is asked for, GL317 where a dwell within the tolerance has no end."""
+        """GL313 where a window is asked for, GL317 where there is a tolerance."""
         asked = self.key("dwell_window")
         if self.command == "analyze" and np.isfinite(asked).any():
             width = np.degrees(self.band[1])
             got = np.where(self.given_tolerance < self._endless, width, 360.0)
             yield Findings(DWELL_WINDOW.code, got, asked, got < asked * (1.0 - WINDOW_FIT), self.none, "deg")
         given, limit = np.degrees(self.tolerance), np.degrees(self._endless)
-        if (endless := given >= limit).any():
-            yield Findings(DWELL_TOLERANCE.code, given, limit, endless, self.none, "deg")
+        yield Findings(DWELL_TOLERANCE.code, given, limit, given >= limit, self.none, "deg")
 
     # Meshes and checks
 
