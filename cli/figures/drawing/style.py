@@ -64,8 +64,11 @@ def place_title(made: Figure) -> None:
     top = 1.0 - MARGIN / height
     title.set(y=top, va="top")
     if max(len(line) for line in title.get_text().split("\n")) > _SHORT:
-        reach = title.get_window_extent().width / made.dpi / (width - 2.0 * MARGIN)
-        title.set_fontsize(_TITLE / max(1.0, reach))
+        for _ in range(3):  # matplotlib before 3.11 rounds widths of letters: they do not shrink as their size does
+            reach = title.get_window_extent().width / made.dpi / (width - 2.0 * MARGIN)
+            if reach <= 1.0005:
+                break
+            title.set_fontsize(title.get_fontsize() / reach)
     rows = title.get_text().rstrip("\n").count("\n") + 1
     for text in made.texts:
         if text.get_gid() == "fails":
