@@ -162,7 +162,7 @@ def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]
     import math
 
     other = axes.twinx()
-    _named(other, "", "of the nominal load [N/mm²]")
+    _named(other, "", "stress under the nominal load [N/mm²]")
     rho = [place.rho for place in places]
     found: list[Line2D] = []
 

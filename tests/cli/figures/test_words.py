@@ -131,7 +131,7 @@ def test_curvature_is_shown_as_far_as_it_goes() -> None:
 def test_stresses_along_the_path_are_of_the_nominal_load() -> None:
     """Those of the table beside them count the factors of the load."""
     made, figure = sheet("gear_pair", "gear")
-    (right,) = [axes for axes in figure.axes if axes.get_ylabel() == "of the nominal load [N/mm²]"]
+    (right,) = [axes for axes in figure.axes if axes.get_ylabel() == "stress under the nominal load [N/mm²]"]
     shown = max(float(np.nanmax(line.get_ydata())) for line in right.lines)
     assert shown < max(made.quantity("contact_stress").value)
     assert math.isfinite(shown)
