@@ -132,7 +132,7 @@ def test_no_machine_imports_another(machine: str) -> None:
     assert not [(a, b) for a in own for b in arrows()[a] if _room(b) in others]
 
 
-@pytest.mark.parametrize("library", ["numerics", "cams", "linkages", "gears", "loads"])
+@pytest.mark.parametrize("library", ["numerics", "cams", "linkages", "gears", "loads", "mechanism"])
 def test_libraries_are_free_of_machines(library: str) -> None:
     own = [name for name in MODULES if name.startswith(f"core.{library}.")]
     assert own
@@ -142,6 +142,12 @@ def test_libraries_are_free_of_machines(library: str) -> None:
 def test_numerics_know_no_mechanism() -> None:
     own = [name for name in MODULES if name.startswith("core.numerics.")]
     allowed = {"core.numerics", *FOUNDATION}
+    assert not [(a, b) for a in own for b in arrows()[a] if _room(b) not in allowed]
+
+
+def test_mechanism_knows_numbers_alone() -> None:
+    own = [name for name in MODULES if name.startswith("core.mechanism.")]
+    allowed = {"core.mechanism", "core.numerics", *FOUNDATION}
     assert not [(a, b) for a in own for b in arrows()[a] if _room(b) not in allowed]
 
 

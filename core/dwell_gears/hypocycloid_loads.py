@@ -12,7 +12,8 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
-    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -41,8 +42,10 @@ class HypocycloidDwellLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The four links at carrier angles, the ring's centre at 0."""
-        from gearlink.core.loads.forces.kinematics import fixed, slider, standing, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Guide, Link, Mechanism, Mesh, Pin
+        from gearlink.core.mechanism.closures import slider
+        from gearlink.core.mechanism.joints import Guide, Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import fixed, standing, steady
 
         geometry = self.design.slider
         r, n = geometry.planet_radius * _MM, geometry.cusps

@@ -15,8 +15,8 @@ from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins
 from gearlink.core.loads.design import LoadsDesign, loads_outline
-from gearlink.core.loads.forces.sources import mass_of
 from gearlink.core.loads.periods import homecoming
+from gearlink.core.loads.sources import mass_of
 from gearlink.core.loads.spec import of_body
 from gearlink.core.results import cached_property
 
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.loads_spec import MutilatedLoads as Section
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
     from gearlink.core.linkages.fourbar.position import FourBar
-    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _TURN = 2.0 * math.pi
@@ -105,8 +106,9 @@ class MutilatedGearLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The three links at input angles."""
-        from gearlink.core.loads.forces.kinematics import Turn
-        from gearlink.core.loads.forces.mechanism import Link, Mechanism, ToothDrive
+        from gearlink.core.mechanism.joints import ToothDrive
+        from gearlink.core.mechanism.links import Link, Mechanism
+        from gearlink.core.mechanism.rates import Turn
 
         angle, moves = self._driven(phi)
         crank = (self.design.start_crank_angle or 0.0) + angle
@@ -136,8 +138,8 @@ class MutilatedGearLoads(LoadsDesign):
         """
         import numpy as np
 
-        from gearlink.core.loads.forces.dynamics import reduced
-        from gearlink.core.loads.forces.mechanism import Mechanism
+        from gearlink.core.mechanism.dynamics import reduced
+        from gearlink.core.mechanism.links import Mechanism
 
         count = self.design.cycles_to_repeat
         starts = np.arange(count, dtype=np.float64) * (_TURN * self.design.driven_turn) + (

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from gearlink.core.five_bar.function_motion import FunctionFiveBar
     from gearlink.core.five_bar.loads_spec import FiveBarLoads as Section
     from gearlink.core.five_bar.spec import GearedFiveBarSpec
-    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -89,14 +90,16 @@ class FiveBarLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The links at input angles, A at 0 and E on +x."""
-        from gearlink.core.loads.forces.mechanism import Mechanism
+        from gearlink.core.mechanism.links import Mechanism
 
         links, connections = self._path(phi) if self.design.is_path else self._function(phi)
         return Mechanism(links, connections, "input")
 
     def _path(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
-        from gearlink.core.loads.forces.kinematics import dyad, fixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Pin
+        from gearlink.core.mechanism.closures import dyad
+        from gearlink.core.mechanism.joints import Pin
+        from gearlink.core.mechanism.links import FRAME, Link
+        from gearlink.core.mechanism.rates import fixed, steady
 
         bar = self.design.path_bar
         first = Link(fixed(0j, phi), steady(phi))
@@ -115,8 +118,9 @@ class FiveBarLoads(LoadsDesign):
 
     def _path_gears(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
         """The mesh of input and output, or those with the idler between them, which joins the links."""
-        from gearlink.core.loads.forces.kinematics import fixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mesh, Pin
+        from gearlink.core.mechanism.joints import Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link
+        from gearlink.core.mechanism.rates import fixed, steady
 
         gears = self.spec.gears
         a, e = links["input"].origin.value, links["output"].origin.value
@@ -139,8 +143,10 @@ class FiveBarLoads(LoadsDesign):
         ]
 
     def _function(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
-        from gearlink.core.loads.forces.kinematics import dyad, fixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mesh, Pin
+        from gearlink.core.mechanism.closures import dyad
+        from gearlink.core.mechanism.joints import Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link
+        from gearlink.core.mechanism.rates import fixed, steady
 
         bar, gears = self.function_bar, self.spec.gears
         first = Link(fixed(0j, phi), steady(phi))

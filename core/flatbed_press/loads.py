@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.cams.contact import RollerOnCam
-    from gearlink.core.loads.forces.kinematics import Point, Turn
-    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Link, Mechanism
+    from gearlink.core.mechanism.rates import Point, Turn
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -118,7 +119,7 @@ class PressLoads(CamLoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The twelve links at input angles."""
-        from gearlink.core.loads.forces.mechanism import Mechanism
+        from gearlink.core.mechanism.links import Mechanism
 
         if self.spec.cam is None:
             raise MissingSection(
@@ -138,7 +139,7 @@ class PressLoads(CamLoadsDesign):
     @cached_property
     def places(self) -> tuple[dict[str, complex], dict[str, complex]]:
         """Where pins and racks stand at input angle 0 [mm], in the frame of the forces."""
-        from gearlink.core.loads.forces.mechanism import Pin, Rack
+        from gearlink.core.mechanism.joints import Pin, Rack
 
         joints = self._connections
         return (
@@ -151,8 +152,9 @@ class PressLoads(CamLoadsDesign):
     def _rods(self, phi: Reals) -> dict[str, Link]:
         """The links from gear 2 to the carriage."""
         from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.loads.forces.kinematics import Turn, carried, fixed, slider, standing, steady
-        from gearlink.core.loads.forces.mechanism import Link
+        from gearlink.core.mechanism.closures import slider
+        from gearlink.core.mechanism.links import Link
+        from gearlink.core.mechanism.rates import Turn, carried, fixed, standing, steady
 
         bed = self.design.bed
         four = bed.linkage
@@ -180,8 +182,8 @@ class PressLoads(CamLoadsDesign):
 
     def _racks(self, links: dict[str, Link], phi: Reals) -> Travel:
         """Pinion, lower rack and bed, put to the links that move them; the lift of the follower."""
-        from gearlink.core.loads.forces.kinematics import Turn, standing
-        from gearlink.core.loads.forces.mechanism import Link
+        from gearlink.core.mechanism.links import Link
+        from gearlink.core.mechanism.rates import Turn, standing
 
         f, still = links["carriage"].origin, standing(0.0, phi)
         cam, lift = self._lift_by_input(phi, links["CDE"].turn)
@@ -205,7 +207,8 @@ class PressLoads(CamLoadsDesign):
         return float(depth[0]) / (self._side * self.pinion_radius)
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
-        from gearlink.core.loads.forces.mechanism import FRAME, Guide, Pin, Rack
+        from gearlink.core.mechanism.joints import Guide, Pin, Rack
+        from gearlink.core.mechanism.links import FRAME
 
         four, side = self.design.bed.linkage, self._side
         f, tangent, r8 = links["carriage"].origin.value, math.tan(_RACK_ANGLE), self.pinion_radius
@@ -226,7 +229,7 @@ class PressLoads(CamLoadsDesign):
         """The roller of the rack's follower on the cams, one force: positive on the main cam, negative on the other."""
         import numpy as np
 
-        from gearlink.core.loads.forces.mechanism import Contact
+        from gearlink.core.mechanism.joints import Contact
 
         rho = (self.design.cams.base_radius + cam.value) * _MM
         normal = (rho + 1j * cam.first * _MM) * 1j / np.hypot(rho, cam.first * _MM)
@@ -259,7 +262,7 @@ class PressLoads(CamLoadsDesign):
 
     def _cam_turn(self, phi: Reals) -> Turn:
         """Angle turned by the cams."""
-        from gearlink.core.loads.forces.kinematics import from_start
+        from gearlink.core.mechanism.rates import from_start
 
         return from_start(self.machine.at(phi).links["CDE"].turn, self.design.bed.cam_angle_start)
 
@@ -336,8 +339,9 @@ class PressLoads(CamLoadsDesign):
 
     def _cylinder_chain(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
         from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.loads.forces.kinematics import Turn, fixed, from_start, mixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mesh, Pin
+        from gearlink.core.mechanism.joints import Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link
+        from gearlink.core.mechanism.rates import Turn, fixed, from_start, mixed, steady
 
         chain, pair = self.design.cylinder, self.design.gear_pair
         four = chain.linkage
@@ -370,7 +374,7 @@ class PressLoads(CamLoadsDesign):
 
 def _sliding(place: Reals, way: tuple[Reals, ...]) -> Point:
     """A point that moves along +y by a way with its derivatives."""
-    from gearlink.core.loads.forces.kinematics import Point
+    from gearlink.core.mechanism.rates import Point
 
     along: list[Any] = [1j * each for each in way]
     return Point(place + along[0], along[1], along[2])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.gears.data import GearData
     from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.loads.forces.mechanism import Mechanism
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -82,8 +82,9 @@ class GearPairLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """Both gears at angles of gear 1."""
-        from gearlink.core.loads.forces.kinematics import fixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Mesh, Pin
+        from gearlink.core.mechanism.joints import Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import fixed, steady
 
         pair = self.pair
         r1, r2 = (radius * _MM for radius in pair.working_radius)

@@ -27,7 +27,7 @@ class BalancedLoads(LoadsBase):
 
     def shaking(self, phi: Reals) -> Any:
         """Force and moment of the masses on the frame."""
-        from gearlink.core.loads.forces.dynamics import shaking
+        from gearlink.core.mechanism.dynamics import shaking
 
         return shaking(self.machine.at(phi), self.masses, self.speed)
 
@@ -48,7 +48,7 @@ class BalancedLoads(LoadsBase):
 
     def balanced_force(self, moments: dict[str, complex]) -> float:
         """Greatest shaking force with these counterweights [N]."""
-        from gearlink.core.loads.forces.dynamics import Mass, shaking
+        from gearlink.core.mechanism.dynamics import Mass, shaking
 
         # On a link that turns about its origin, 1 kg at U has the mass moment U, and nothing else in the force.
         weights = {name: Mass(1.0, 0.0, moment) for name, moment in moments.items()}

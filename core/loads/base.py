@@ -13,10 +13,11 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.loads.flywheel import Energy
-    from gearlink.core.loads.forces.dynamics import Mass
-    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.running import Running
+    from gearlink.core.mechanism.dynamics import Mass
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.report import Check
@@ -134,7 +135,7 @@ class LoadsBase(Design):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """Masses by link, those of the file."""
-        from gearlink.core.loads.forces.sources import mass_of
+        from gearlink.core.loads.sources import mass_of
         from gearlink.core.loads.spec import of_body
 
         bodies = {name: of_body(self.section.links, name) for name in self.own_links}
@@ -148,8 +149,8 @@ class LoadsBase(Design):
     @cached_property
     def machine(self) -> Machine:
         """Everything together."""
-        from gearlink.core.loads.forces.sources import Sources, vector
         from gearlink.core.loads.machine import Machine, free_what_others_kept
+        from gearlink.core.loads.sources import Sources, gravity_of
 
         free_what_others_kept()
         sources = Sources(self.section, self.own_links, self.sliding)
@@ -162,7 +163,7 @@ class LoadsBase(Design):
             self.kinematics,
             self.masses,
             sources,
-            vector(self.section.gravity),
+            gravity_of(self.section),
             self.speed,
             self.turns,
             self.friction,
@@ -177,12 +178,11 @@ class LoadsBase(Design):
         given = self.section.friction
         if given is None:
             return None
-        from gearlink.core.loads.forces.friction import Coefficients, require_coefficients
-        from gearlink.core.loads.forces.mechanism import Guide, Pin, Toothed
+        from gearlink.core.loads.sources import coefficients_of
+        from gearlink.core.mechanism.joints import Guide, Pin, Toothed
 
         self._require_joints("friction.joints", given.joints, Pin, Guide, *Toothed)
-        require_coefficients(given, self._connections)
-        return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * 1e-3, dict(given.joints))
+        return coefficients_of(given, self._connections)
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:
@@ -218,7 +218,7 @@ class LoadsBase(Design):
     def _unless_locked(self, find: Callable[[], Any], otherwise: Any) -> Any:
         if self.section.friction is None:
             return find()
-        from gearlink.core.loads.forces.rubbing import SelfLocking
+        from gearlink.core.mechanism.rubbing import SelfLocking
 
         try:
             return find()
@@ -234,7 +234,7 @@ class LoadsBase(Design):
     @cached_property
     def locks_between(self) -> bool:
         """Whether the machine locks itself at angles between those that are looked at first."""
-        from gearlink.core.loads.forces.rubbing import SelfLocking
+        from gearlink.core.mechanism.rubbing import SelfLocking
 
         try:
             _ = self.torque_range

@@ -206,7 +206,7 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
     """GL615, with friction."""
     if design.machine.friction is None:
         return
-    from gearlink.core.loads.forces.rubbing import LOCKS
+    from gearlink.core.mechanism.rubbing import LOCKS
 
     ratio, place = design.nearest_locking
     if place is None:

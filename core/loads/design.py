@@ -140,7 +140,7 @@ class LoadsDesign(BalancedLoads):
         Notes
             As `Machine.locking`, of some rows alone, where the machine locks itself.
         """
-        from gearlink.core.loads.forces.rubbing import SelfLocking
+        from gearlink.core.mechanism.rubbing import SelfLocking
 
         if self.locked:
             return self.machine.locking
@@ -331,8 +331,8 @@ class LoadsDesign(BalancedLoads):
     @cached_property
     def pins_found(self) -> dict[str, Any]:
         """The pins of this design, by name."""
-        from gearlink.core.loads.forces.mechanism import Pin
         from gearlink.core.loads.joints import PinLoad
+        from gearlink.core.mechanism.joints import Pin
 
         bearings = self.section.bearings
         self._require_joints("bearings", bearings, Pin)
@@ -360,8 +360,8 @@ class LoadsDesign(BalancedLoads):
     @cached_property
     def meshes_found(self) -> dict[str, Any]:
         """The meshes of this design, by name."""
-        from gearlink.core.loads.forces.mechanism import Toothed
         from gearlink.core.loads.joints import MeshLoad
+        from gearlink.core.mechanism.joints import Toothed
 
         if isinstance(self.section.backlash, dict):
             self._require_joints("backlash", self.section.backlash, *Toothed)
@@ -388,11 +388,11 @@ class LoadsDesign(BalancedLoads):
 
 def _both_torques(machine: Machine, phi: Reals) -> tuple[Reals, Reals, Reals]:
     """Input torque by the forces between the links and by virtual power, and the sizes of what cancels in it [N m]."""
-    from gearlink.core.loads.forces.dynamics import power_parts
+    from gearlink.core.mechanism.dynamics import power_parts
 
     found, power = machine.reactions(phi), machine.reduced(phi).torque(machine.speed)
     if machine.friction is not None:
-        from gearlink.core.loads.forces.friction import losses
+        from gearlink.core.mechanism.friction import losses
 
         power = power + losses(found, machine.friction, machine.speed) / machine.speed
     parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)

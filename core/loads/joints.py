@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.loads.forces.mechanism import Pin, ToothDrive, rates
 from gearlink.core.loads.panels import Panels
 from gearlink.core.loads.reversals import Function, places, places_of
 from gearlink.core.loads.zeros import zeros, zeros_of
+from gearlink.core.mechanism.joints import Pin, ToothDrive, meshes_of
+from gearlink.core.mechanism.links import rates
 from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.results import cached_property
 
@@ -18,9 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from gearlink.core.loads.design import LoadsDesign
-    from gearlink.core.loads.forces.mechanism import Mechanism
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.spec import Bearing
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Points, Reals
 
 BALL, ROLLER = 3.0, 10.0 / 3.0
@@ -157,7 +158,7 @@ class MeshLoad:
     def force(self, phi: Reals) -> Reals:
         """F_t on the second gear [N]."""
         found = self.design.machine.reactions(phi)
-        mesh = next(each for each in found.mechanism.meshes if each.name == self.name)
+        mesh = next(each for each in meshes_of(found.mechanism) if each.name == self.name)
         share = mesh.moves if isinstance(mesh, ToothDrive) else 1.0
         return np.asarray(found.unknowns[self.name][0] * share)
 
@@ -167,7 +168,7 @@ class MeshLoad:
 
     @cached_property
     def _mesh(self) -> Any:
-        return next(mesh for mesh in self.design.machine.at(np.zeros(1)).meshes if mesh.name == self.name)
+        return next(mesh for mesh in meshes_of(self.design.machine.at(np.zeros(1))) if mesh.name == self.name)
 
     @property
     def radius(self) -> float:

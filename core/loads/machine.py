@@ -16,14 +16,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.forces.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.loads.forces.friction import Coefficients, passes_ratio, with_friction
-from gearlink.core.loads.forces.kinematics import TURNING_BACK, dot
-from gearlink.core.loads.forces.mechanism import Coupling, Mechanism, Pin
-from gearlink.core.loads.forces.rubbing import LOCKED, LOCKS, SelfLocking
-from gearlink.core.loads.forces.sources import Sources
 from gearlink.core.loads.panels import APART, Panels
+from gearlink.core.loads.sources import Sources
 from gearlink.core.loads.zeros import zeros_of
+from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
+from gearlink.core.mechanism.friction import Coefficients, passes_ratio, with_friction
+from gearlink.core.mechanism.joints import Coupling, Pin
+from gearlink.core.mechanism.links import Mechanism
+from gearlink.core.mechanism.rates import TURNING_BACK, dot
+from gearlink.core.mechanism.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.numerics.arrays import Reals
 
 Kinematics: TypeAlias = Callable[[Reals], Mechanism]

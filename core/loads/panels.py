@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.loads.forces.kinematics import TURNING_BACK
+from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.arrays import Reals
 
 NODES = 16

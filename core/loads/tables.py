@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from gearlink.core.loads.design import LoadsDesign
-    from gearlink.core.loads.forces.mechanism import Mechanism
+    from gearlink.core.mechanism.links import Mechanism
 
 
 def torque(design: LoadsDesign, samples: int | None = None) -> Table:
@@ -35,7 +35,7 @@ def torque(design: LoadsDesign, samples: int | None = None) -> Table:
 
 def joints(design: LoadsDesign, samples: int | None = None) -> Table:
     """Every pin's force on the second link of the joint, those of the guides, and sums of shafts in each other."""
-    from gearlink.core.loads.forces.mechanism import Guide, Pin
+    from gearlink.core.mechanism.joints import Guide, Pin
 
     phi, columns = design.rows(samples)
     found = design.machine.reactions(phi)
@@ -57,7 +57,8 @@ def _force(name: str, force: Any) -> dict[str, tuple[Any, str]]:
 
 def _on_one_axis(design: LoadsDesign, mechanism: Mechanism) -> Iterator[list[str]]:
     """The pins of the frame about each axis that has several: shafts that run in each other load it together."""
-    from gearlink.core.loads.forces.mechanism import FRAME, Pin
+    from gearlink.core.mechanism.joints import Pin
+    from gearlink.core.mechanism.links import FRAME
 
     axes: dict[complex, list[str]] = {}
     for each in mechanism.connections:
@@ -68,11 +69,11 @@ def _on_one_axis(design: LoadsDesign, mechanism: Mechanism) -> Iterator[list[str
 
 def teeth(design: LoadsDesign, samples: int | None = None) -> Table:
     """Tangential and radial tooth force of every mesh."""
-    from gearlink.core.loads.forces.mechanism import ToothDrive
+    from gearlink.core.mechanism.joints import ToothDrive, meshes_of
 
     phi, columns = design.rows(samples)
     found = design.machine.reactions(phi)
-    for mesh in found.mechanism.meshes:
+    for mesh in meshes_of(found.mechanism):
         tangential = found.unknowns[mesh.name][0]
         if isinstance(mesh, ToothDrive):
             tangential = tangential * mesh.moves

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.loads.forces.mechanism import FRAME, Pin
+from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
-    from gearlink.core.loads.forces.mechanism import Connection
     from gearlink.core.loads.joints import MeshLoad
+    from gearlink.core.mechanism.joints import Connection
 
 _MEAN_STRESS = 0.4
 """M of tempered steel."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.forces.kinematics import dot
 from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, Panelled, PeriodicResponse, bounded, speed_limit
+from gearlink.core.mechanism.rates import dot
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.results import cached_property
 

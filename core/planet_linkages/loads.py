@@ -17,8 +17,9 @@ from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.forces.kinematics import Turn
-    from gearlink.core.loads.forces.mechanism import Link, Mechanism, Mesh
+    from gearlink.core.mechanism.joints import Mesh
+    from gearlink.core.mechanism.links import Link, Mechanism
+    from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Reals
 
 _MESHES = ("mesh_25",)
@@ -59,8 +60,9 @@ class PlanetLinkageLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The four links at crank angles."""
-        from gearlink.core.loads.forces.kinematics import from_start, mixed
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin
+        from gearlink.core.mechanism.joints import Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import from_start, mixed
 
         links, ratio = four_bar(self.linkage, phi), self.design.gear_ratio
         pins = four_bar_pins(links, self.linkage)
@@ -127,7 +129,7 @@ class TwoGearLoads(PlanetLinkageLoads):
 
     def mesh_of(self, links: dict[str, Link]) -> Mesh:
         """Along the crank."""
-        from gearlink.core.loads.forces.mechanism import Mesh
+        from gearlink.core.mechanism.joints import Mesh
 
         crank = links["crank"]
         return Mesh(
@@ -150,13 +152,13 @@ class GearedRockerLoads(PlanetLinkageLoads):
 
     def carrier_turn(self, links: dict[str, Link]) -> Turn:
         """The rocker's."""
-        from gearlink.core.loads.forces.kinematics import from_start
+        from gearlink.core.mechanism.rates import from_start
 
         return from_start(links["rocker"].turn, self._start[1])
 
     def mesh_of(self, links: dict[str, Link]) -> Mesh:
         """Along the rocker."""
-        from gearlink.core.loads.forces.mechanism import Mesh
+        from gearlink.core.mechanism.joints import Mesh
 
         rocker = links["rocker"]
         return Mesh("mesh_25", "output", "coupler", rocker.origin.value, rocker.unit, *self.rolling, False, "rocker")

@@ -15,8 +15,9 @@ from gearlink.core.six_bar.design import GearedSixBar
 from gearlink.core.six_bar.spec import PINS
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.forces.kinematics import Point, Turn
-    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism, Mesh
+    from gearlink.core.mechanism.joints import Connection, Mesh
+    from gearlink.core.mechanism.links import Link, Mechanism
+    from gearlink.core.mechanism.rates import Point, Turn
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.six_bar.loads_spec import SixBarLoads as Section
     from gearlink.core.six_bar.spec import GearedSixBarSpec
@@ -109,7 +110,8 @@ class SixBarLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The links at input angles, A at 0 and F on +x."""
-        from gearlink.core.loads.forces.mechanism import Mechanism, Pin
+        from gearlink.core.mechanism.joints import Pin
+        from gearlink.core.mechanism.links import Mechanism
 
         _ = self._period_turns  # a loop that does not come home is refused in the words of loads
         links, places, turned = self._loop(phi)
@@ -124,8 +126,8 @@ class SixBarLoads(LoadsDesign):
 
     def _loop(self, phi: Reals) -> tuple[dict[str, Link], list[Point], list[Turn]]:
         """The five links, the six pins, and what all six links have turned since the start, the frame first."""
-        from gearlink.core.loads.forces.kinematics import Turn, fixed, from_start, standing, steady
-        from gearlink.core.loads.forces.mechanism import Link
+        from gearlink.core.mechanism.links import Link
+        from gearlink.core.mechanism.rates import Turn, fixed, from_start, standing, steady
 
         lengths, starts = self.design.lengths, (0.0, *self.design.bar.start_angles)
         angles, first, second, _ = self.design.course.rates(phi)
@@ -142,8 +144,8 @@ class SixBarLoads(LoadsDesign):
 
     def _free_gears(self, number: int, places: list[Point], turned: list[Turn]) -> dict[str, Link]:
         """The gears between the ends of a train, by Willis's equation from its first one on; x along the frame at 0."""
-        from gearlink.core.loads.forces.kinematics import mixed
-        from gearlink.core.loads.forces.mechanism import Link
+        from gearlink.core.mechanism.links import Link
+        from gearlink.core.mechanism.rates import mixed
 
         train, links = self.spec.trains[number], {}
         gear = turned[train.first_pin]
@@ -156,7 +158,7 @@ class SixBarLoads(LoadsDesign):
 
     def _gears(self, number: int, links: dict[str, Link], places: list[Point]) -> list[Connection]:
         """The pins of a train's free gears, and its meshes, which join the links."""
-        from gearlink.core.loads.forces.mechanism import Pin
+        from gearlink.core.mechanism.joints import Pin
 
         train, bodies = self.spec.trains[number], self._bodies[number]
         pins: list[Connection] = []
@@ -167,7 +169,8 @@ class SixBarLoads(LoadsDesign):
 
     def _mesh(self, number: int, k: int, links: dict[str, Link], places: list[Point]) -> Mesh:
         """The mesh of gears k and k + 1 of a train on the link between their pins, a ring first."""
-        from gearlink.core.loads.forces.mechanism import FRAME, Mesh
+        from gearlink.core.mechanism.joints import Mesh
+        from gearlink.core.mechanism.links import FRAME
 
         train, bodies = self.spec.trains[number], self._bodies[number]
         one, other = (PINS.index(pin) for pin in train.pins[k : k + 2])

@@ -19,9 +19,10 @@ from gearlink.core.swing_gripper.motion import require
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
     from gearlink.core.loads.cams.contact import RollerOnCam
-    from gearlink.core.loads.forces.dynamics import Force, Mass, Torque
-    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
     from gearlink.core.loads.machine import Machine
+    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.loads_spec import GripperLoads as Section
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
@@ -72,7 +73,7 @@ class GripperLoads(CamLoadsDesign):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """From the section `inertia`."""
-        from gearlink.core.loads.forces.dynamics import Mass
+        from gearlink.core.mechanism.dynamics import Mass
 
         given = require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker")
         found = {
@@ -95,7 +96,7 @@ class GripperLoads(CamLoadsDesign):
         """The spring presses both rockers to their cams; it turns with them and does no work."""
         import numpy as np
 
-        from gearlink.core.loads.forces.dynamics import Torque
+        from gearlink.core.mechanism.dynamics import Torque
 
         if self.spec.spring is None:
             return []
@@ -174,8 +175,9 @@ class GripperLoads(CamLoadsDesign):
         """The links at cylinder angles, in the machine's frame."""
         import numpy as np
 
-        from gearlink.core.loads.forces.kinematics import Turn, fixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Contact, Link, Mechanism, Pin
+        from gearlink.core.mechanism.joints import Contact, Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import Turn, fixed, steady
 
         if self.spec.cam is None:
             raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")

@@ -14,7 +14,7 @@ from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.forces.mechanism import Mechanism
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.three_gear.loads_spec import ThreeGearLoads as Section
     from gearlink.core.three_gear.spec import ThreeGearSpec
@@ -104,8 +104,9 @@ class ThreeGearLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The five links at crank angles."""
-        from gearlink.core.loads.forces.kinematics import from_start, mixed, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Mesh, Pin
+        from gearlink.core.mechanism.joints import Mesh, Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import from_start, mixed, steady
 
         design, train = self.design, self.design.train
         linkage = design.linkage

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.loads.forces.dynamics import Mass
-from gearlink.core.loads.forces.kinematics import Turn, carried, fixed, steady
-from gearlink.core.loads.forces.mechanism import FRAME, Link, Pin
+from gearlink.core.mechanism.dynamics import Mass
+from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.links import FRAME, Link
+from gearlink.core.mechanism.rates import Turn, carried, fixed, steady
 from gearlink.core.numerics.arrays import Reals
 
 MM = 1e-3

@@ -11,7 +11,8 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
-    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -50,7 +51,7 @@ class SliderCrankLoads(LoadsDesign):
         return {"crank": self._counterweight(float(share))}
 
     def _counterweight(self, share: float) -> complex:
-        from gearlink.core.loads.forces.dynamics import Mass
+        from gearlink.core.mechanism.dynamics import Mass
 
         crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links)
         part = rod.center / (self.spec.rod * _MM)
@@ -60,8 +61,10 @@ class SliderCrankLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The three links at crank angles, D at 0."""
-        from gearlink.core.loads.forces.kinematics import fixed, slider, standing, steady
-        from gearlink.core.loads.forces.mechanism import FRAME, Guide, Link, Mechanism, Pin
+        from gearlink.core.mechanism.closures import slider
+        from gearlink.core.mechanism.joints import Guide, Pin
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import fixed, standing, steady
 
         crank = Link(fixed(0j, phi), steady(phi))
         pin = crank.at(self.slider_crank.crank_length * _MM)

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gearlink.core.loads.forces.kinematics import cross, dot
+from gearlink.core.mechanism.rates import cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
 _PHI = 0.5 * (1.0 + math.sqrt(5.0))

@@ -26,11 +26,12 @@ from gearlink.core.wide_swing.loads import tables as loads_tables
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.loads.forces.dynamics import Mass
-    from gearlink.core.loads.forces.kinematics import Turn
-    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.vibrating import Vibrating
+    from gearlink.core.mechanism.dynamics import Mass
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.links import Link, Mechanism
+    from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.report import Remedy
     from gearlink.core.wide_swing.cams.outline import AnyCam
@@ -142,7 +143,7 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """Rocker and slider of their own sections, and what the file gives the others."""
-        from gearlink.core.loads.forces.dynamics import Mass
+        from gearlink.core.mechanism.dynamics import Mass
 
         found = super().masses
         if self.spec.inertia:
@@ -246,7 +247,7 @@ class WideSwingLoads(LoadsDesign):
         """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
         import numpy as np
 
-        from gearlink.core.loads.forces.kinematics import Turn
+        from gearlink.core.mechanism.rates import Turn
 
         rows = len(share)
         turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
@@ -264,8 +265,9 @@ class WideSwingLoads(LoadsDesign):
         """Rocker and cams at input angles."""
         import numpy as np
 
-        from gearlink.core.loads.forces.kinematics import fixed
-        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin, SharedContact
+        from gearlink.core.mechanism.joints import Pin, SharedContact
+        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+        from gearlink.core.mechanism.rates import fixed
         from gearlink.core.wide_swing.loads.links import SLIDER_DIRECTION, with_slider
 
         sector, share = self._share(phi)
@@ -295,7 +297,7 @@ class WideSwingLoads(LoadsDesign):
 
     def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
         """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
-        from gearlink.core.loads.forces.kinematics import fixed
+        from gearlink.core.mechanism.rates import fixed
         from gearlink.core.wide_swing.cams.outline import middle_of
         from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts
 

@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.forces.dynamics import Force
-from gearlink.core.loads.forces.kinematics import Point, carried, dyad, fixed, slider, standing, steady
-from gearlink.core.loads.forces.mechanism import FRAME, Connection, Coupling, Guide, Link, Pin
+from gearlink.core.mechanism.closures import dyad, slider
+from gearlink.core.mechanism.dynamics import Force
+from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Link
+from gearlink.core.mechanism.rates import Point, carried, fixed, standing, steady
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from gearlink.core.loads.forces.dynamics import Torque
-    from gearlink.core.loads.forces.mechanism import Mechanism
+    from gearlink.core.mechanism.dynamics import Torque
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
     from gearlink.core.wide_swing.loads.design import WideSwingLoads

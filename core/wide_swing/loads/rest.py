@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.forces.kinematics import TURNING_BACK
+from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.wide_swing.cams.cam import WideSwingCam
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.cams.contact import LineContact, plane_modulus
-from gearlink.core.loads.forces.kinematics import TURNING_BACK, Turn
+from gearlink.core.mechanism.rates import TURNING_BACK, Turn
 from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.wide_swing import way_back
 from gearlink.core.wide_swing.cams.outline import middle_of

@@ -18,9 +18,10 @@ import numpy as np
 import pytest
 from six_bars import SIX_BARS
 
-from gearlink.core.loads.forces.dynamics import Force
-from gearlink.core.loads.forces.kinematics import cross
-from gearlink.core.loads.forces.mechanism import FRAME, Contact, Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.dynamics import Force
+from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.links import FRAME
+from gearlink.core.mechanism.rates import cross
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["cases"]
 STEP = 1e-3

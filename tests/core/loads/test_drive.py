@@ -19,10 +19,10 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar.loads import four_bar, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.loads.flywheel import Energy
-from gearlink.core.loads.forces.dynamics import Mass, shaking
-from gearlink.core.loads.forces.mechanism import Mechanism
 from gearlink.core.loads.motor import MotorRun
 from gearlink.core.loads.panels import Panels
+from gearlink.core.mechanism.dynamics import Mass, shaking
+from gearlink.core.mechanism.links import Mechanism
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 FEED = {key: value for key, value in DATA["cases"][0]["spec"].items() if key != "at"}

@@ -15,9 +15,10 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.loads.forces.dynamics import Force, Mass, Torque, power_parts, reduced, shaking
-from gearlink.core.loads.forces.kinematics import cross
-from gearlink.core.loads.forces.mechanism import FRAME, Guide, Mechanism, Pin
+from gearlink.core.mechanism.dynamics import Force, Mass, Torque, power_parts, reduced, shaking
+from gearlink.core.mechanism.joints import Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Mechanism
+from gearlink.core.mechanism.rates import cross
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["cases"]
 COLUMNS = ("input_torque", "reflected_inertia", "reflected_inertia_slope")

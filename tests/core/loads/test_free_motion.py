@@ -19,10 +19,11 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 from gearlink.core.loads.flywheel import Energy, SteadyRun
-from gearlink.core.loads.forces.dynamics import Mass, System, reduced
-from gearlink.core.loads.forces.kinematics import fixed, standing, steady
-from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin
 from gearlink.core.loads.panels import Panels
+from gearlink.core.mechanism.dynamics import Mass, System, reduced
+from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.rates import fixed, standing, steady
 
 G = -9.81j
 BAR = Mass(1.0, 1.0 / 12.0, 0.5 + 0j)

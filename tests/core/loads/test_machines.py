@@ -18,9 +18,10 @@ import pytest
 from gearlink.core.flatbed_press.chains import Travel
 from gearlink.core.flatbed_press.loads import PressLoads
 from gearlink.core.loads import machine
-from gearlink.core.loads.forces import friction
-from gearlink.core.loads.forces.kinematics import Turn
-from gearlink.core.loads.forces.mechanism import Contact, Link, Mechanism
+from gearlink.core.mechanism import friction
+from gearlink.core.mechanism.joints import Contact
+from gearlink.core.mechanism.links import Link, Mechanism
+from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Reals
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]

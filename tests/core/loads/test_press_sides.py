@@ -16,7 +16,7 @@ import pytest
 
 from gearlink.cli.scenes.flatbed_press import Machine
 from gearlink.core.flatbed_press.loads import PressLoads
-from gearlink.core.loads.forces.kinematics import cross
+from gearlink.core.mechanism.rates import cross
 
 PRESS = "loaded_press"
 DEFAULT = {"loads__bed_side": 1, "loads__gravity": [-9.81, 0], "loads__gear_1_direction": 92.5}

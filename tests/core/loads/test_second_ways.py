@@ -19,10 +19,11 @@ from sweeps import mostly_slow
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.kinds import KINDS
-from gearlink.core.loads.forces.dynamics import Force, Mass, reduced
-from gearlink.core.loads.forces.friction import with_friction
-from gearlink.core.loads.forces.kinematics import Point, Turn, carried, fixed
-from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin
+from gearlink.core.mechanism.dynamics import Force, Mass, reduced
+from gearlink.core.mechanism.friction import with_friction
+from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.rates import Point, Turn, carried, fixed
 
 MASSES = {"mass": 1.5, "inertia": 0.01}
 LOADS: dict[str, tuple[str, dict[str, Any]]] = {

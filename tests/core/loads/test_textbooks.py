@@ -18,9 +18,11 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.special import ellipe
 
-from gearlink.core.loads.forces.dynamics import Mass, System, Torque, reduced, shaking
-from gearlink.core.loads.forces.kinematics import fixed, slider, standing, steady
-from gearlink.core.loads.forces.mechanism import FRAME, Guide, Link, Mechanism, Pin
+from gearlink.core.mechanism.closures import slider
+from gearlink.core.mechanism.dynamics import Mass, System, Torque, reduced, shaking
+from gearlink.core.mechanism.joints import Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.rates import fixed, standing, steady
 
 
 def _norton() -> tuple[Mechanism, dict[str, Mass]]:

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from six_bars import LOADS, SIX_BARS
 
 from gearlink.core.errors import GearlinkError
+from gearlink.core.mechanism.joints import meshes_of
 
 SWING = "six_bar_swing"
 TURNS = {"both trains on one link, two turns": 2, "free gear on B": 3, "free gear on F": 3}
@@ -88,7 +89,7 @@ def test_a_free_gear_bears_on_its_pin() -> None:
     """Without a mass its pin takes what both of its teeth press with: the three forces are in balance."""
     loads = design(SIX_BARS["free gear on B"], command="loads", loads__links__gear_1B=None)
     found = loads.machine.reactions(np.radians(np.arange(0.0, 360.0, 30.0)))
-    teeth = [each for each in found.mechanism.meshes if each.name in ("mesh_1AB", "mesh_1BC")]
+    teeth = [each for each in meshes_of(found.mechanism) if each.name in ("mesh_1AB", "mesh_1BC")]
     forces = {each.name: 1j * each.toward * found.unknowns[each.name][0] + found.radial(each.name) for each in teeth}
     assert found.force("gear_1B") == pytest.approx(forces["mesh_1BC"] - forces["mesh_1AB"], abs=1e-9)
     assert np.abs(found.force("gear_1B")).max() > 1.0

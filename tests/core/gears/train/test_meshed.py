@@ -19,6 +19,7 @@ from gearlink.core.gears.drawing_names import RATING
 from gearlink.core.gears.keys.pair import PairKeys
 from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.gears.train.meshed import QUANTITIES
+from gearlink.core.mechanism.joints import meshes_of
 from gearlink.core.spec_paths import changed
 
 DRAWN = {
@@ -516,7 +517,7 @@ def loaded(name, **gears):
 @pytest.mark.parametrize("name", ["sun", "ring", "rocker", "path", "path in a ring", "function", "function in a ring"])
 def test_loads_roll_on_the_working_circles(name):
     machine = loaded(name, profile_shift=[0.1, 0.17], helix_angle=14.0)
-    (mesh,) = machine.kinematics(np.linspace(0.0, 6.0, 4)).meshes
+    (mesh,) = meshes_of(machine.kinematics(np.linspace(0.0, 6.0, 4)))
     distance = mesh.radius - mesh.mate_radius if mesh.internal else mesh.radius + mesh.mate_radius
     assert 1e3 * distance == pytest.approx(machine.design.distance(), rel=1e-14)
     radii = {round(1e3 * radius, 9) for radius in (mesh.radius, mesh.mate_radius)}

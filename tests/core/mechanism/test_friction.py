@@ -11,9 +11,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.loads.forces.blocks import blocks
-from gearlink.core.loads.forces.friction import solution_of
-from gearlink.core.loads.forces.rubbing import Rubbing, SelfLocking
+from gearlink.core.mechanism.blocks import blocks
+from gearlink.core.mechanism.friction import solution_of
+from gearlink.core.mechanism.rubbing import Rubbing, SelfLocking
 from gearlink.core.remedies.bench import Bench
 
 FEED, PRESS = "loaded_feed", "loaded_press"

@@ -10,32 +10,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.forces.dynamics import Applied, Masses, Reactions, System
-from gearlink.core.loads.forces.kinematics import dot, sense_of
-from gearlink.core.loads.forces.mechanism import (
-    FRAME,
+from gearlink.core.mechanism.dynamics import Applied, Masses, Reactions, System
+from gearlink.core.mechanism.joints import (
     Act,
     Connection,
     Contact,
     Guide,
-    Mechanism,
     Mesh,
     Pin,
     Rack,
     ToothDrive,
     Toothed,
-    rates,
+    meshes_of,
 )
-from gearlink.core.loads.forces.rubbing import Rubbing
+from gearlink.core.mechanism.links import FRAME, Mechanism, rates
+from gearlink.core.mechanism.rates import dot, sense_of
+from gearlink.core.mechanism.rubbing import Rubbing
 from gearlink.core.numerics.arrays import Mask, Reals
-
-if TYPE_CHECKING:
-    from gearlink.core.loads.spec import Friction
 
 _TEETH = ("mesh", "rack")
 _CHANGES = 3
@@ -159,7 +154,7 @@ def solution_of(
         the first one's: x_c' = x_c/y_c, x' = x - y x_c', A y = the new column.
     """
     system = System(mechanism, masses)
-    meshes = mechanism.meshes
+    meshes = meshes_of(mechanism)
     backs = [(each.name, each.back) for each in mechanism.connections if isinstance(each, Contact) and each.back]
     rubbing = [] if friction is None else list(friction.units(mechanism, speed))
     sides = [system.right_side(applied, gravity, speed, 0.0), *system.radials()]
@@ -222,23 +217,6 @@ def _exchange(solved: Reals, new: int, place: int, pulled: Mask) -> None:
             share = np.divide(solved[k, place], y[place], out=np.zeros_like(y[place]), where=pulled)
             solved[k] -= y * share
             solved[k, place] = np.where(pulled, share, solved[k, place])
-
-
-def require_coefficients(given: Friction, connections: Sequence[Connection]) -> None:
-    """Refuse coefficients that a joint cannot have, and those of pins that have no radius, which would have no effect.
-
-    Raises
-        NoSolution - with its key
-    """
-    for each in connections:
-        of_teeth = isinstance(each, Toothed)
-        if given.joints.get(each.name) == (0.0 if of_teeth else 1.0):
-            allowed = "the efficiency of a mesh lies above 0" if of_teeth else "a coefficient of friction lies below 1"
-            raise NoSolution(f"{given.joints[each.name]:g}: {allowed}", key=f"loads.friction.joints.{each.name}")
-    pins = (given.joints.get(each.name, given.pins) for each in connections if isinstance(each, Pin))
-    if given.pin_radius == 0.0 and any(pins):
-        words = "friction of pins acts at their radius: give loads.friction.pin_radius (mm)"
-        raise MissingSection(words, key="loads.friction")
 
 
 def with_friction(

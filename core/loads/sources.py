@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads import courses
-from gearlink.core.loads.forces.dynamics import Force, Mass, Torque
-from gearlink.core.loads.forces.kinematics import Point, dot, fixed, sense_of
-from gearlink.core.loads.forces.mechanism import FRAME, Mechanism
+from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+from gearlink.core.mechanism.friction import Coefficients
+from gearlink.core.mechanism.joints import Connection, Pin, Toothed
+from gearlink.core.mechanism.links import FRAME, Mechanism
+from gearlink.core.mechanism.rates import Point, dot, fixed, sense_of
 from gearlink.core.numerics.arrays import Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.spec import Body, CommonLoads, Load, Spring
+    from gearlink.core.loads.spec import Body, CommonLoads, Friction, Load, Spring
 
 MM = 1e-3
 
@@ -28,6 +30,30 @@ def mass_of(body: Body) -> Mass:
 def vector(pair: list[float]) -> complex:
     """[x, y] as a plane vector."""
     return complex(pair[0], pair[1])
+
+
+def gravity_of(section: CommonLoads) -> complex:
+    """Gravity [m/s^2]."""
+    return vector(section.gravity)
+
+
+def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coefficients:
+    """The coefficients of friction of the joints.
+
+    Raises
+        NoSolution - for one that a joint cannot have; with its key
+        MissingSection - for those of pins that have no radius, which would have no effect
+    """
+    for each in connections:
+        of_teeth = isinstance(each, Toothed)
+        if given.joints.get(each.name) == (0.0 if of_teeth else 1.0):
+            allowed = "the efficiency of a mesh lies above 0" if of_teeth else "a coefficient of friction lies below 1"
+            raise NoSolution(f"{given.joints[each.name]:g}: {allowed}", key=f"loads.friction.joints.{each.name}")
+    pins = (given.joints.get(each.name, given.pins) for each in connections if isinstance(each, Pin))
+    if given.pin_radius == 0.0 and any(pins):
+        words = "friction of pins acts at their radius: give loads.friction.pin_radius (mm)"
+        raise MissingSection(words, key="loads.friction")
+    return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * MM, dict(given.joints))
 
 
 class Sources:

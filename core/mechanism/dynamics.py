@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.loads.forces.blocks import Block, blocks
-from gearlink.core.loads.forces.kinematics import Point, cross, dot
-from gearlink.core.loads.forces.mechanism import FRAME, Act, Column, Mechanism
+from gearlink.core.mechanism.blocks import Block, blocks
+from gearlink.core.mechanism.joints import Act, Column, meshes_of
+from gearlink.core.mechanism.links import FRAME, Mechanism
+from gearlink.core.mechanism.rates import Point, cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
 
@@ -160,7 +161,7 @@ class Reactions:
 
     def radial(self, name: str) -> Points:
         """Radial force of a mesh on the second gear [N]."""
-        mesh = next(each for each in self.mechanism.meshes if each.name == name)
+        mesh = next(each for each in meshes_of(self.mechanism) if each.name == name)
         return np.asarray(np.abs(self.unknowns[name][0]) * mesh.radial().force)
 
 
@@ -265,7 +266,7 @@ class System:
     def radials(self) -> list[Side]:
         """For each mesh the right side of a unit of its radial force."""
         found = []
-        for mesh in self.mechanism.meshes:
+        for mesh in meshes_of(self.mechanism):
             force, at = mesh.radial()
             found.append(self.side([Act(mesh.second, force, at, 0.0), Act(mesh.first, -force, at, 0.0)]))
         return found

@@ -13,7 +13,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.loads.forces.friction import Coefficients, Unit
+from gearlink.core.mechanism.friction import Coefficients, Unit
 
 BODY = {"mass": 2.0, "inertia": 0.02}
 

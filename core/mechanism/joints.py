@@ -1,46 +1,19 @@
-"""What a machine gives to have its loads computed: links that move, and what connects them.
+"""What connects links: pins, guides, teeth, rollers on cams, and the unknown forces that each of them has.
 
-Lengths in m, angles in rad. A connection acts on its second link with the forces named here and on its first link with
-the opposite; `FRAME` stands for the frame. The unknowns are linear, so that all of them come out of one system.
+Lengths in m. A connection acts on its second link with the forces named here and on its first link with the opposite.
+The unknowns are linear, so that all of them come out of one system.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
-from gearlink.core.loads.forces.kinematics import Point, Turn, carried
-from gearlink.core.numerics.arrays import Mask, Points, Reals, units
-
-FRAME = "frame"
-T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Link:
-    """A link in motion: its origin, which is its first joint, and the direction of its x axis."""
-
-    origin: Point
-    turn: Turn
-
-    @cached_property
-    def unit(self) -> Points:
-        """e^(i t)."""
-        return units(self.turn.value)
-
-    def at(self, arm: complex) -> Point:
-        """A point given in link coordinates [m], computed once."""
-        if arm not in self._points:
-            self._points[arm] = carried(self.origin, self.turn, arm, self.unit)
-        return self._points[arm]
-
-    @cached_property
-    def _points(self) -> dict[complex, Point]:
-        return {}
+from gearlink.core.mechanism.links import FRAME, Mechanism
+from gearlink.core.numerics.arrays import Mask, Points, Reals
 
 
 class Act(NamedTuple):
@@ -288,59 +261,6 @@ Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | Share
 Toothed = (Mesh, Rack, ToothDrive)
 
 
-@dataclass(frozen=True)
-class Mechanism:
-    """A machine at an array of input angles.
-
-    Fields
-        links : by name, in the order of the machine
-        connections : what joins them
-        drive : str - link that the input torque acts on, or the connection that drives (`gain` then says how)
-        sense : float - +1 where that link turns with the input, -1 where against it
-        pivot : complex [m] - about which the frame's moment is taken
-        travel : direction in which a link slides, for a force given as a number
-        gain : (N,) array [N m per unit] - input torque by the force of the connection `drive`; None for a couple
-    """
-
-    links: Mapping[str, Link]
-    connections: Sequence[Connection]
-    drive: str
-    sense: float = 1.0
-    pivot: complex = 0j
-    travel: Mapping[str, complex] = field(default_factory=dict)
-    gain: Reals | None = None
-
-    @property
-    def meshes(self) -> list[Mesh | Rack | ToothDrive]:
-        """The connections that have teeth."""
-        return [each for each in self.connections if isinstance(each, Toothed)]
-
-    @cached_property
-    def rows(self) -> int:
-        """How many input angles."""
-        return len(next(iter(self.links.values())).turn.value)
-
-    @cached_property
-    def _worked_out(self) -> dict[str, Any]:
-        return {}
-
-    def once(self, what: str, make: Callable[[], T]) -> T:
-        """What a machine works out of these links: made the first time, and kept with them by its name."""
-        if what not in self._worked_out:
-            self._worked_out[what] = make()
-        found: T = self._worked_out[what]
-        return found
-
-    def link(self, name: str) -> Link | None:
-        """A link by name, None for the frame."""
-        return None if name == FRAME else self.links[name]
-
-
-def rates(mechanism: Mechanism, first: str, second: str, order: int = 1) -> Reals:
-    """Turning of the second link against the first, per input angle: t_j' - t_i', or its derivative (order 2)."""
-
-    def rate(name: str) -> Reals | float:
-        link = mechanism.link(name)
-        return 0.0 if link is None else link.turn[order]
-
-    return np.asarray(rate(second) - rate(first) + np.zeros(mechanism.rows))
+def meshes_of(mechanism: Mechanism) -> list[Mesh | Rack | ToothDrive]:
+    """The connections that have teeth."""
+    return [each for each in mechanism.connections if isinstance(each, Toothed)]
