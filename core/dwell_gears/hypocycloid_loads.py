@@ -40,7 +40,7 @@ class HypocycloidDwellLoads(LoadsDesign):
         angle = self.design.dwell_carrier_angle
         return [(-0.5 * angle, angle)]
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The four links at carrier angles, the ring's centre at 0."""
         from gearlink.core.mechanism.closures import slider
         from gearlink.core.mechanism.joints import Guide, Mesh, Pin
@@ -49,15 +49,15 @@ class HypocycloidDwellLoads(LoadsDesign):
 
         geometry = self.design.slider
         r, n = geometry.planet_radius * _MM, geometry.cusps
-        carrier = Link(fixed(0j, phi), steady(phi))
-        planet = Link(carrier.at((n - 1) * r), steady(phi, -(n - 1.0)))
+        carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order))
+        planet = Link(carrier.at((n - 1) * r), steady(phi, -(n - 1.0), order=order))
         point = planet.at(-r)
         turn, end = slider(point, geometry.rod * _MM, 0j, 1.0 + 0j)
         links = {
             "carrier": carrier,
             "planet": planet,
             "rod": Link(point, turn),
-            "slider": Link(end, standing(0.0, phi)),
+            "slider": Link(end, standing(0.0, phi, order=order)),
         }
         tangent = math.tan(signed_pair(self.design.mesh).working_pressure_angle)
         connections: list[Connection] = [

@@ -104,21 +104,21 @@ class MutilatedGearLoads(LoadsDesign):
         # within a cycle the gear turns by one step, and then stands
         return np.asarray(whole * step + np.minimum(gear.speed_ratio * rest, step)), moves
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The three links at input angles."""
         from gearlink.core.mechanism.joints import ToothDrive
         from gearlink.core.mechanism.links import Link, Mechanism
-        from gearlink.core.mechanism.rates import Turn
+        from gearlink.core.mechanism.rates import Point, Turn
 
         angle, moves = self._driven(phi)
         crank = (self.design.start_crank_angle or 0.0) + angle
         rate = moves * self.design.mutilated.speed_ratio
         links = {
             name: Link(
-                type(link.origin)(link.origin.value, link.origin.first * rate, link.origin.second * rate**2),
-                Turn(link.turn.value, link.turn.first * rate, link.turn.second * rate**2),
+                Point(link.origin.value, *(each * rate**k for k, each in enumerate(link.origin[1:], 1))),
+                Turn(link.turn.value, *(each * rate**k for k, each in enumerate(link.turn[1:], 1))),
             )
-            for name, link in four_bar(self.linkage, crank).items()
+            for name, link in four_bar(self.linkage, crank, order).items()
         }
         direction = math.radians(self.section.wheel_direction or 0.0)
         radius = self.design.mesh.working_radius[1] * MM
@@ -145,7 +145,7 @@ class MutilatedGearLoads(LoadsDesign):
         starts = np.arange(count, dtype=np.float64) * (_TURN * self.design.driven_turn) + (
             self.design.start_crank_angle or 0.0
         )
-        links = four_bar(self.linkage, starts)
+        links = four_bar(self.linkage, starts, 2)
 
         found = reduced(Mechanism(links, [], "crank"), self.masses, [], 0j)
         driven = self.speed * self.design.mutilated.speed_ratio

@@ -88,22 +88,22 @@ class FiveBarLoads(LoadsDesign):
             one, other = other, one
         return one, other, math.tan(pair.working_pressure_angle)
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The links at input angles, A at 0 and E on +x."""
         from gearlink.core.mechanism.links import Mechanism
 
-        links, connections = self._path(phi) if self.design.is_path else self._function(phi)
+        links, connections = self._path(phi, order) if self.design.is_path else self._function(phi, order)
         return Mechanism(links, connections, "input")
 
-    def _path(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+    def _path(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
         from gearlink.core.mechanism.closures import dyad
         from gearlink.core.mechanism.joints import Pin
         from gearlink.core.mechanism.links import FRAME, Link
         from gearlink.core.mechanism.rates import fixed, steady
 
         bar = self.design.path_bar
-        first = Link(fixed(0j, phi), steady(phi))
-        last = Link(fixed(bar.frame * _MM, phi), steady(phi, float(bar.ratio), bar.phase))
+        first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
+        last = Link(fixed(bar.frame * _MM, phi, order=order), steady(phi, float(bar.ratio), bar.phase, order=order))
         b, d = first.at(bar.input * _MM), last.at(bar.output * _MM)
         t2, t3 = dyad(b, d, bar.coupler * _MM, bar.follower * _MM, bar.assembly)
         links = {"input": first, "coupler": Link(b, t2), "follower": Link(d, t3), "output": last}
@@ -114,9 +114,9 @@ class FiveBarLoads(LoadsDesign):
             Pin("D", "output", "follower", d.value),
             Pin("E", FRAME, "output", last.origin.value),
         ]
-        return links, pins + self._path_gears(links, phi)
+        return links, pins + self._path_gears(links, phi, order)
 
-    def _path_gears(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
+    def _path_gears(self, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
         """The mesh of input and output, or those with the idler between them, which joins the links."""
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link
@@ -134,24 +134,24 @@ class FiveBarLoads(LoadsDesign):
         near, far = r1 + ri, ri_out + r4
         along = 0.5 * (frame + (near - far) * (near + far) / frame)
         axis = cmath.rect(near, self.spec.gears.idler_side * math.acos(along / near))
-        center = fixed(axis, phi)
-        links["idler"] = Link(center, steady(phi, -r1 / ri))
+        center = fixed(axis, phi, order=order)
+        links["idler"] = Link(center, steady(phi, -r1 / ri, order=order))
         return [
             Pin("O", FRAME, "idler", center.value),
             Mesh("mesh_1i", "input", "idler", a, axis / near, r1, ri, tangent),
             Mesh("mesh_i4", "idler", "output", center.value, (frame - axis) / far, ri_out, r4, tangent_out),
         ]
 
-    def _function(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+    def _function(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
         from gearlink.core.mechanism.closures import dyad
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link
         from gearlink.core.mechanism.rates import fixed, steady
 
         bar, gears = self.function_bar, self.spec.gears
-        first = Link(fixed(0j, phi), steady(phi))
-        coupler = Link(first.at(bar.input * _MM), steady(phi, bar.coupler_ratio, bar.phase))
-        c, pivot = coupler.at(bar.coupler * _MM), fixed(bar.frame * _MM, phi)
+        first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
+        coupler = Link(first.at(bar.input * _MM), steady(phi, bar.coupler_ratio, bar.phase, order=order))
+        c, pivot = coupler.at(bar.coupler * _MM), fixed(bar.frame * _MM, phi, order=order)
         t3, t4 = dyad(c, pivot, bar.follower * _MM, bar.output * _MM, bar.assembly)
         links = {"input": first, "coupler": coupler, "follower": Link(c, t3), "output": Link(pivot, t4)}
         r2, r5, tangent = self._rolling()

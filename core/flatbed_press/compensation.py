@@ -255,14 +255,15 @@ class Compensation:
         """Lift at an array of cam angles, as `evaluate` gives it, without the names of the phases."""
         return self._placed(theta, order)[0]
 
-    def lift_at(self, phi: Reals, cam: Travel) -> Travel:
-        """Lift and two derivatives by the cam angle at input angles whose cam angles are known: no angle is solved for.
+    def lift_at(self, phi: Reals, cam: Travel, order: int = 2) -> Travel:
+        """Lift and derivatives by the cam angle at input angles whose cam angles are known: no angle is solved for.
 
         Parameters
             phi : (N,) array [rad] - input angles
             cam : Travel of (N,) arrays - `BedChain.cam_angle` there, or whole turns more
+            order : 0, 1 or 2
         """
-        return self._placed(cam.value, 2, (phi, cam))[0]
+        return self._placed(cam.value, order, (phi, cam))[0]
 
     def jerk(self, theta: Any) -> Any:
         """Third derivative of the lift by the cam angle at an array of cam angles [mm/rad^3]; NaN in the zone.
@@ -308,20 +309,20 @@ class Compensation:
             inside = np.flatnonzero(index == number)
             if inside.size:
                 if known is not None and segment.phase == "sync":
-                    part = self._sync_known(known, inside)
+                    part = self._sync_known(known, inside, order)
                 else:
                     part = segment.lift(turned[inside], order)
                 for name in ("value", "first", "second")[: order + 1]:
                     getattr(lift, name)[inside] = getattr(part, name)
         return lift, index
 
-    def _sync_known(self, known: tuple[Reals, Travel], rows: Any) -> Travel:
+    def _sync_known(self, known: tuple[Reals, Travel], rows: Any, order: int) -> Travel:
         """The zone's lift at some of the known input angles, less the turns that they are beyond the zone."""
         import numpy as np
 
-        phi, cam = known[0][rows], Travel(*(part[rows] for part in (known[1].value, known[1].first, known[1].second)))
+        phi, cam = known[0][rows], Travel(*(part[rows] for part in known[1][: order + 1]))
         middle = 0.5 * (self.sync_start + self.sync_end)
-        return self._sync_at(phi - _TURN * np.round((phi - middle) / _TURN), 2, cam)
+        return self._sync_at(phi - _TURN * np.round((phi - middle) / _TURN), order, cam)
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:

@@ -111,24 +111,24 @@ class PressLoads(CamLoadsDesign):
         return [float(bed.input_angle(segment.start)) for segment in self.design.cams.follower.segments]
 
     def lift(self, phi: Reals, rocker: Turn) -> Travel:
-        """Lift of the cam's follower [mm] at input angles, with CDE's motion there."""
+        """Lift of the cam's follower [mm] at input angles, with CDE's motion there; two derivatives by it at most."""
         from gearlink.core.flatbed_press.chains import Travel
 
-        turned = rocker.value - self.design.bed.cam_angle_start
-        return self.design.cams.follower.lift_at(phi, Travel(turned, rocker.first, rocker.second))
+        turned, order = rocker.value - self.design.bed.cam_angle_start, min(rocker.order, 2)
+        return self.design.cams.follower.lift_at(phi, Travel(turned, *rocker[1 : order + 1]), order)
 
-    def kinematics(self, phi: Reals) -> Mechanism:
-        """The twelve links at input angles."""
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
+        """The twelve links at input angles; one derivative at least, for the normals of the rollers."""
         from gearlink.core.mechanism.links import Mechanism
 
         if self.spec.cam is None:
             raise MissingSection(
                 "`loads` of a press needs the section cam: its follower moves the lower rack", key="cam"
             )
-        links = self._rods(phi)
+        links = self._rods(phi, order := max(order, 1))
         cam = self._racks(links, phi)
         connections = [*self._bed_joints(links), *self._follower(links, cam)]
-        connections += self._cylinder_chain(links, phi)
+        connections += self._cylinder_chain(links, phi, order)
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
         made = Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
         made.once("lift", lambda: cam)
@@ -149,43 +149,45 @@ class PressLoads(CamLoadsDesign):
 
     # Bed
 
-    def _rods(self, phi: Reals) -> dict[str, Link]:
+    def _rods(self, phi: Reals, order: int) -> dict[str, Link]:
         """The links from gear 2 to the carriage."""
-        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+        from gearlink.core.linkages.fourbar.loads import turns
         from gearlink.core.mechanism.closures import slider
         from gearlink.core.mechanism.links import Link
-        from gearlink.core.mechanism.rates import Turn, carried, fixed, standing, steady
+        from gearlink.core.mechanism.rates import carried, fixed, from_start, standing, steady
 
         bed = self.design.bed
         four = bed.linkage
-        state = fourbar_sweep.solve(four, bed.initial_crank_angle + phi, 2)
-        gear2 = Link(fixed(0j, phi), steady(phi, 1.0, bed.initial_crank_angle))
-        coupler = Turn(state.coupler_angle, state.coupler_velocity, state.coupler_acceleration)
-        rocker = Turn(state.rocker_angle, state.rocker_velocity, state.rocker_acceleration)
-        pivot = fixed(four.frame * _MM, phi)
-        psi = Turn(rocker.value - bed.crank_offset_angle, rocker.first, rocker.second)
-        e = carried(pivot, psi, bed.slider_crank_length * _MM)
+        coupler, rocker = turns(four, bed.initial_crank_angle + phi, order)
+        gear2 = Link(fixed(0j, phi, order=order), steady(phi, 1.0, bed.initial_crank_angle, order=order))
+        pivot = fixed(four.frame * _MM, phi, order=order)
+        e = carried(pivot, from_start(rocker, bed.crank_offset_angle), bed.slider_crank_length * _MM)
         rod, f = slider(e, bed.rod * _MM, (four.frame - bed.offset) * _MM + 0j, -1j)
         return {
             "gear2": gear2,
             "BC": Link(gear2.at(four.crank * _MM), coupler),
             "CDE": Link(pivot, rocker),
             "EF": Link(e, rod),
-            "carriage": Link(f, standing(0.0, phi)),
+            "carriage": Link(f, standing(0.0, phi, order=order)),
         }
 
     def _lift_by_input(self, phi: Reals, rocker: Turn) -> tuple[Travel, tuple[Reals, ...]]:
         """The lift over the cam's angle [mm], and the same with its derivatives by the input angle [m]."""
         cam = self.lift(phi, rocker)
-        slope, bend = cam.first * _MM, cam.second * _MM
-        return cam, (cam.value * _MM, slope * rocker.first, bend * rocker.first**2 + slope * rocker.second)
+        lift, slope, bend = cam.value * _MM, cam.first * _MM, cam.second * _MM
+        parts = [lift, slope * rocker.first]
+        if rocker.order > 1:
+            parts.append(bend * rocker.first**2 + slope * rocker.second)
+        if rocker.order > 2:  # what the bed's chain gives it, less the bed's own
+            parts.append((self.design.bed.jerk(phi) - self.design.bed_motion.jerk(phi)) * _MM)
+        return cam, tuple(parts)
 
     def _racks(self, links: dict[str, Link], phi: Reals) -> Travel:
         """Pinion, lower rack and bed, put to the links that move them; the lift of the follower."""
         from gearlink.core.mechanism.links import Link
-        from gearlink.core.mechanism.rates import Turn, standing
+        from gearlink.core.mechanism.rates import Turn
 
-        f, still = links["carriage"].origin, standing(0.0, phi)
+        f, still = links["carriage"].origin, links["carriage"].turn
         cam, lift = self._lift_by_input(phi, links["CDE"].turn)
         to_bed = self._side * self.pinion_radius
         rolled = [(part.imag - value) / to_bed for part, value in zip(f, lift, strict=True)]
@@ -201,7 +203,7 @@ class PressLoads(CamLoadsDesign):
         import numpy as np
 
         start = np.zeros(1)
-        links = self._rods(start)
+        links = self._rods(start, 1)
         _, (lift, *_) = self._lift_by_input(start, links["CDE"].turn)
         depth = links["carriage"].origin.value.imag - lift
         return float(depth[0]) / (self._side * self.pinion_radius)
@@ -337,27 +339,25 @@ class PressLoads(CamLoadsDesign):
 
     # Cylinder
 
-    def _cylinder_chain(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
-        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+    def _cylinder_chain(self, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
+        from gearlink.core.linkages.fourbar.loads import turns
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link
-        from gearlink.core.mechanism.rates import Turn, fixed, from_start, mixed, steady
+        from gearlink.core.mechanism.rates import fixed, from_start, mixed, steady
 
         chain, pair = self.design.cylinder, self.design.gear_pair
         four = chain.linkage
-        state = fourbar_sweep.solve(four, chain.initial_angle - phi, 2, velocity=-1.0)
+        coupler, rocker = turns(four, chain.initial_angle - phi, order, velocity=-1.0)
         toward = _unit(self.section.gear_1_direction, 90.0)
         turned = 0.0 if self._side > 0.0 else math.pi
-        g = fixed(pair.center_distance * _MM * toward, phi)
-        links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle + turned))
-        coupler = Turn(state.coupler_angle + turned, state.coupler_velocity, state.coupler_acceleration)
-        links["HM"] = Link(links["gear1"].at(four.crank * _MM), coupler)
-        rocker = Turn(state.rocker_angle, state.rocker_velocity, state.rocker_acceleration)
+        g = fixed(pair.center_distance * _MM * toward, phi, order=order)
+        links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle + turned, order=order))
+        links["HM"] = Link(links["gear1"].at(four.crank * _MM), from_start(coupler, -turned))
         n = complex(g.value[0]) + self._side * four.frame * _MM
-        links["MN"] = Link(fixed(n, phi), Turn(rocker.value + turned, rocker.first, rocker.second))
+        links["MN"] = Link(fixed(n, phi, order=order), from_start(rocker, -turned))
         r3, r4 = (radius * _MM for radius in self.pitch_radii)
         side = _unit(self.section.cylinder_direction, 0.0)
-        axis = fixed(complex(links["MN"].origin.value[0]) + (r3 + r4) * side, phi)
+        axis = fixed(complex(links["MN"].origin.value[0]) + (r3 + r4) * side, phi, order=order)
         links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, _start(chain)))))
         r1, r2 = pair.working_radius
         tangent = math.tan(pair.working_pressure_angle)
@@ -377,7 +377,7 @@ def _sliding(place: Reals, way: tuple[Reals, ...]) -> Point:
     from gearlink.core.mechanism.rates import Point
 
     along: list[Any] = [1j * each for each in way]
-    return Point(place + along[0], along[1], along[2])
+    return Point(place + along[0], *along[1:])
 
 
 def _unit(direction: float | None, default: float) -> complex:

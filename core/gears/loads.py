@@ -80,7 +80,7 @@ class GearPairLoads(LoadsDesign):
         columns["mesh_12_axial"] = (self.axial_share * abs(found["mesh_12"]), "N")
         return Table.of("teeth", columns)
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """Both gears at angles of gear 1."""
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -89,8 +89,10 @@ class GearPairLoads(LoadsDesign):
         pair = self.pair
         r1, r2 = (radius * _MM for radius in pair.working_radius)
         links = {
-            "gear1": Link(fixed(0j, phi), steady(phi)),
-            "gear2": Link(fixed(complex(abs(pair.center_distance) * _MM), phi), steady(phi, -r1 / r2)),
+            "gear1": Link(fixed(0j, phi, order=order), steady(phi, order=order)),
+            "gear2": Link(
+                fixed(complex(abs(pair.center_distance) * _MM), phi, order=order), steady(phi, -r1 / r2, order=order)
+            ),
         }
         a, b = links["gear1"].origin.value, links["gear2"].origin.value
         tangent = math.tan(pair.working_pressure_angle)

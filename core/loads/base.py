@@ -54,9 +54,11 @@ class LoadsBase(Design):
     pins: ClassVar[tuple[str, ...]]
     meshes: ClassVar[tuple[str, ...]]
     advises = False
+    highest: int = 3
+    """The highest derivative that the machine's law of motion has."""
 
-    def kinematics(self, phi: Reals) -> Mechanism:
-        """The links and connections at input angles [rad]."""
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
+        """The links and connections at input angles [rad], with so many derivatives, `highest` at most."""
         raise NotImplementedError
 
     # The section and the machine
@@ -175,8 +177,7 @@ class LoadsBase(Design):
     @cached_property
     def friction(self) -> Any:
         """Coefficients of friction, where the file gives any."""
-        given = self.section.friction
-        if given is None:
+        if (given := self.section.friction) is None:
             return None
         from gearlink.core.loads.sources import coefficients_of
         from gearlink.core.mechanism.joints import Guide, Pin, Toothed
@@ -317,8 +318,7 @@ class LoadsBase(Design):
     @cached_property
     def input_torque_rms(self) -> float:
         """Root mean square of the input torque [N m]."""
-        torque = self.machine.torque
-        return math.sqrt(self.machine.mean(lambda phi: torque(phi) ** 2))
+        return math.sqrt(self.machine.mean(lambda phi: self.machine.torque(phi) ** 2))
 
     @property
     def input_power_mean(self) -> float:

@@ -13,6 +13,8 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
 
     t2' = (e3 . D1)/(b s),  t3' = (e2 . D1)/(c s),  D1 = Q' - P',  s = sin(t3 - t2)
     t2'' = (e3 . D2)/(b s), t3'' = (e2 . D2)/(c s), D2 = Q'' - P'' + b t2'^2 e2 - c t3'^2 e3
+    t2''' = (e3 . D3)/(b s), t3''' = (e2 . D3)/(c s),
+    D3 = Q''' - P''' + b (3 t2' t2'' + i t2'^3) e2 - c (3 t3' t3'' + i t3'^3) e3
 
     Parameters
         start, end : Point [m] - P and Q, both may move
@@ -23,7 +25,7 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
     Raises
         NoSolution - where the links do not reach or stand in line
     Notes
-        Condition 1/sin of the transmission angle for the first, its square for the second derivative.
+        Condition 1/sin of the transmission angle for the first derivative, and so on in powers of it.
     Example
         >>> from gearlink.core.mechanism.rates import carried, fixed, steady
         >>> phi = np.array([0.0])
@@ -42,11 +44,17 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
     pin = way / n * (along + 0.5j * side * np.sqrt(near * far) / n)
     e2, e3 = pin / first, (pin - way) / second
     s = cross(e2, e3)
-    d1 = end.first - start.first
-    v2, v3 = dot(e3, d1) / (first * s), dot(e2, d1) / (second * s)
-    d2 = end.second - start.second + first * v2 * v2 * e2 - second * v3 * v3 * e3
-    a2, a3 = dot(e3, d2) / (first * s), dot(e2, d2) / (second * s)
-    return Turn(np.angle(e2), v2, a2), Turn(np.angle(e3), v3, a3)
+    t2, t3, order = [np.angle(e2)], [np.angle(e3)], min(start.order, end.order)
+    for rank in range(1, order + 1):
+        apart = end[rank] - start[rank]
+        if rank == 2:
+            apart = apart + first * t2[1] * t2[1] * e2 - second * t3[1] * t3[1] * e3
+        elif rank == 3:
+            apart = apart + first * (3.0 * t2[1] * t2[2] + 1j * t2[1] ** 3) * e2
+            apart = apart - second * (3.0 * t3[1] * t3[2] + 1j * t3[1] ** 3) * e3
+        t2.append(dot(e3, apart) / (first * s))
+        t3.append(dot(e2, apart) / (second * s))
+    return Turn(*t2), Turn(*t3)
 
 
 def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn, Point]:
@@ -54,6 +62,8 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
 
     psi = arg u + g,  sin g = -Im(conj(u)(E - Q))/L,  g' = -Im(conj(u) E')/(L cos g)
     x' = Re(conj(u) E') - L g' sin g,  x'' = Re(conj(u) E'') - L g'' sin g - L g'^2 cos g
+    g''' = (-Im(conj(u) E''')/L + 3 g' g'' sin g + g'^3 cos g)/cos g
+    x''' = Re(conj(u) E''') - L (g''' sin g + 3 g' g'' cos g - g'^3 sin g)
 
     Parameters
         pin : Point [m] - E
@@ -69,11 +79,20 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
     if not np.all(np.abs(sine) < 1.0):
         raise NoSolution(f"a rod of {1e3 * rod:.6g} mm does not reach the slide line")
     cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
-    velocity, acceleration = np.conj(along) * pin.first, np.conj(along) * pin.second
-    first = -velocity.imag / (rod * cosine)
-    second = (-acceleration.imag + rod * first * first * sine) / (rod * cosine)
-    x = local.real + rod * cosine
-    x1 = velocity.real - rod * first * sine
-    x2 = acceleration.real - rod * second * sine - rod * first * first * cosine
-    psi = Turn(np.angle(along) + np.arcsin(sine), first, second)
-    return psi, Point(place + x * along, x1 * along, x2 * along)
+    psi, x = [np.angle(along) + np.arcsin(sine)], [local.real + rod * cosine]
+    if pin.order > 0:
+        velocity = np.conj(along) * pin.first
+        first = -velocity.imag / (rod * cosine)
+        psi.append(first)
+        x.append(velocity.real - rod * first * sine)
+    if pin.order > 1:
+        acceleration = np.conj(along) * pin.second
+        second = (-acceleration.imag + rod * first * first * sine) / (rod * cosine)
+        psi.append(second)
+        x.append(acceleration.real - rod * second * sine - rod * first * first * cosine)
+    if pin.order > 2:
+        jerk, mixed, cube = np.conj(along) * pin.third, 3.0 * first * second, first**3
+        third = (-jerk.imag + rod * (mixed * sine + cube * cosine)) / (rod * cosine)
+        psi.append(third)
+        x.append(jerk.real - rod * (third * sine + mixed * cosine - cube * sine))
+    return Turn(*psi), Point(place + x[0] * along, *(each * along for each in x[1:]))

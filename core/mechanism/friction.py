@@ -114,7 +114,7 @@ class Coefficients:
 def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:
     """Relative turning of a pin, travel of a guide [m], rolling of a mesh; per input angle, or its derivative."""
     if isinstance(connection, Guide):
-        return dot(connection.along, mechanism.links[connection.second].origin[order])
+        return dot(connection.along, mechanism.links[connection.second].origin.derivative(order))
     if isinstance(connection, Rack):
         return rates(mechanism, connection.carrier, connection.second, order)
     if isinstance(connection, Mesh):

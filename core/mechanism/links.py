@@ -93,6 +93,6 @@ def rates(mechanism: Mechanism, first: str, second: str, order: int = 1) -> Real
 
     def rate(name: str) -> Reals | float:
         link = mechanism.link(name)
-        return 0.0 if link is None else link.turn[order]
+        return 0.0 if link is None else link.turn.derivative(order)
 
     return np.asarray(rate(second) - rate(first) + np.zeros(mechanism.rows))

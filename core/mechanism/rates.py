@@ -1,35 +1,90 @@
-"""Points and angles of moving links with two exact derivatives with respect to the input angle.
+"""Points and angles of moving links with up to three exact derivatives with respect to the input angle.
 
 Everything that a machine needs is built from three pieces: a point carried by a link, and those of `closures`, a pin
-that closes two links and a rod to a slider. Lengths in m.
+that closes two links and a rod to a slider. Each gives as many derivatives as what it is made of has. Lengths in m.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Self, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Points, Reals
 
+_NAMES = ("", "first", "second", "third")
 TURNING_BACK = 1e-12
 """Input angle [rad] within which a rate passes through zero at a row: far above rounding, far below any step."""
 
 
-class Point(NamedTuple):
-    """A point of the plane [m] and its two derivatives with respect to the input angle; arrays of one shape."""
-
-    value: Points
-    first: Points
-    second: Points
+A = TypeVar("A", bound=NDArray[Any])
 
 
-class Turn(NamedTuple):
-    """An angle [rad], continuous over the rows, and its two derivatives with respect to the input angle."""
+class Rates(tuple[A, ...]):
+    """A value and its derivatives with respect to the input angle, as many as were asked for; arrays of one shape.
 
-    value: Reals
-    first: Reals
-    second: Reals
+    Example
+        >>> angle = steady(np.array([0.0, 1.0]), 2.0, order=1)
+        >>> angle.order, angle.first.tolist()
+        (1, [2.0, 2.0])
+        >>> angle.second
+        Traceback (most recent call last):
+        AssertionError: the second derivative was not asked for
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, *parts: A) -> Self:
+        """Of the value and the derivatives in their order."""
+        return super().__new__(cls, parts)
+
+    @property
+    def order(self) -> int:
+        """How many derivatives there are, 0 to 3."""
+        return len(self) - 1
+
+    @property
+    def value(self) -> A:
+        """The value itself."""
+        return self[0]
+
+    @property
+    def first(self) -> A:
+        """The first derivative."""
+        return self.derivative(1)
+
+    @property
+    def second(self) -> A:
+        """The second derivative."""
+        return self.derivative(2)
+
+    @property
+    def third(self) -> A:
+        """The third derivative."""
+        return self.derivative(3)
+
+    def derivative(self, order: int) -> A:
+        """A derivative, 1 to 3, or the value, 0.
+
+        Raises
+            AssertionError - where it was not asked for
+        """
+        if order >= len(self):
+            raise AssertionError(f"the {_NAMES[order]} derivative was not asked for")
+        return self[order]
+
+
+class Turn(Rates[Reals]):
+    """An angle [rad], continuous over the rows, and its derivatives."""
+
+    __slots__ = ()
+
+
+class Point(Rates[Points]):
+    """A point of the plane [m] and its derivatives."""
+
+    __slots__ = ()
 
 
 def cross(a: Points | complex, b: Points | complex) -> Reals:
@@ -48,20 +103,21 @@ def sense_of(first: Reals, second: Reals) -> Reals:
     return np.asarray(np.sign(np.where(back, second, first)))
 
 
-def fixed(place: complex, like: Reals) -> Point:
+def fixed(place: complex, like: Reals, *, order: int = 2) -> Point:
     """A point of the frame, as many rows as `like` has."""
     still = np.zeros(like.shape, dtype=np.complex128)
-    return Point(still + place, still, still)
+    return Point(still + place, *[still] * order)
 
 
-def steady(phi: Reals, rate: float = 1.0, start: float = 0.0) -> Turn:
+def steady(phi: Reals, rate: float = 1.0, start: float = 0.0, *, order: int = 2) -> Turn:
     """An angle that runs with a constant ratio to the input: start + rate phi."""
-    return Turn(start + rate * phi, np.full_like(phi, rate), np.zeros_like(phi))
+    still = np.zeros_like(phi)
+    return Turn(*[start + rate * phi, np.full_like(phi, rate), still, still][: order + 1])
 
 
-def standing(angle: float, like: Reals) -> Turn:
+def standing(angle: float, like: Reals, *, order: int = 2) -> Turn:
     """An angle that does not change."""
-    return steady(np.zeros_like(like), 0.0, angle)
+    return steady(np.zeros_like(like), 0.0, angle, order=order)
 
 
 def mixed(*parts: tuple[float, Turn]) -> Turn:
@@ -72,19 +128,19 @@ def mixed(*parts: tuple[float, Turn]) -> Turn:
         >>> mixed((2.0, steady(phi)), (-1.0, standing(0.5, phi))).value.tolist()
         [-0.5, 1.5]
     """
-    value, first, second = (sum(share * turn[i] for share, turn in parts) for i in range(3))
-    return Turn(np.asarray(value), np.asarray(first), np.asarray(second))
+    order = min(turn.order for _, turn in parts)
+    return Turn(*(np.asarray(sum(share * turn[i] for share, turn in parts)) for i in range(order + 1)))
 
 
 def from_start(turn: Turn, start: float) -> Turn:
     """The angle less its value at the start."""
-    return Turn(turn.value - start, turn.first, turn.second)
+    return Turn(turn.value - start, *turn[1:])
 
 
 def carried(origin: Point, turn: Turn, arm: complex, unit: Points | None = None) -> Point:
     """A point that a link carries.
 
-    P + s e,  P' + i t' s e,  P'' + (i t'' - t'^2) s e,  e = e^(i t)
+    P + s e,  P' + i t' s e,  P'' + (i t'' - t'^2) s e,  P''' + (i t''' - 3 t' t'' - i t'^3) s e,  e = e^(i t)
 
     Parameters
         origin : Point - of the link
@@ -99,7 +155,14 @@ def carried(origin: Point, turn: Turn, arm: complex, unit: Points | None = None)
     """
     if arm == 0.0:
         return origin
-    along = arm * (np.exp(1j * turn.value) if unit is None else unit)
-    first = 1j * turn.first * along
-    return Point(origin.value + along, origin.first + first, origin.second + 1j * turn.second * along
-                 + 1j * turn.first * first)  # fmt: skip
+    along, order = arm * (np.exp(1j * turn.value) if unit is None else unit), min(origin.order, turn.order)
+    parts = [origin.value + along]
+    if order > 0:
+        first = 1j * turn.first * along
+        parts.append(origin.first + first)
+    if order > 1:
+        parts.append(origin.second + 1j * turn.second * along + 1j * turn.first * first)
+    if order > 2:
+        bend = 1j * (turn.third - turn.first**3) - 3.0 * turn.first * turn.second
+        parts.append(origin.third + bend * along)
+    return Point(*parts)

@@ -58,13 +58,13 @@ class PlanetLinkageLoads(LoadsDesign):
     def mesh_of(self, links: dict[str, Link]) -> Mesh:
         """The mesh of output and coupler."""
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The four links at crank angles."""
         from gearlink.core.mechanism.joints import Pin
         from gearlink.core.mechanism.links import FRAME, Link, Mechanism
         from gearlink.core.mechanism.rates import from_start, mixed
 
-        links, ratio = four_bar(self.linkage, phi), self.design.gear_ratio
+        links, ratio = four_bar(self.linkage, phi, order), self.design.gear_ratio
         pins = four_bar_pins(links, self.linkage)
         coupler = from_start(links["coupler"].turn, self._start[0])
         pivot = links["crank" if self.output_pin == "A_output" else "rocker"].origin

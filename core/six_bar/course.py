@@ -185,18 +185,18 @@ class Course:
         at = places[nearest]
         return self.bar.closed(phi, (at[:, 1:3] + at[:, 3:] * (phi - at[:, 0])[:, None]).T)
 
-    def rates(self, phi: Reals) -> tuple[Reals, Reals, Reals, Reals]:
-        """Directions of links 2 to 5 and their first three derivatives by the input angle; (4, N) arrays."""
-        return self._on_grid if phi is self.grid else self._rates_at(phi)
+    def rates(self, phi: Reals, order: int = 3) -> tuple[Reals, ...]:
+        """Directions of links 2 to 5 and their first derivatives by the input angle, up to three; (4, N) arrays."""
+        return self._on_grid if phi is self.grid and order == 3 else self._rates_at(phi, order)
 
     @cached_property
-    def _on_grid(self) -> tuple[Reals, Reals, Reals, Reals]:
+    def _on_grid(self) -> tuple[Reals, ...]:
         """On the grid all extremes are looked for among the same rates."""
-        return self._rates_at(self.grid)
+        return self._rates_at(self.grid, 3)
 
-    def _rates_at(self, phi: Reals) -> tuple[Reals, Reals, Reals, Reals]:
+    def _rates_at(self, phi: Reals, order: int) -> tuple[Reals, ...]:
         angles = self.angles(phi)
-        return angles, *self.bar.rates(phi, angles)
+        return angles, *self.bar.rates(phi, angles, order)
 
 
 def _home_turns(bar: SixBar) -> int:

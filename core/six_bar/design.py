@@ -310,7 +310,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         import numpy as np
 
         degrees = self._rows(samples)
-        angles, first, second, _ = self.course.rates(np.radians(degrees))
+        angles, first, second = self.course.rates(np.radians(degrees), 2)
         columns = {
             "input_angle": (degrees, "deg"),
             "output_angle": (np.degrees(self.output(np.radians(degrees))), "deg"),

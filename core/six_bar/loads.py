@@ -108,13 +108,13 @@ class SixBarLoads(LoadsDesign):
             found.append([ends[0], *free, ends[1]])
         return found
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The links at input angles, A at 0 and F on +x."""
         from gearlink.core.mechanism.joints import Pin
         from gearlink.core.mechanism.links import Mechanism
 
         _ = self._period_turns  # a loop that does not come home is refused in the words of loads
-        links, places, turned = self._loop(phi)
+        links, places, turned = self._loop(phi, order)
         connections: list[Connection] = [
             Pin(pin, first, second, place.value)
             for pin, first, second, place in zip(PINS, _HOLDING, (*_LINKS[1:], "output"), places, strict=True)
@@ -124,23 +124,23 @@ class SixBarLoads(LoadsDesign):
             connections += self._gears(number, links, places)
         return Mechanism(links, connections, "input")
 
-    def _loop(self, phi: Reals) -> tuple[dict[str, Link], list[Point], list[Turn]]:
+    def _loop(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Point], list[Turn]]:
         """The five links, the six pins, and what all six links have turned since the start, the frame first."""
         from gearlink.core.mechanism.links import Link
         from gearlink.core.mechanism.rates import Turn, fixed, from_start, standing, steady
 
         lengths, starts = self.design.lengths, (0.0, *self.design.bar.start_angles)
-        angles, first, second, _ = self.design.course.rates(phi)
-        turns = [steady(phi), *(Turn(angles[k], first[k], second[k]) for k in range(4))]
-        links, places = {}, [fixed(0j, phi)]
+        directions = zip(*self.design.course.rates(phi, order), strict=True)
+        turns = [steady(phi, order=order), *(Turn(*rows) for rows in directions)]
+        links, places = {}, [fixed(0j, phi, order=order)]
         for name, turn, length in zip(_LINKS[1:5], turns[:4], lengths[1:5], strict=True):
             links[name] = Link(places[-1], turn)
             places.append(links[name].at(length * _MM))
-        places.append(fixed(lengths[0] * _MM, phi))
+        places.append(fixed(lengths[0] * _MM, phi, order=order))
         # The loop runs from E to F, the x axis of the output from its pivot F to E.
         links["output"] = Link(places[-1], from_start(turns[4], -math.pi))
         turned = [from_start(turn, start) for turn, start in zip(turns, starts, strict=True)]
-        return links, places, [standing(0.0, phi), *turned]
+        return links, places, [standing(0.0, phi, order=order), *turned]
 
     def _free_gears(self, number: int, places: list[Point], turned: list[Turn]) -> dict[str, Link]:
         """The gears between the ends of a train, by Willis's equation from its first one on; x along the frame at 0."""

@@ -198,8 +198,8 @@ class SixBar:
             finest = size
         raise NoSolution("the six-bar does not close there")
 
-    def rates(self, phi: Reals, angles: Reals) -> tuple[Reals, Reals, Reals]:
-        """First three derivatives of the directions of links 2 to 5 by the input angle.
+    def rates(self, phi: Reals, angles: Reals, order: int = 3) -> tuple[Reals, ...]:
+        """First derivatives of the directions of links 2 to 5 by the input angle, up to three.
 
         i sum l_j t_j' e_j = -i a e_1,   i sum l_j t_j'' e_j = sum l_j t_j'^2 e_j + a e_1,
         i sum l_j t_j''' e_j = sum l_j (3 t_j' t_j'' + i t_j'^3) e_j + i a e_1
@@ -207,28 +207,34 @@ class SixBar:
         Parameters
             phi : (N,) array [rad]
             angles : (4, N) array [rad]
+            order : 0..3
         Returns
-            first, second, third : (4, N) arrays [1, 1/rad, 1/rad^2]
+            first, second, third : (4, N) arrays [1, 1/rad, 1/rad^2] - as many as asked for
         Notes
             The condition is 1/sin of `transmission`, infinite in a dead centre.
         """
         parts = [
-            self._block_rates(phi[start : start + _BLOCK], angles[:, start : start + _BLOCK])
+            self._block_rates(phi[start : start + _BLOCK], angles[:, start : start + _BLOCK], order)
             for start in range(0, max(1, phi.size), _BLOCK)
         ]
-        first, second, third = parts[0] if len(parts) == 1 else (np.hstack(each) for each in zip(*parts, strict=True))
-        return first, second, third
+        return parts[0] if len(parts) == 1 else tuple(np.hstack(each) for each in zip(*parts, strict=True))
 
-    def _block_rates(self, phi: Reals, angles: Reals) -> tuple[Reals, Reals, Reals]:
+    def _block_rates(self, phi: Reals, angles: Reals, order: int) -> tuple[Reals, ...]:
+        if order == 0:
+            return ()
         _, _, slopes, shares = self.numbers
         cos, sin = self._projections(angles)
         crank_x, crank_y = (self.lengths[1] * each for each in turned(phi))
         ends = _weighted(shares.T, cos), _weighted(shares.T, sin)
         driven_x, driven_y = (_weighted(slopes[None], links)[0] for links in (cos, sin))
         first = slopes[:, None] + _weighted(shares, _closing(*ends, -(crank_y + driven_y), crank_x + driven_x))
+        if order == 1:
+            return (first,)
         square = first * first
         pulled = [-(part + (square * links).sum(axis=0)) for part, links in ((crank_x, cos), (crank_y, sin))]
         second = _weighted(shares, _closing(*ends, pulled[0], pulled[1]))
+        if order == 2:
+            return first, second
         along, across = 3.0 * first * second, first * square
         x = crank_y - (along * cos - across * sin).sum(axis=0)
         y = -crank_x - (along * sin + across * cos).sum(axis=0)

@@ -45,6 +45,9 @@ class GripperMotion:
     input_acceleration: Reals
     coupler_acceleration: Reals
     output_acceleration: Reals
+    input_jerk: Reals
+    coupler_jerk: Reals
+    output_jerk: Reals
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ class GripperLinkage:
 
         Parameters
             degrees : (N,) array [deg]
-            order : 0, 1 or 2
+            order : 0..3
         Raises
             NoSolution - where the linkage does not close; `swing.require_swing` says why beforehand
         """
@@ -136,7 +139,7 @@ class GripperLinkage:
         sense = self.swing_sense
         output = self.output_direction + sense * beta[0]
         nothing = np.empty(0)
-        velocity, acceleration = (sense * beta[n] if n <= order else nothing for n in (1, 2))
+        velocity, acceleration, jerk = (sense * beta[n] if n <= order else nothing for n in (1, 2, 3))
         with at_key("links"):
             state = solve_inverse(
                 self.four_bar,
@@ -144,6 +147,7 @@ class GripperLinkage:
                 order,
                 velocity=velocity,
                 acceleration=acceleration if order > 1 else 0.0,
+                jerk=jerk if order > 2 else 0.0,
             )
         return GripperMotion(
             theta=np.radians(degrees),
@@ -157,6 +161,9 @@ class GripperLinkage:
             input_acceleration=state.crank_acceleration,
             coupler_acceleration=state.coupler_acceleration,
             output_acceleration=acceleration,
+            input_jerk=state.crank_jerk,
+            coupler_jerk=state.coupler_jerk,
+            output_jerk=jerk,
         )
 
     def ratios(self, beta: Reals) -> FourBarInverseSweep:

@@ -171,7 +171,7 @@ class GripperLoads(CamLoadsDesign):
             return "give spring: {torque: N m}"
         return f"raise spring.{'torque' if spring.torque is not None else 'preload'}"
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The links at cylinder angles, in the machine's frame."""
         import numpy as np
 
@@ -181,21 +181,20 @@ class GripperLoads(CamLoadsDesign):
 
         if self.spec.cam is None:
             raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")
-        motion = self.design.linkage.motion(np.degrees(phi), 2)
-        turns = {
-            name: Turn(*(getattr(motion, f"{name}_{part}") for part in ("angle", "velocity", "acceleration")))
-            for name in ("input", "coupler", "output")
-        }
-        a, e = (fixed(complex(*point) * _MM, phi) for point in (self.spec.pivots.input, self.spec.pivots.output))
+        motion, pivots = self.design.linkage.motion(np.degrees(phi), order), self.spec.pivots
+        parts = ("angle", "velocity", "acceleration", "jerk")[: order + 1]
+        names = ("input", "coupler", "output")
+        turns = {name: Turn(*(getattr(motion, f"{name}_{part}") for part in parts)) for name in names}
+        a, e = (fixed(complex(*point) * _MM, phi, order=order) for point in (pivots.input, pivots.output))
         rocker = Link(a, turns["input"])
         c = rocker.at(self.spec.links.input * _MM)
         sense = self.spec.cam.sense
-        axis = fixed(self.design.cam_center * _MM, phi)
+        axis = fixed(self.design.cam_center * _MM, phi, order=order)
         links = {
             "input": rocker,
             "coupler": Link(c, turns["coupler"]),
             "output": Link(e, turns["output"]),
-            "cam": Link(axis, steady(phi, sense)),
+            "cam": Link(axis, steady(phi, sense, order=order)),
         }
         connections: list[Connection] = [
             Pin("A", FRAME, "input", a.value),

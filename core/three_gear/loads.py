@@ -102,20 +102,20 @@ class ThreeGearLoads(LoadsDesign):
         r1, r3, r5 = (half * teeth for teeth in (train.crank, train.idler, train.output))
         return [(r1, r3, tangent), (r3, r5, tangent)]
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The five links at crank angles."""
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-        from gearlink.core.mechanism.rates import from_start, mixed, steady
+        from gearlink.core.mechanism.rates import from_start, mixed
 
         design, train = self.design, self.design.train
         linkage = design.linkage
-        links = four_bar(linkage, phi)
+        links = four_bar(linkage, phi, order)
         coupler, rocker = (
             from_start(links[name].turn, start) for name, start in zip(("coupler", "rocker"), self._start, strict=True)
         )
         i2, i3 = -train.crank / train.idler, -train.idler / train.output
-        idler = mixed((i2, steady(phi)), (1.0 - i2, coupler))
+        idler = mixed((i2, links["crank"].turn), (1.0 - i2, coupler))
         pins = four_bar_pins(links, linkage)
         center_c = links["rocker"].at(linkage.rocker * MM)
         links["idler"] = Link(center_c, idler)

@@ -131,6 +131,11 @@ class Motion:
         """The law of motion of the rocker, with its slider where it has one."""
         return self.plain_law if self.spec.slider is None else self.slider
 
+    @property
+    def highest(self) -> int:
+        """The highest derivative that the law has."""
+        return 3 if self.spec.slider is None else 2
+
     def torque(self, k: Reals) -> Reals:
         """Torque of the device that balances the inertia, over J gamma/T^2: c, with a slider (N/2) E_a.
 

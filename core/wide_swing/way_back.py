@@ -21,34 +21,43 @@ class Home(NamedTuple):
 
     Fields
         k : (N,) array - fraction of the stroke at which it stood there, from 1 to 0
-        first, second : (N,) arrays - derivatives of k by the crank angle
+        first, second, third : (N,) arrays - derivatives of k by the crank angle; the third empty unless asked for
     """
 
     k: Reals
     first: Reals
     second: Reals
+    third: Reals
 
 
-def home(cam: OscillatingCam, turned: Reals) -> Home:
+def home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
     """The cam at crank angles of its way home.
 
     psi(k) = 2 arg C - psi,  psi'(k) = 2 Im(C'/C) - 1,  psi''(k) = 2 Im(C''/C - (C'/C)^2)
+    psi'''(k) = 2 Im(C'''/C - 3 C'' C'/C^2 + 2 (C'/C)^3)
 
     Parameters
         cam : OscillatingCam
         turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole turn
+        order : 2 or 3 - of the derivatives
     Notes
         C is the end of the rocker that carries the cam, seen from the crank's pivot: the crank pins of both ways are
         mirror images on that line. At both ends, where cam and rocker stand still, nothing is 0/0.
     """
     bar, span = cam.drive.linkage, cam.drive.crank_span
-    found = solve(bar, cam.drive.crank_angles[0] + turned, 2)
+    found = solve(bar, cam.drive.crank_angles[0] + turned, order)
     arm = bar.rocker * np.exp(1j * found.rocker_angle)
     end = bar.frame + arm
-    rate = 1j * found.rocker_velocity * arm / end
-    bend = (1j * found.rocker_acceleration - found.rocker_velocity**2) * arm / end - rate * rate
+    speed = found.rocker_velocity
+    rate = 1j * speed * arm / end
+    curve = (1j * found.rocker_acceleration - speed**2) * arm / end
+    bend = curve - rate * rate
+    third = np.empty(0)
+    if order > 2:
+        jerk = (1j * (found.rocker_jerk - speed**3) - 3.0 * speed * found.rocker_acceleration) * arm / end
+        third = 2.0 * (jerk - 3.0 * curve * rate + 2.0 * rate**3).imag / span
     forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end) - 2.0 * cam.drive.crank_angles[0] - turned)
-    return Home(_within(forth, 0.0, span) / span, (2.0 * rate.imag - 1.0) / span, 2.0 * bend.imag / span)
+    return Home(_within(forth, 0.0, span) / span, (2.0 * rate.imag - 1.0) / span, 2.0 * bend.imag / span, third)
 
 
 def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:

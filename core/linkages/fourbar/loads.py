@@ -15,12 +15,21 @@ from gearlink.core.numerics.arrays import Reals
 MM = 1e-3
 
 
-def four_bar(linkage: FourBar, phi: Reals) -> dict[str, Link]:
+def turns(linkage: FourBar, crank_angle: Reals, order: int, *, velocity: float = 1.0) -> tuple[Turn, Turn]:
+    """Angles of coupler and rocker, with so many derivatives for a crank that turns evenly with a velocity."""
+    sweep = fourbar_sweep.solve(linkage, crank_angle, order, velocity=velocity)
+    coupler = (sweep.coupler_angle, sweep.coupler_velocity, sweep.coupler_acceleration, sweep.coupler_jerk)
+    rocker = (sweep.rocker_angle, sweep.rocker_velocity, sweep.rocker_acceleration, sweep.rocker_jerk)
+    return Turn(*coupler[: order + 1]), Turn(*rocker[: order + 1])
+
+
+def four_bar(linkage: FourBar, phi: Reals, order: int = 2) -> dict[str, Link]:
     """Crank, coupler and rocker at crank angles, A at 0 and D on +x; lengths in m.
 
     Parameters
         linkage : FourBar [mm]
         phi : (N,) array [rad] - crank angles, which are the input angles
+        order : 0..3 - of the derivatives
     Returns
         links : crank (A->B), coupler (B->C), rocker (D->C)
     Raises
@@ -31,14 +40,13 @@ def four_bar(linkage: FourBar, phi: Reals) -> dict[str, Link]:
         >>> round(float(links["rocker"].turn.first[0]), 9)
         -0.174081238
     """
-    sweep = fourbar_sweep.solve(linkage, phi, 2)
-    crank = Link(fixed(0j, phi), steady(phi))
-    origin = carried(crank.origin, crank.turn, linkage.crank * MM)
-    coupler = Link(origin, Turn(sweep.coupler_angle, sweep.coupler_velocity, sweep.coupler_acceleration))
-    rocker = Link(
-        fixed(linkage.frame * MM, phi), Turn(sweep.rocker_angle, sweep.rocker_velocity, sweep.rocker_acceleration)
-    )
-    return {"crank": crank, "coupler": coupler, "rocker": rocker}
+    coupler, rocker = turns(linkage, phi, order)
+    crank = Link(fixed(0j, phi, order=order), steady(phi, order=order))
+    return {
+        "crank": crank,
+        "coupler": Link(carried(crank.origin, crank.turn, linkage.crank * MM), coupler),
+        "rocker": Link(fixed(linkage.frame * MM, phi, order=order), rocker),
+    }
 
 
 def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:

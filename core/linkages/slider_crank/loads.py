@@ -59,17 +59,17 @@ class SliderCrankLoads(LoadsDesign):
         radius = self.slider_crank.crank_length * _MM
         return -(crank.mass * crank.center + radius * (rod.mass * (1.0 - part) + share * reciprocating))
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """The three links at crank angles, D at 0."""
         from gearlink.core.mechanism.closures import slider
         from gearlink.core.mechanism.joints import Guide, Pin
         from gearlink.core.mechanism.links import FRAME, Link, Mechanism
         from gearlink.core.mechanism.rates import fixed, standing, steady
 
-        crank = Link(fixed(0j, phi), steady(phi))
+        crank = Link(fixed(0j, phi, order=order), steady(phi, order=order))
         pin = crank.at(self.slider_crank.crank_length * _MM)
         turn, end = slider(pin, self.spec.rod * _MM, complex(-self.spec.offset * _MM), -1j)
-        links = {"crank": crank, "rod": Link(pin, turn), "slider": Link(end, standing(0.0, phi))}
+        links = {"crank": crank, "rod": Link(pin, turn), "slider": Link(end, standing(0.0, phi, order=order))}
         connections: list[Connection] = [
             Pin("D", FRAME, "crank", crank.origin.value),
             Pin("E", "crank", "rod", pin.value),

@@ -92,6 +92,7 @@ class WideSwingLoads(LoadsDesign):
         return self.spec.cycle is not None or self.spec.drive is not None
 
     weight: int = placed("halves")
+    highest: int = placed("design.motion.highest")
 
     @property
     def halves(self) -> int:
@@ -243,25 +244,25 @@ class WideSwingLoads(LoadsDesign):
         # looks a millionth of a radian beyond it, where the rocker rests.
         return sector, share_of(turned - edges[sector], width[sector])
 
-    def _rocker(self, sector: Any, share: Reals) -> tuple[Turn, Points, Points]:
+    def _rocker(self, sector: Any, share: Reals, order: int) -> tuple[Turn, Points, Points]:
         """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
         import numpy as np
 
         from gearlink.core.mechanism.rates import Turn
 
         rows = len(share)
-        turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
+        turn, place, normal = np.zeros((order + 1, rows)), *np.zeros((2, rows), dtype=np.complex128)
         for number, stroke in enumerate(self.strokes):
             moving, resting = sector == 2 * number, sector == 2 * number + 1
             if moving.any():
-                turn[:, moving] = stroke.turn(share[moving])
+                turn[:, moving] = stroke.turn(share[moving], order)
                 place[moving], normal[moving] = stroke.roller(share[moving])
             if resting.any():
-                turn[0, resting] = stroke.turn(np.ones(1)).value
+                turn[0, resting] = stroke.turn(np.ones(1), 0).value
                 place[resting], normal[resting] = stroke.roller(np.ones(1), resting=True)
         return Turn(*turn), place, normal
 
-    def kinematics(self, phi: Reals) -> Mechanism:
+    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
         """Rocker and cams at input angles."""
         import numpy as np
 
@@ -270,10 +271,11 @@ class WideSwingLoads(LoadsDesign):
         from gearlink.core.mechanism.rates import fixed
         from gearlink.core.wide_swing.loads.links import SLIDER_DIRECTION, with_slider
 
+        order = min(order, self.highest)
         sector, share = self._share(phi)
-        turn, place, normal = self._rocker(sector, share)
-        links, connections, sense, crank = self._driven(phi)
-        pivot = fixed(complex(self._side * self.cam.center_distance * _MM), phi)
+        turn, place, normal = self._rocker(sector, share, order)
+        links, connections, sense, crank = self._driven(phi, order)
+        pivot = fixed(complex(self._side * self.cam.center_distance * _MM), phi, order=order)
         links["rocker"] = Link(pivot, turn)
         connections.append(Pin("D", FRAME, "rocker", pivot.value))
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
@@ -295,13 +297,13 @@ class WideSwingLoads(LoadsDesign):
         """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
         return -1.0 if self.spec.layout == "twin-cam" else 1.0
 
-    def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
+    def _driven(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection], float, complex]:
         """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
         from gearlink.core.mechanism.rates import fixed
         from gearlink.core.wide_swing.cams.outline import middle_of
         from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts
 
-        axis = fixed(0j, phi)
+        axis = fixed(0j, phi, order=order)
         if self.spec.drive is not None:
             direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
             return with_drive(phi, axis, self.design.motion.drive, direction)

@@ -44,7 +44,7 @@ def with_slider(rocker: Link, drive: SliderDrive, direction: float) -> tuple[dic
     pin = rocker.at(_MM * drive.crank * cmath.rect(1.0, drive.middle_angle) * away)
     line = complex(rocker.origin.value[0]) - 1j * away * _MM * drive.offset
     turn, block = slider(pin, _MM * drive.rod, line, away)
-    links = {"rod": Link(pin, turn), "slider": Link(block, standing(direction, turn.value))}
+    links = {"rod": Link(pin, turn), "slider": Link(block, standing(direction, turn.value, order=turn.order))}
     joints: list[Connection] = [
         Pin("E", "rocker", "rod", pin.value),
         Pin("F", "rod", "slider", block.value),
@@ -64,10 +64,10 @@ def with_shafts(
         sense : float - in which the first one turns
         middles : by cam - input angle at which its roller stands on the line of centres [rad]
     """
-    links = {"cam": Link(axis, steady(phi, sense, -sense * middles[0]))}
+    links = {"cam": Link(axis, steady(phi, sense, -sense * middles[0], order=axis.order))}
     joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
     if len(middles) > 1:
-        links["return_cam"] = Link(axis, steady(phi, -sense, sense * middles[1]))
+        links["return_cam"] = Link(axis, steady(phi, -sense, sense * middles[1], order=axis.order))
         joints += [
             Pin("O_return", FRAME, "return_cam", axis.value),
             Coupling("train", "cam", "return_cam", axis.value, -1.0),
@@ -90,8 +90,8 @@ def with_drive(
     """
     bar, sense = drive.linkage, -drive.rising
     place = complex(axis.value[0]) + _MM * bar.frame * cmath.rect(1.0, direction)
-    turn = steady(phi, sense, direction + math.pi + sense * drive.crank_angles[0])
-    pivot = fixed(place, phi)
+    turn = steady(phi, sense, direction + math.pi + sense * drive.crank_angles[0], order=axis.order)
+    pivot = fixed(place, phi, order=axis.order)
     pin = carried(pivot, turn, _MM * bar.crank)
     along, cam = dyad(pin, axis, _MM * bar.coupler, _MM * bar.rocker, round(sense) * bar.assembly)
     links = {"crank": Link(pivot, turn), "coupler": Link(pin, along), "cam": Link(axis, cam)}

@@ -88,12 +88,12 @@ class SwingStroke:
         """Fraction k of this stroke at which the roller stands at a place of the profile."""
         return place
 
-    def turn(self, k: Reals) -> Turn:
+    def turn(self, k: Reals, order: int) -> Turn:
         """The rocker's angle from mid-swing, with its derivatives by the input angle."""
         motion = self.loads.design.motion
-        a, b, c = motion.law.invariants(k, 2)
+        a, *rates = motion.law.invariants(k, order)
         swing = -motion.swing if self.mirrored else motion.swing
-        return Turn((a - 0.5) * swing, swing / self.width * b, swing / self.width**2 * c)
+        return Turn((a - 0.5) * swing, *(swing / self.width**n * rate for n, rate in enumerate(rates, 1)))
 
     def to_world(self, z: Points) -> Points:
         """From the frame in which cams are computed to the world; a mirrored stroke is its mirror image."""
@@ -260,9 +260,9 @@ class WayHome(SwingStroke):
         """It is the same cam that goes back."""
         return False
 
-    def _home(self, k: Reals) -> way_back.Home:
+    def _home(self, k: Reals, order: int = 2) -> way_back.Home:
         """The cam there; at both ends, where the profile bends without bound, it stands at the stop itself."""
-        at = way_back.home(self.cam, self.start + k * self.width)
+        at = way_back.home(self.cam, self.start + k * self.width, order)
         return at._replace(k=np.where(k == 0.0, 1.0, np.where(k == 1.0, 0.0, at.k)))
 
     def profile(self, k: Reals) -> tuple[Reals, Reals]:
@@ -275,15 +275,19 @@ class WayHome(SwingStroke):
         turned = float(way_back.crank_angle(self.cam, np.array([place]))[0])
         return (turned - self.start) / self.width
 
-    def turn(self, k: Reals) -> Turn:
+    def turn(self, k: Reals, order: int) -> Turn:
         """The rocker follows the cam, at whose places the profile has it as in the stroke."""
-        at, motion = self._home(k), self.loads.design.motion
-        a, b, c = motion.law.invariants(at.k, 2)
-        return Turn(
-            (a - 0.5) * motion.swing,
-            motion.swing * b * at.first,
-            motion.swing * (c * at.first**2 + b * at.second),
-        )
+        at, motion = self._home(k, max(order, 2)), self.loads.design.motion
+        a, *rates = motion.law.invariants(at.k, order)
+        parts = [(a - 0.5) * motion.swing]
+        if order > 0:
+            parts.append(motion.swing * rates[0] * at.first)
+        if order > 1:
+            parts.append(motion.swing * (rates[1] * at.first**2 + rates[0] * at.second))
+        if order > 2:
+            bend = 3.0 * rates[1] * at.first * at.second + rates[0] * at.third
+            parts.append(motion.swing * (rates[2] * at.first**3 + bend))
+        return Turn(*parts)
 
     @cached_property
     def parts(self) -> Parts:

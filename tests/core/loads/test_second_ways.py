@@ -15,6 +15,7 @@ import mpmath
 import numpy as np
 import pytest
 import yaml
+from loaded import LOADS, loaded
 from sweeps import mostly_slow
 
 from gearlink.core.errors import GearlinkError
@@ -25,28 +26,6 @@ from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed
 
-MASSES = {"mass": 1.5, "inertia": 0.01}
-LOADS: dict[str, tuple[str, dict[str, Any]]] = {
-    "three-gear-four-bar": ("loaded_feed", {}),
-    "gear-pair": ("gear_pair", {"speed": 500, "links": {"gear2": MASSES}, "forces": [{"on": "gear2", "torque": 30}]}),
-    "slider-crank": ("ty460_slider_crank", {"speed": 75, "links": {"rod": MASSES, "slider": {"mass": 240}}}),
-    "flatbed-press": ("loaded_press", {}),
-    "swing-gripper": ("loaded_gripper", {}),
-    "wide-swing-cam": ("loaded_swing_cycle", {}),
-    "mutilated-gear-dwell": ("mutilated_gear_press", {"speed": 60, "links": {"wheel": MASSES, "rocker": MASSES}}),
-    "two-gear-four-bar": ("two_gear_ring", {"speed": 60, "links": {"coupler": MASSES, "output": MASSES}}),
-    "geared-rocker": ("wide_lever", {"speed": -60, "links": {"coupler": MASSES, "output": MASSES}}),
-    "geared-five-bar": ("five_bar_path", {"speed": 60, "links": {"coupler": MASSES, "output": MASSES}}),
-    "geared-six-bar": ("six_bar_swing", {"speed": 60, "links": {"coupler_2": MASSES, "output": MASSES}}),
-    "hypocycloid-dwell": ("hypocycloid_slider", {"speed": 60, "links": {"planet": MASSES, "slider": {"mass": 3}}}),
-}
-
-
-def _design(kind: str, **more: Any) -> Any:
-    base, loads = LOADS[kind]
-    keys = {"loads": {**loads, **more}} if loads else {f"loads__{key}": value for key, value in more.items()}
-    return factory.design(base, command="loads", **keys)
-
 
 def test_every_kind_that_has_loads_is_here() -> None:
     assert set(LOADS) == {name for name, kind in KINDS.items() if "loads" in kind.commands}
@@ -55,15 +34,15 @@ def test_every_kind_that_has_loads_is_here() -> None:
 @pytest.mark.parametrize("kind", LOADS)
 def test_both_input_torques_agree_in_every_kind(kind: str) -> None:
     """Virtual power and reactions, 1e-12 of the largest."""
-    assert _design(kind).power_identity <= 1e-12
+    assert loaded(kind).power_identity <= 1e-12
 
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", [kind for kind in LOADS if kind not in ("gear-pair", "flatbed-press")])
 def test_friction_in_every_kind_takes_power(kind: str) -> None:
     free, rubbing = (
-        _design(kind, friction=None),
-        _design(kind, friction={"pins": 0.05, "pin_radius": 4, "meshes": 0.98}),
+        loaded(kind, friction=None),
+        loaded(kind, friction={"pins": 0.05, "pin_radius": 4, "meshes": 0.98}),
     )
     assert rubbing.power_identity <= 1e-12
     assert rubbing.input_power_mean > free.input_power_mean
@@ -195,7 +174,7 @@ def test_andrews_mechanism_needs_the_torque_that_drives_it() -> None:
 
 def test_change_point_linkage_is_refused() -> None:
     """A parallelogram: nothing says which way it folds where all its links lie in line. Rocker 60 mm, as the crank."""
-    loads = {"speed": 60, "links": {"coupler": MASSES}}
+    loads = {"speed": 60, "links": {"coupler": {"mass": 1.5, "inertia": 0.01}}}
     with pytest.raises(GearlinkError) as caught:
         factory.design(
             "wide_lever", command="loads", loads=loads, target=None, links={"crank": 60, "coupler": 80, "frame": 80}

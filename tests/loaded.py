@@ -1,0 +1,30 @@
+"""A worked design of every kind that has loads, for tests that hold of all of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import factory
+
+_MASSES = {"mass": 1.5, "inertia": 0.01}
+LOADS: dict[str, tuple[str, dict[str, Any]]] = {
+    "three-gear-four-bar": ("loaded_feed", {}),
+    "gear-pair": ("gear_pair", {"speed": 500, "links": {"gear2": _MASSES}, "forces": [{"on": "gear2", "torque": 30}]}),
+    "slider-crank": ("ty460_slider_crank", {"speed": 75, "links": {"rod": _MASSES, "slider": {"mass": 240}}}),
+    "flatbed-press": ("loaded_press", {}),
+    "swing-gripper": ("loaded_gripper", {}),
+    "wide-swing-cam": ("loaded_swing_cycle", {}),
+    "mutilated-gear-dwell": ("mutilated_gear_press", {"speed": 60, "links": {"wheel": _MASSES, "rocker": _MASSES}}),
+    "two-gear-four-bar": ("two_gear_ring", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
+    "geared-rocker": ("wide_lever", {"speed": -60, "links": {"coupler": _MASSES, "output": _MASSES}}),
+    "geared-five-bar": ("five_bar_path", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
+    "geared-six-bar": ("six_bar_swing", {"speed": 60, "links": {"coupler_2": _MASSES, "output": _MASSES}}),
+    "hypocycloid-dwell": ("hypocycloid_slider", {"speed": 60, "links": {"planet": _MASSES, "slider": {"mass": 3}}}),
+}
+
+
+def loaded(kind: str, **more: Any) -> Any:
+    """The loads of a kind's design, with further keys of the section `loads`."""
+    base, loads = LOADS[kind]
+    keys = {"loads": {**loads, **more}} if loads else {f"loads__{key}": value for key, value in more.items()}
+    return factory.design(base, command="loads", **keys)
