@@ -78,7 +78,7 @@ def profile(axes: Axes, design: Any, name: str) -> None:
     roller = design.roller_on_cam(name, phi)
     turned = np.radians(design.cam_degrees(phi))
     contact = roller.position - roller.radius * roller.normal
-    points = 1e3 * np.exp(-1j * roller.sense * turned) * contact
+    points = np.exp(-1j * roller.sense * turned) * contact
     _colored(axes, points, design.contact(name, phi).pressure, f"{name} cam: pressure [N/mm²]")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
-_MM = 1e-3
-
 
 class HypocycloidDwellLoads(LoadsDesign):
     """Input angle: the carrier's from the middle of the dwell's arc; the slider moves on +x."""
@@ -48,11 +46,11 @@ class HypocycloidDwellLoads(LoadsDesign):
         from gearlink.core.mechanism.rates import fixed, standing, steady
 
         geometry = self.design.slider
-        r, n = geometry.planet_radius * _MM, geometry.cusps
+        r, n = geometry.planet_radius, geometry.cusps
         carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order))
         planet = Link(carrier.at((n - 1) * r), steady(phi, -(n - 1.0), order=order))
         point = planet.at(-r)
-        turn, end = slider(point, geometry.rod * _MM, 0j, 1.0 + 0j)
+        turn, end = slider(point, geometry.rod, 0j, 1.0 + 0j)
         links = {
             "carrier": carrier,
             "planet": planet,

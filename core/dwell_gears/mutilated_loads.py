@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins
+from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming
 from gearlink.core.loads.sources import mass_of
@@ -121,7 +121,7 @@ class MutilatedGearLoads(LoadsDesign):
             for name, link in four_bar(self.linkage, crank, order).items()
         }
         direction = math.radians(self.section.wheel_direction or 0.0)
-        radius = self.design.mesh.working_radius[1] * MM
+        radius = self.design.mesh.working_radius[1]
         tangent = math.tan(self.design.mesh.working_pressure_angle)
         teeth = ToothDrive("mesh_wheel", "crank", links["crank"].origin.value, cmath.exp(1j * direction), radius,
                            tangent, moves > 0.0)  # fmt: skip

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
-_MM = 1e-3
-
 
 class FiveBarLoads(LoadsDesign):
     """Input, coupler, follower, output; with an idler in the path form that too."""
@@ -81,9 +79,9 @@ class FiveBarLoads(LoadsDesign):
         return self.function_bar.min_transmission_angle(0.0, 2.0 * math.pi * self.turns)[0]
 
     def _rolling(self, name: str = "") -> tuple[float, float, float]:
-        """Working radii of a mesh [m], the first gear of the file's lists first, and tan of the pressure angle."""
+        """Working radii of a mesh [mm], the first gear of the file's lists first, and tan of the pressure angle."""
         pair = signed_pair(self.design.meshes[name])
-        one, other = (abs(radius) * _MM for radius in pair.working_radius)
+        one, other = (abs(radius) for radius in pair.working_radius)
         if self.design.signed_teeth[0] < 0:
             one, other = other, one
         return one, other, math.tan(pair.working_pressure_angle)
@@ -103,14 +101,14 @@ class FiveBarLoads(LoadsDesign):
 
         bar = self.design.path_bar
         first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
-        last = Link(fixed(bar.frame * _MM, phi, order=order), steady(phi, float(bar.ratio), bar.phase, order=order))
-        b, d = first.at(bar.input * _MM), last.at(bar.output * _MM)
-        t2, t3 = dyad(b, d, bar.coupler * _MM, bar.follower * _MM, bar.assembly)
+        last = Link(fixed(bar.frame, phi, order=order), steady(phi, float(bar.ratio), bar.phase, order=order))
+        b, d = first.at(bar.input), last.at(bar.output)
+        t2, t3 = dyad(b, d, bar.coupler, bar.follower, bar.assembly)
         links = {"input": first, "coupler": Link(b, t2), "follower": Link(d, t3), "output": last}
         pins: list[Connection] = [
             Pin("A", FRAME, "input", first.origin.value),
             Pin("B", "input", "coupler", b.value),
-            Pin("C", "coupler", "follower", links["coupler"].at(bar.coupler * _MM).value),
+            Pin("C", "coupler", "follower", links["coupler"].at(bar.coupler).value),
             Pin("D", "output", "follower", d.value),
             Pin("E", FRAME, "output", last.origin.value),
         ]
@@ -130,7 +128,7 @@ class FiveBarLoads(LoadsDesign):
                 return [Mesh("mesh_14", "output", "input", e, -1.0 + 0j, r4, r1, tangent, True)]
             return [Mesh("mesh_14", "input", "output", a, 1.0 + 0j, r1, r4, tangent, gears.mesh == "internal")]
         (r1, ri, tangent), (ri_out, r4, tangent_out) = (self._rolling(name) for name in self.design.mesh_names)
-        frame = self.design.path_bar.frame * _MM
+        frame = self.design.path_bar.frame
         near, far = r1 + ri, ri_out + r4
         along = 0.5 * (frame + (near - far) * (near + far) / frame)
         axis = cmath.rect(near, self.spec.gears.idler_side * math.acos(along / near))
@@ -150,16 +148,16 @@ class FiveBarLoads(LoadsDesign):
 
         bar, gears = self.function_bar, self.spec.gears
         first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
-        coupler = Link(first.at(bar.input * _MM), steady(phi, bar.coupler_ratio, bar.phase, order=order))
-        c, pivot = coupler.at(bar.coupler * _MM), fixed(bar.frame * _MM, phi, order=order)
-        t3, t4 = dyad(c, pivot, bar.follower * _MM, bar.output * _MM, bar.assembly)
+        coupler = Link(first.at(bar.input), steady(phi, bar.coupler_ratio, bar.phase, order=order))
+        c, pivot = coupler.at(bar.coupler), fixed(bar.frame, phi, order=order)
+        t3, t4 = dyad(c, pivot, bar.follower, bar.output, bar.assembly)
         links = {"input": first, "coupler": coupler, "follower": Link(c, t3), "output": Link(pivot, t4)}
         r2, r5, tangent = self._rolling()
         return links, [
             Pin("A", FRAME, "input", first.origin.value),
             Pin("B", "input", "coupler", coupler.origin.value),
             Pin("C", "coupler", "follower", c.value),
-            Pin("D", "follower", "output", links["output"].at(bar.output * _MM).value),
+            Pin("D", "follower", "output", links["output"].at(bar.output).value),
             Pin("E", FRAME, "output", pivot.value),
             Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, tangent,
                  gears.ring is not None, "input"),

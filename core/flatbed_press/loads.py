@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.rates import Point, Turn
     from gearlink.core.numerics.arrays import Reals
 
-_MM = 1e-3
 _TURN = 2.0 * math.pi
 _PINION = 5.0 / 31.0
 _GEAR_4 = 34.0 / 35.0
@@ -95,9 +94,9 @@ class PressLoads(CamLoadsDesign):
 
     @cached_property
     def pinion_radius(self) -> float:
-        """Pitch radius of the pinion [m]."""
+        """Pitch radius of the pinion [mm]."""
         given = self.section.pinion_radius
-        return (self.spec.bed.stroke * _PINION if given is None else given) * _MM
+        return self.spec.bed.stroke * _PINION if given is None else given
 
     @property
     def _side(self) -> float:
@@ -143,8 +142,8 @@ class PressLoads(CamLoadsDesign):
 
         joints = self._connections
         return (
-            {each.name: complex(each.at[0]) / _MM for each in joints if isinstance(each, Pin)},
-            {each.name: complex(each.pitch_point[0]) / _MM for each in joints if isinstance(each, Rack)},
+            {each.name: complex(each.at[0]) for each in joints if isinstance(each, Pin)},
+            {each.name: complex(each.pitch_point[0]) for each in joints if isinstance(each, Rack)},
         )
 
     # Bed
@@ -160,26 +159,25 @@ class PressLoads(CamLoadsDesign):
         four = bed.linkage
         coupler, rocker = turns(four, bed.initial_crank_angle + phi, order)
         gear2 = Link(fixed(0j, phi, order=order), steady(phi, 1.0, bed.initial_crank_angle, order=order))
-        pivot = fixed(four.frame * _MM, phi, order=order)
-        e = carried(pivot, from_start(rocker, bed.crank_offset_angle), bed.slider_crank_length * _MM)
-        rod, f = slider(e, bed.rod * _MM, (four.frame - bed.offset) * _MM + 0j, -1j)
+        pivot = fixed(four.frame, phi, order=order)
+        e = carried(pivot, from_start(rocker, bed.crank_offset_angle), bed.slider_crank_length)
+        rod, f = slider(e, bed.rod, four.frame - bed.offset + 0j, -1j)
         return {
             "gear2": gear2,
-            "BC": Link(gear2.at(four.crank * _MM), coupler),
+            "BC": Link(gear2.at(four.crank), coupler),
             "CDE": Link(pivot, rocker),
             "EF": Link(e, rod),
             "carriage": Link(f, standing(0.0, phi, order=order)),
         }
 
     def _lift_by_input(self, phi: Reals, rocker: Turn) -> tuple[Travel, tuple[Reals, ...]]:
-        """The lift over the cam's angle [mm], and the same with its derivatives by the input angle [m]."""
+        """The lift over the cam's angle, and the same with its derivatives by the input angle [mm]."""
         cam = self.lift(phi, rocker)
-        lift, slope, bend = cam.value * _MM, cam.first * _MM, cam.second * _MM
-        parts = [lift, slope * rocker.first]
+        parts = [cam.value, cam.first * rocker.first]
         if rocker.order > 1:
-            parts.append(bend * rocker.first**2 + slope * rocker.second)
+            parts.append(cam.second * rocker.first**2 + cam.first * rocker.second)
         if rocker.order > 2:  # what the bed's chain gives it, less the bed's own
-            parts.append((self.design.bed.jerk(phi) - self.design.bed_motion.jerk(phi)) * _MM)
+            parts.append(self.design.bed.jerk(phi) - self.design.bed_motion.jerk(phi))
         return cam, tuple(parts)
 
     def _racks(self, links: dict[str, Link], phi: Reals) -> Travel:
@@ -217,7 +215,7 @@ class PressLoads(CamLoadsDesign):
         return [
             Pin("A", FRAME, "gear2", links["gear2"].origin.value),
             Pin("B", "gear2", "BC", links["BC"].origin.value),
-            Pin("C", "BC", "CDE", links["CDE"].at(four.rocker * _MM).value),
+            Pin("C", "BC", "CDE", links["CDE"].at(four.rocker).value),
             Pin("D", FRAME, "CDE", links["CDE"].origin.value),
             Pin("E", "CDE", "EF", links["EF"].origin.value),
             Pin("F", "EF", "carriage", f),
@@ -233,12 +231,12 @@ class PressLoads(CamLoadsDesign):
 
         from gearlink.core.mechanism.joints import Contact
 
-        rho = (self.design.cams.base_radius + cam.value) * _MM
-        normal = (rho + 1j * cam.first * _MM) * 1j / np.hypot(rho, cam.first * _MM)
+        rho = self.design.cams.base_radius + cam.value
+        normal = (rho + 1j * cam.first) * 1j / np.hypot(rho, cam.first)
         axis = links["CDE"].origin.value
         # Against its own force, so that a negative one is carried by the return cam's roller.
-        rho_2 = self.design.cams.roller_center_distance * _MM - rho
-        other = (rho_2 - 1j * cam.first * _MM) * 1j / np.hypot(rho_2, cam.first * _MM)
+        rho_2 = self.design.cams.roller_center_distance - rho
+        other = (rho_2 - 1j * cam.first) * 1j / np.hypot(rho_2, cam.first)
         return [Contact("cam", "CDE", "rack", axis + 1j * rho, normal, (axis - 1j * rho_2, other))]
 
     @property
@@ -259,8 +257,8 @@ class PressLoads(CamLoadsDesign):
         cam = links.once("lift", lambda: self.lift(phi, links.links["CDE"].turn))
         at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
         rates = (at + cam.value, cam.first, cam.second)
-        position, first, second = (1j * _MM * part for part in rates)
-        return RollerOnCam(position, first, second, 1, cams.section.roller_radius * _MM)
+        position, first, second = (1j * part for part in rates)
+        return RollerOnCam(position, first, second, 1, cams.section.roller_radius)
 
     def _cam_turn(self, phi: Reals) -> Turn:
         """Angle turned by the cams."""
@@ -350,12 +348,12 @@ class PressLoads(CamLoadsDesign):
         coupler, rocker = turns(four, chain.initial_angle - phi, order, velocity=-1.0)
         toward = _unit(self.section.gear_1_direction, 90.0)
         turned = 0.0 if self._side > 0.0 else math.pi
-        g = fixed(pair.center_distance * _MM * toward, phi, order=order)
+        g = fixed(pair.center_distance * toward, phi, order=order)
         links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle + turned, order=order))
-        links["HM"] = Link(links["gear1"].at(four.crank * _MM), from_start(coupler, -turned))
-        n = complex(g.value[0]) + self._side * four.frame * _MM
+        links["HM"] = Link(links["gear1"].at(four.crank), from_start(coupler, -turned))
+        n = complex(g.value[0]) + self._side * four.frame
         links["MN"] = Link(fixed(n, phi, order=order), from_start(rocker, -turned))
-        r3, r4 = (radius * _MM for radius in self.pitch_radii)
+        r3, r4 = self.pitch_radii
         side = _unit(self.section.cylinder_direction, 0.0)
         axis = fixed(complex(links["MN"].origin.value[0]) + (r3 + r4) * side, phi, order=order)
         links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, _start(chain)))))
@@ -364,10 +362,10 @@ class PressLoads(CamLoadsDesign):
         return [
             Pin("G", FRAME, "gear1", g.value),
             Pin("H", "gear1", "HM", links["HM"].origin.value),
-            Pin("M", "HM", "MN", links["MN"].at(four.rocker * _MM).value),
+            Pin("M", "HM", "MN", links["MN"].at(four.rocker).value),
             Pin("N", FRAME, "MN", links["MN"].origin.value),
             Pin("cylinder", FRAME, "cylinder", axis.value),
-            Mesh("mesh_12", "gear2", "gear1", links["gear2"].origin.value, toward, r2 * _MM, r1 * _MM, tangent),
+            Mesh("mesh_12", "gear2", "gear1", links["gear2"].origin.value, toward, r2, r1, tangent),
             Mesh("mesh_34", "MN", "cylinder", links["MN"].origin.value, side, r3, r4, math.tan(_RACK_ANGLE)),
         ]
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
-_MM = 1e-3
-
 
 class GearPairLoads(LoadsDesign):
     """Gear 1 at 0, gear 2 on +x, or about gear 1 where it is a ring."""
@@ -68,8 +66,10 @@ class GearPairLoads(LoadsDesign):
     @property
     def tilting_moment_max(self) -> list[float] | None:
         """Greatest moment F_a r_w that tilts gear 1 and gear 2 [N m]; None of spur gears."""
+        from gearlink.core.mechanism.joints import NEWTON_METER
+
         force = self.axial_force_max
-        return None if force is None else [force * abs(radius) * _MM for radius in self.pair.working_radius]
+        return None if force is None else [force * abs(radius) / NEWTON_METER for radius in self.pair.working_radius]
 
     def table_teeth(self, samples: int | None = None) -> Table:
         """Tangential and radial tooth force; of helical teeth the axial one, a magnitude."""
@@ -87,11 +87,11 @@ class GearPairLoads(LoadsDesign):
         from gearlink.core.mechanism.rates import fixed, steady
 
         pair = self.pair
-        r1, r2 = (radius * _MM for radius in pair.working_radius)
+        r1, r2 = pair.working_radius
         links = {
             "gear1": Link(fixed(0j, phi, order=order), steady(phi, order=order)),
             "gear2": Link(
-                fixed(complex(abs(pair.center_distance) * _MM), phi, order=order), steady(phi, -r1 / r2, order=order)
+                fixed(complex(abs(pair.center_distance)), phi, order=order), steady(phi, -r1 / r2, order=order)
             ),
         }
         a, b = links["gear1"].origin.value, links["gear2"].origin.value

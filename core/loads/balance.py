@@ -34,7 +34,7 @@ class BalancedLoads(LoadsBase):
     # Counterweights
 
     def counterweights(self) -> dict[str, complex]:
-        """Mass moments [kg m] by link in its coordinates that balance the machine as the file asks."""
+        """Mass moments [kg mm] by link in its coordinates that balance the machine as the file asks."""
         return {}
 
     @cached_property
@@ -50,7 +50,7 @@ class BalancedLoads(LoadsBase):
         """Greatest shaking force with these counterweights [N]."""
         from gearlink.core.mechanism.dynamics import Mass, shaking
 
-        # On a link that turns about its origin, 1 kg at U has the mass moment U, and nothing else in the force.
+        # On a link that turns about its origin, 1 kg at U mm has the mass moment U, and nothing else in the force.
         weights = {name: Mass(1.0, 0.0, moment) for name, moment in moments.items()}
 
         def force(phi: Reals) -> Reals:
@@ -99,7 +99,7 @@ def np_abs(values: Any) -> Reals:
 
 
 def _size(moment: complex | None) -> float | None:
-    return None if moment is None else 1e3 * abs(moment)
+    return None if moment is None else abs(moment)
 
 
 def _direction(moment: complex | None) -> float | None:

@@ -67,7 +67,7 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
         text = f"{name}: the teeth change flanks {amount(len(places), 'time')} over the period, at {listed(places)} deg"
         inside = [place for place in places if design.is_quiet(math.radians(place))]
         if inside and play:
-            lag = math.degrees(0.5e-3 * play / mesh.radius)
+            lag = math.degrees(0.5 * play / mesh.radius)
             text += (
                 f"; that at {inside[0]:.5g} deg lies where the output must stand or run true: "
                 f"the link {mesh.second} lags by {lag:.3g} deg"

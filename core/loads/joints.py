@@ -172,7 +172,7 @@ class MeshLoad:
 
     @property
     def radius(self) -> float:
-        """Pitch radius of the second gear [m]."""
+        """Pitch radius of the second gear [mm]."""
         return float(self._mesh.mate_radius)
 
     @property

@@ -58,7 +58,7 @@ class Machine:
         kinematics : function of an array of input angles [rad]
         masses : by link
         sources : Sources
-        gravity : complex [m/s^2]
+        gravity : complex [mm/s^2]
         speed : float [rad/s] - of the input, signed, not 0
         turns : int - input turns after which everything repeats
         friction : Coefficients or None

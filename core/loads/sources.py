@@ -11,7 +11,7 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads import courses
 from gearlink.core.mechanism.dynamics import Force, Mass, Torque
 from gearlink.core.mechanism.friction import Coefficients
-from gearlink.core.mechanism.joints import Connection, Pin, Toothed
+from gearlink.core.mechanism.joints import NEWTON_METER, Connection, Pin, Toothed
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.rates import Point, dot, fixed, sense_of
 from gearlink.core.numerics.arrays import Reals
@@ -19,12 +19,10 @@ from gearlink.core.numerics.arrays import Reals
 if TYPE_CHECKING:
     from gearlink.core.loads.spec import Body, CommonLoads, Friction, Load, Spring
 
-MM = 1e-3
-
 
 def mass_of(body: Body) -> Mass:
-    """A link's mass in SI units."""
-    return Mass(body.mass, body.inertia, vector(body.center or [0.0, 0.0]) * MM)
+    """A link's mass."""
+    return Mass(body.mass, body.inertia, vector(body.center or [0.0, 0.0]))
 
 
 def vector(pair: list[float]) -> complex:
@@ -33,8 +31,8 @@ def vector(pair: list[float]) -> complex:
 
 
 def gravity_of(section: CommonLoads) -> complex:
-    """Gravity [m/s^2]."""
-    return vector(section.gravity)
+    """Gravity [mm/s^2], which the file gives in m/s^2."""
+    return 1e3 * vector(section.gravity)
 
 
 def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coefficients:
@@ -53,7 +51,7 @@ def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coeff
     if given.pin_radius == 0.0 and any(pins):
         words = "friction of pins acts at their radius: give loads.friction.pin_radius (mm)"
         raise MissingSection(words, key="loads.friction")
-    return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * MM, dict(given.joints))
+    return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius, dict(given.joints))
 
 
 class Sources:
@@ -122,7 +120,7 @@ def _require_sort(load: Load, slides: bool, key: str) -> None:
 def _load(load: Load, mechanism: Mechanism, phi: Reals, sense: float) -> Force | Torque:
     link, travel = mechanism.links[load.on], mechanism.travel.get(load.on)
     if isinstance(load.force, list):
-        place = link.at(vector(load.point or [0.0, 0.0]) * MM)
+        place = link.at(vector(load.point or [0.0, 0.0]))
         return Force(load.on, vector(load.force) + np.zeros_like(place.value), place)
     if travel is not None:
         if load.force is not None:
@@ -135,8 +133,10 @@ def _load(load: Load, mechanism: Mechanism, phi: Reals, sense: float) -> Force |
             )
         return Force(load.on, (size * travel).astype(np.complex128), link.origin)
     if load.torque is not None:
-        return Torque(load.on, courses.values(load.torque, phi))
-    return Torque(load.on, -(load.resistance or 0.0) * sense * sense_of(link.turn.first, link.turn.second))
+        torque = courses.values(load.torque, phi)
+    else:
+        torque = -(load.resistance or 0.0) * sense * sense_of(link.turn.first, link.turn.second)
+    return Torque(load.on, torque * NEWTON_METER)
 
 
 def _spring(spring: Spring, mechanism: Mechanism, phi: Reals, key: str) -> Iterator[Force]:
@@ -144,13 +144,13 @@ def _spring(spring: Spring, mechanism: Mechanism, phi: Reals, key: str) -> Itera
     ends = [_end(name, place, mechanism, phi) for name, place in zip(spring.between, spring.points, strict=True)]
     way = ends[1].value - ends[0].value
     length = np.abs(way)
-    if not np.all(length > 1e-9):
+    if not np.all(length > 1e-6):
         raise NoSolution("this spring has no length somewhere in the turn: move one of its points", key=f"{key}.points")
-    pull = (spring.preload + spring.rate / MM * (length - spring.free_length * MM)) * way / length
+    pull = (spring.preload + spring.rate * (length - spring.free_length)) * way / length
     for name, end, sign in zip(spring.between, ends, (1.0, -1.0), strict=True):
         if name != FRAME:
             yield Force(name, sign * pull, end)
 
 
 def _end(name: str, place: list[float], mechanism: Mechanism, phi: Reals) -> Point:
-    return fixed(vector(place) * MM, phi) if name == FRAME else mechanism.links[name].at(vector(place) * MM)
+    return fixed(vector(place), phi) if name == FRAME else mechanism.links[name].at(vector(place))

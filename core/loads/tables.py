@@ -133,7 +133,7 @@ def harmonics(design: LoadsDesign, samples: int | None = None) -> Table:
     at = order * abs(machine.speed)
     transfer = np.abs(w_n**2 - at**2 + 2j * zeta * w_n * at)
     mass = design.masses.get(design.output)
-    inertia = 0.0 if mass is None else 1e-3 * mass.mass if vibrating.slides else np.radians(mass.inertia)
+    inertia = 0.0 if mass is None else mass.tonnes if vibrating.slides else np.radians(mass.inertia)
     columns = {
         "order": (order, "1"),
         "frequency": (at / (2.0 * np.pi), "Hz"),

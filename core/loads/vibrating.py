@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _DEGREES = 180.0 / math.pi
-_MM = 1e3
 _MOST_PERIODS = 40.0
 _PER_UNIT = 50
 _PER_TURN, _PER_PERIOD, _MOST_ROWS = 115.0, 2.0, 20_000  # by radians: two a degree, and twelve a natural period
@@ -99,7 +98,7 @@ class Vibrating:
         mechanism = self.design.machine.at(phi)
         link = mechanism.links[self.design.output]
         if self.slides:
-            return _MM * dot(mechanism.travel[self.design.output], link.origin.second)
+            return dot(mechanism.travel[self.design.output], link.origin.second)
         return _DEGREES * link.turn.second
 
     def place(self, phi: Reals) -> Reals:
@@ -107,7 +106,7 @@ class Vibrating:
         mechanism = self.design.machine.at(phi)
         link = mechanism.links[self.design.output]
         if self.slides:
-            return _MM * dot(mechanism.travel[self.design.output], link.origin.value)
+            return dot(mechanism.travel[self.design.output], link.origin.value)
         return _DEGREES * link.turn.value
 
     @cached_property

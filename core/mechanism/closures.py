@@ -1,4 +1,4 @@
-"""What closes links: a pin that joins two of them, and a rod to a slider on a line. Lengths in m."""
+"""What closes links: a pin that joins two of them, and a rod to a slider on a line. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
     D3 = Q''' - P''' + b (3 t2' t2'' + i t2'^3) e2 - c (3 t3' t3'' + i t3'^3) e3
 
     Parameters
-        start, end : Point [m] - P and Q, both may move
-        first, second : float [m] - b, c
+        start, end : Point [mm] - P and Q, both may move
+        first, second : float [mm] - b, c
         side : +1 or -1 - +1: the pin lies left of the vector from start to end
     Returns
         t2, t3 : Turn - P->pin and Q->pin, in (-pi, pi] at every row (not unwrapped)
@@ -38,8 +38,7 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
     near, far = (n - first + second) * (n + first - second), (first + second - n) * (first + second + n)
     if not np.all((near > 0.0) & (far > 0.0)):
         row = int(np.argmin(np.minimum(near, far)))
-        raise NoSolution(f"two links of {1e3 * first:.6g} and {1e3 * second:.6g} mm do not close over "
-                         f"{1e3 * n[row]:.6g} mm")  # fmt: skip
+        raise NoSolution(f"two links of {first:.6g} and {second:.6g} mm do not close over {n[row]:.6g} mm")
     along = 0.5 * (n + (first - second) * (first + second) / n)
     pin = way / n * (along + 0.5j * side * np.sqrt(near * far) / n)
     e2, e3 = pin / first, (pin - way) / second
@@ -66,9 +65,9 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
     x''' = Re(conj(u) E''') - L (g''' sin g + 3 g' g'' cos g - g'^3 sin g)
 
     Parameters
-        pin : Point [m] - E
-        rod : float [m] - L, the slider lies from the pin in the sense of u
-        place, along : complex [m, 1] - Q and the unit vector u of the line Q + x u
+        pin : Point [mm] - E
+        rod : float [mm] - L, the slider lies from the pin in the sense of u
+        place, along : complex [mm, 1] - Q and the unit vector u of the line Q + x u
     Returns
         psi, F : Turn, Point - direction of the rod from the pin, and the slider's place
     Raises
@@ -77,7 +76,7 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
     local = np.conj(along) * (pin.value - place)
     sine = -local.imag / rod
     if not np.all(np.abs(sine) < 1.0):
-        raise NoSolution(f"a rod of {1e3 * rod:.6g} mm does not reach the slide line")
+        raise NoSolution(f"a rod of {rod:.6g} mm does not reach the slide line")
     cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
     psi, x = [np.angle(along) + np.arcsin(sine)], [local.real + rod * cosine]
     if pin.order > 0:

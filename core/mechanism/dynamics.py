@@ -1,6 +1,7 @@
 """Torque by virtual power and all reactions by Newton and Euler, over arrays of input angles.
 
-Both start from the same links; they agree to rounding at every row, which is the check of either. SI units.
+Both start from the same links; they agree to rounding at every row, which is the check of either. In mm, N and t;
+what is handed out is in kg m^2, N and N m.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.mechanism.blocks import Block, blocks
-from gearlink.core.mechanism.joints import Act, Column, meshes_of
+from gearlink.core.mechanism.joints import NEWTON_METER, Act, Column, meshes_of
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.rates import Point, cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
@@ -22,11 +23,21 @@ from gearlink.core.numerics.arrays import Points, Reals
 
 @dataclass(frozen=True, slots=True)
 class Mass:
-    """Mass [kg], inertia about the centre of mass [kg m^2] and that centre in link coordinates [m]."""
+    """Mass [kg], inertia about the centre of mass [kg m^2] and that centre in link coordinates [mm]."""
 
     mass: float = 0.0
     inertia: float = 0.0
     center: complex = 0j
+
+    @property
+    def tonnes(self) -> float:
+        """Mass [t]."""
+        return self.mass / 1e3
+
+    @property
+    def moment(self) -> float:
+        """Inertia [t mm^2]."""
+        return self.inertia * NEWTON_METER
 
 
 class Force(NamedTuple):
@@ -38,7 +49,7 @@ class Force(NamedTuple):
 
 
 class Torque(NamedTuple):
-    """A torque [N m] on a link, counter-clockwise positive."""
+    """A torque [N mm] on a link, counter-clockwise positive."""
 
     on: str
     torque: Reals
@@ -92,7 +103,7 @@ def reduced(
         mechanism : Mechanism
         masses : by link; a link that is left out has none
         applied : forces and torques, springs among them
-        gravity : complex [m/s^2]
+        gravity : complex [mm/s^2]
         shaft_inertia : float [kg m^2] - of what turns evenly with the input, reduced to it
     Source
         virtual power; no differences are taken
@@ -101,14 +112,15 @@ def reduced(
     for name, mass in masses.items():
         link = mechanism.links[name]
         center, turn = link.at(mass.center), link.turn
-        inertia += mass.mass * dot(center.first, center.first) + mass.inertia * turn.first**2
-        slope += 2.0 * (mass.mass * dot(center.first, center.second) + mass.inertia * turn.first * turn.second)
-        weight += mass.mass * dot(gravity, center.first)
+        inertia += mass.tonnes * dot(center.first, center.first) + mass.moment * turn.first**2
+        slope += 2.0 * (mass.tonnes * dot(center.first, center.second) + mass.moment * turn.first * turn.second)
+        weight += mass.tonnes * dot(gravity, center.first)
     for each in applied:
         if isinstance(each, Force):
             load += dot(each.force, each.at.first)
         else:
             load += each.torque * mechanism.links[each.on].turn.first
+    inertia, slope, weight, load = (each / NEWTON_METER for each in (inertia, slope, weight, load))
     return Reduced(inertia + shaft_inertia, slope, weight, load)
 
 
@@ -127,14 +139,14 @@ def power_parts(
     for name, mass in masses.items():
         link = mechanism.links[name]
         center, turn = link.at(mass.center), link.turn
-        found += mass.mass * np.abs(center.first) * (np.abs(center.second) * square + abs(gravity))
-        found += mass.inertia * np.abs(turn.first * turn.second) * square
+        found += mass.tonnes * np.abs(center.first) * (np.abs(center.second) * square + abs(gravity))
+        found += mass.moment * np.abs(turn.first * turn.second) * square
     for each in applied:
         if isinstance(each, Force):
             found += np.abs(each.force) * np.abs(each.at.first)
         else:
             found += np.abs(each.torque * mechanism.links[each.on].turn.first)
-    return found
+    return found / NEWTON_METER
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +154,7 @@ class Reactions:
     """Everything that the links exchange.
 
     Fields
-        unknowns : by connection - (unknowns, N) array: X and Y of a pin, N and couple of a guide, F_t, N
+        unknowns : by connection - (unknowns, N) array: X and Y of a pin, N and couple of a guide, F_t, N; [N], [N m]
         torque : (N,) array [N m] - of the drive, in the sense of the input
         mechanism : Mechanism
     """
@@ -180,7 +192,7 @@ class System:
         self.columns = [(each.name, column) for each in mechanism.connections for column in each.columns()]
         if mechanism.gain is None:
             place = np.zeros(mechanism.rows, dtype=np.complex128)
-            self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense)))
+            self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense * NEWTON_METER)))
         self.size = 3 * len(self.index)
         if len(self.columns) != self.size:
             raise AssertionError(f"{len(self.columns)} unknowns for {self.size} equations")
@@ -253,8 +265,8 @@ class System:
         square = np.asarray(speed) ** 2
         for name, mass in self.masses.items():
             k, center, turn = 3 * self.index[name], self.centers[name], self.mechanism.links[name].turn
-            force = mass.mass * (center.second * square + center.first * acceleration - gravity)
-            couple = mass.inertia * (turn.second * square + turn.first * acceleration)
+            force = mass.tonnes * (center.second * square + center.first * acceleration - gravity)
+            couple = mass.moment * (turn.second * square + turn.first * acceleration)
             for row, value in ((k, force.real), (k + 1, force.imag), (k + 2, couple)):
                 side[row] = side[row] + value if row in side else value
         return side
@@ -337,7 +349,7 @@ class System:
         for k, (name, _) in enumerate(self.columns):
             rows.setdefault(name, []).append(solution[k])
         gain = self.mechanism.gain
-        torque = rows.pop("drive")[0] if gain is None else gain * rows[self.mechanism.drive][0]
+        torque = rows.pop("drive")[0] if gain is None else gain * rows[self.mechanism.drive][0] / NEWTON_METER
         return Reactions({name: np.array(values) for name, values in rows.items()}, torque, self.mechanism)
 
 
@@ -367,8 +379,8 @@ def shaking(mechanism: Mechanism, masses: Masses, speed: Reals | float, accelera
     for name, mass in masses.items():
         link = mechanism.links[name]
         center, turn = link.at(mass.center), link.turn
-        inertial = mass.mass * (center.second * square + center.first * acceleration)
+        inertial = mass.tonnes * (center.second * square + center.first * acceleration)
         force -= inertial
         moment -= cross(center.value - mechanism.pivot, inertial)
-        moment -= mass.inertia * (turn.second * square + turn.first * acceleration)
-    return force, moment
+        moment -= mass.moment * (turn.second * square + turn.first * acceleration)
+    return force, moment / NEWTON_METER

@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.mechanism.dynamics import Applied, Masses, Reactions, System
 from gearlink.core.mechanism.joints import (
+    NEWTON_METER,
     Act,
     Connection,
     Contact,
@@ -42,7 +43,7 @@ class Coefficients:
 
     Fields
         pins, guides : float - coefficients; meshes : float - efficiency
-        pin_radius : float [m]
+        pin_radius : float [mm]
         joints : by name, in place of these
     """
 
@@ -64,7 +65,7 @@ class Coefficients:
         )
 
     def of(self, connection: Connection) -> float:
-        """Couple or force per force: mu r of a pin [m], mu of a guide, (1 - eta) of a mesh."""
+        """Couple or force per force: mu r of a pin [mm], mu of a guide, (1 - eta) of a mesh."""
         own = self.joints.get(connection.name)
         if isinstance(connection, Pin):
             return self.pin_radius * (self.pins if own is None else own)
@@ -112,7 +113,7 @@ class Coefficients:
 
 
 def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:
-    """Relative turning of a pin, travel of a guide [m], rolling of a mesh; per input angle, or its derivative."""
+    """Relative turning of a pin, travel of a guide [mm], rolling of a mesh; per input angle, or its derivative."""
     if isinstance(connection, Guide):
         return dot(connection.along, mechanism.links[connection.second].origin.derivative(order))
     if isinstance(connection, Rack):
@@ -330,7 +331,7 @@ def losses(found: Reactions, friction: Coefficients, speed: float) -> Reals:
             pairs = ((column.second, force), (column.first, -force))
             taken[unit.name] = {on: _power(joint, mechanism, Act(on, f, column.at, 0.0)) for on, f in pairs}
             if isinstance(joint, ToothDrive):
-                taken[unit.name][FRAME] = -found.torque  # of the wheel
+                taken[unit.name][FRAME] = -found.torque * NEWTON_METER  # of the wheel
         for act in unit.acts:
             power = size * _power(joint, mechanism, act)
             if not is_mesh:
@@ -340,7 +341,7 @@ def losses(found: Reactions, friction: Coefficients, speed: float) -> Reals:
     for name, powers in taken.items():
         put_in = -np.minimum(*(speed * power for power in powers.values()))
         total += friction.of(joints[name]) * put_in
-    return total
+    return total / NEWTON_METER
 
 
 def _power(joint: Connection, mechanism: Mechanism, act: Act) -> Reals:

@@ -1,7 +1,8 @@
 """What connects links: pins, guides, teeth, rollers on cams, and the unknown forces that each of them has.
 
-Lengths in m. A connection acts on its second link with the forces named here and on its first link with the opposite.
-The unknowns are linear, so that all of them come out of one system.
+Lengths in mm, couples in N mm. A connection acts on its second link with the forces named here and on its first link
+with the opposite. The unknowns are linear, so that all of them come out of one system; those that are couples are in
+N m.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ import numpy as np
 
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.numerics.arrays import Mask, Points, Reals
+
+NEWTON_METER = 1e3
+"""[N mm]; so many t mm^2 are a kg m^2 as well."""
 
 
 class Act(NamedTuple):
@@ -74,7 +78,7 @@ class Guide:
         """The force i u and the couple."""
         return [
             Column(self.first, self.second, 1j * self.along, self.at, 0.0),
-            Column(self.first, self.second, 0j, self.at, 1.0),
+            Column(self.first, self.second, 0j, self.at, NEWTON_METER),
         ]
 
 
@@ -83,9 +87,9 @@ class Mesh:
     """A gear mesh: the tangential force at the pitch point, and the radial one that goes with its magnitude.
 
     Fields
-        center : (N,) array [m] - centre of the first gear
+        center : (N,) array [mm] - centre of the first gear
         toward : (N,) array - e, unit vector from the first centre to the second (of a ring: to the planet's)
-        radius, mate_radius : float [m] - working radii of the first and the second gear
+        radius, mate_radius : float [mm] - working radii of the first and the second gear
         tangent : float - tan of the working pressure angle
         internal : bool - the first gear is a ring
         carrier : str - link that holds both axes, for the friction of the mesh
@@ -122,9 +126,9 @@ class Rack:
     """A rack that a pinion meets: the force along the pitch line, and the separating one.
 
     Fields
-        center : (N,) array [m] - of the pinion
+        center : (N,) array [mm] - of the pinion
         along, normal : complex - of the pitch line; from the rack to the pinion
-        mate_radius : float [m] - of the pinion
+        mate_radius : float [mm] - of the pinion
         tangent : float - tan of the pressure angle
     """
 
@@ -158,9 +162,9 @@ class ToothDrive:
     """A drive by teeth that are there for a part of the turn only; then a lock holds the link.
 
     Fields
-        center : (N,) array [m] - of the driven gear
+        center : (N,) array [mm] - of the driven gear
         toward : complex - from there to the wheel
-        mate_radius : float [m] - working radius of the driven gear
+        mate_radius : float [mm] - working radius of the driven gear
         moves : (N,) array of bool - where teeth are in mesh
     """
 
@@ -181,7 +185,7 @@ class ToothDrive:
     def columns(self) -> list[Column]:
         """F_t along i e on the driven gear; a couple where it is locked."""
         along = np.where(self.moves, 1j * self.toward, 0j)
-        return [Column(self.first, self.second, along, self.pitch_point, np.where(self.moves, 0.0, 1.0))]
+        return [Column(self.first, self.second, along, self.pitch_point, np.where(self.moves, 0.0, NEWTON_METER))]
 
     def radial(self) -> Radial:
         """Away from the wheel."""
@@ -233,7 +237,8 @@ class Coupling:
 
     def columns(self) -> list[Column]:
         """A couple on the second shaft; -ratio times it on the first, the frame takes the rest."""
-        return [Column(FRAME, self.second, 0j, self.at, 1.0, (Act(self.first, 0j, self.at, -self.ratio),))]
+        on_first = Act(self.first, 0j, self.at, -self.ratio * NEWTON_METER)
+        return [Column(FRAME, self.second, 0j, self.at, NEWTON_METER, (on_first,))]
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """What a machine is: links that move, and what connects them.
 
-Lengths in m, angles in rad; `FRAME` stands for the frame.
+Lengths in mm, angles in rad; `FRAME` stands for the frame.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Link:
         return units(self.turn.value)
 
     def at(self, arm: complex) -> Point:
-        """A point given in link coordinates [m], computed once."""
+        """A point given in link coordinates [mm], computed once."""
         if arm not in self._points:
             self._points[arm] = carried(self.origin, self.turn, arm, self.unit)
         return self._points[arm]
@@ -54,9 +54,9 @@ class Mechanism:
         connections : what joins them
         drive : str - link that the input torque acts on, or the connection that drives (`gain` then says how)
         sense : float - +1 where that link turns with the input, -1 where against it
-        pivot : complex [m] - about which the frame's moment is taken
+        pivot : complex [mm] - about which the frame's moment is taken
         travel : direction in which a link slides, for a force given as a number
-        gain : (N,) array [N m per unit] - input torque by the force of the connection `drive`; None for a couple
+        gain : (N,) array [mm] - input torque by the force of the connection `drive`; None for a couple
     """
 
     links: Mapping[str, Link]

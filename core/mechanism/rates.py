@@ -1,7 +1,7 @@
 """Points and angles of moving links with up to three exact derivatives with respect to the input angle.
 
 Everything that a machine needs is built from three pieces: a point carried by a link, and those of `closures`, a pin
-that closes two links and a rod to a slider. Each gives as many derivatives as what it is made of has. Lengths in m.
+that closes two links and a rod to a slider. Each gives as many derivatives as what it is made of has. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class Turn(Rates[Reals]):
 
 
 class Point(Rates[Points]):
-    """A point of the plane [m] and its derivatives."""
+    """A point of the plane [mm] and its derivatives."""
 
     __slots__ = ()
 
@@ -145,7 +145,7 @@ def carried(origin: Point, turn: Turn, arm: complex, unit: Points | None = None)
     Parameters
         origin : Point - of the link
         turn : Turn - of the link
-        arm : complex [m] - s, in link coordinates
+        arm : complex [mm] - s, in link coordinates
         unit : (N,) array - e^(i t), where the caller has it
     Example
         >>> phi = np.array([0.0])

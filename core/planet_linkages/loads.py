@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.gears.outline.mesh_phase import signed_pair
-from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
@@ -75,10 +75,10 @@ class PlanetLinkageLoads(LoadsDesign):
 
     @cached_property
     def rolling(self) -> tuple[float, float, float]:
-        """Working radii of output gear and coupler gear [m], and the tangent of their working pressure angle."""
+        """Working radii of output gear and coupler gear [mm], and the tangent of their working pressure angle."""
         pair = signed_pair(self.design.mesh)
         r2, r5 = pair.working_radius
-        return abs(r5) * MM, r2 * MM, math.tan(pair.working_pressure_angle)
+        return abs(r5), r2, math.tan(pair.working_pressure_angle)
 
 
 class TwoGearLoads(PlanetLinkageLoads):

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.six_bar.loads_spec import SixBarLoads as Section
     from gearlink.core.six_bar.spec import GearedSixBarSpec
 
-_MM = 1e-3
 _LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 _HOLDING = ("frame", *_LINKS[1:5], "frame")
 """By pin, the link that it is held in: what else turns on the pin runs against this one."""
@@ -135,8 +134,8 @@ class SixBarLoads(LoadsDesign):
         links, places = {}, [fixed(0j, phi, order=order)]
         for name, turn, length in zip(_LINKS[1:5], turns[:4], lengths[1:5], strict=True):
             links[name] = Link(places[-1], turn)
-            places.append(links[name].at(length * _MM))
-        places.append(fixed(lengths[0] * _MM, phi, order=order))
+            places.append(links[name].at(length))
+        places.append(fixed(lengths[0], phi, order=order))
         # The loop runs from E to F, the x axis of the output from its pivot F to E.
         links["output"] = Link(places[-1], from_start(turns[4], -math.pi))
         turned = [from_start(turn, start) for turn, start in zip(turns, starts, strict=True)]
@@ -179,7 +178,7 @@ class SixBarLoads(LoadsDesign):
         toward: Points | complex = -1.0 + 0j if carrier == FRAME else links[carrier].unit
         toward = -toward if carrier == "output" else toward
         teeth = train.gears[k : k + 2]
-        r1, r2 = (0.5 * train.module * abs(z) * _MM for z in teeth)  # gears without shift roll on their pitch circles
+        r1, r2 = (0.5 * train.module * abs(z) for z in teeth)  # gears without shift roll on their pitch circles
         tangent, name = math.tan(math.radians(train.pressure_angle)), f"mesh_{number + 1}{PINS[one]}{PINS[other]}"
         if teeth[1] < 0:
             return Mesh(name, second, first, places[other].value, -toward, r2, r1, tangent, True, carrier)

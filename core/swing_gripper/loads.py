@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from gearlink.core.swing_gripper.loads_spec import GripperLoads as Section
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
-_MM = 1e-3
-
 
 class GripperLoads(CamLoadsDesign):
     """Input angle: that of the cylinder shaft; A, C, D, E are the pins of the linkage, O the bearing of the cams."""
@@ -78,7 +76,7 @@ class GripperLoads(CamLoadsDesign):
         given = require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker")
         found = {
             "input": Mass(0.0, given.input),
-            "coupler": Mass(given.coupler_mass, given.coupler, complex(0.5 * self.spec.links.coupler * _MM)),
+            "coupler": Mass(given.coupler_mass, given.coupler, complex(0.5 * self.spec.links.coupler)),
             "output": Mass(0.0, given.output),
         }
         if "return" in self.own_rollers:
@@ -97,10 +95,12 @@ class GripperLoads(CamLoadsDesign):
         import numpy as np
 
         from gearlink.core.mechanism.dynamics import Torque
+        from gearlink.core.mechanism.joints import NEWTON_METER
 
         if self.spec.spring is None:
             return []
-        torque = np.full_like(phi, self.design.closure.lift_sense * self.design.closing_torque)
+        closing = self.design.closure.lift_sense * self.design.closing_torque * NEWTON_METER
+        torque = np.full_like(phi, closing)
         found: list[Force | Torque] = [Torque("input", -torque)]
         if "return" in self.own_rollers:
             found.append(Torque("return_rocker", torque))
@@ -139,7 +139,7 @@ class GripperLoads(CamLoadsDesign):
 
         cam = self._cam(name)
         path = cam.path(phi, 2)
-        return RollerOnCam(path.position * _MM, path.first * _MM, path.second * _MM, cam.sense, cam.roller_radius * _MM)
+        return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Out of the reactions."""
@@ -185,11 +185,11 @@ class GripperLoads(CamLoadsDesign):
         parts = ("angle", "velocity", "acceleration", "jerk")[: order + 1]
         names = ("input", "coupler", "output")
         turns = {name: Turn(*(getattr(motion, f"{name}_{part}") for part in parts)) for name in names}
-        a, e = (fixed(complex(*point) * _MM, phi, order=order) for point in (pivots.input, pivots.output))
+        a, e = (fixed(complex(*point), phi, order=order) for point in (pivots.input, pivots.output))
         rocker = Link(a, turns["input"])
-        c = rocker.at(self.spec.links.input * _MM)
+        c = rocker.at(self.spec.links.input)
         sense = self.spec.cam.sense
-        axis = fixed(self.design.cam_center * _MM, phi, order=order)
+        axis = fixed(self.design.cam_center, phi, order=order)
         links = {
             "input": rocker,
             "coupler": Link(c, turns["coupler"]),
@@ -199,7 +199,7 @@ class GripperLoads(CamLoadsDesign):
         connections: list[Connection] = [
             Pin("A", FRAME, "input", a.value),
             Pin("C", "input", "coupler", c.value),
-            Pin("D", "coupler", "output", links["output"].at(self.spec.links.output * _MM).value),
+            Pin("D", "coupler", "output", links["output"].at(self.spec.links.output).value),
             Pin("E", FRAME, "output", e.value),
             Pin("O", FRAME, "cam", axis.value),
         ]
@@ -210,7 +210,7 @@ class GripperLoads(CamLoadsDesign):
         for name, roller in rollers.items():
             arm = "input" if name == "main" else "return_rocker"
             connections.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
-        made = Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center * _MM)
+        made = Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center)
         for name, roller in rollers.items():
             made.once(f"roller {name}", lambda roller=roller: roller)  # type: ignore[misc]
         return made

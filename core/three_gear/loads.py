@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins, full_balance
 from gearlink.core.linkages.fourbar.position import solve
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
@@ -91,13 +91,13 @@ class ThreeGearLoads(LoadsDesign):
 
     @cached_property
     def _rolling(self) -> list[tuple[float, float, float]]:
-        """Working radii [m] of both meshes and the tangent of their working pressure angle."""
+        """Working radii [mm] of both meshes and the tangent of their working pressure angle."""
         design, gears = self.design, self.spec.gears
         if design.own_teeth:
             crank, output = design.meshes.values()
             (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
             return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
-        train, half = design.train, 0.5 * gears.module * MM
+        train, half = design.train, 0.5 * gears.module
         tangent = math.tan(math.radians(gears.pressure_angle))
         r1, r3, r5 = (half * teeth for teeth in (train.crank, train.idler, train.output))
         return [(r1, r3, tangent), (r3, r5, tangent)]
@@ -117,7 +117,7 @@ class ThreeGearLoads(LoadsDesign):
         i2, i3 = -train.crank / train.idler, -train.idler / train.output
         idler = mixed((i2, links["crank"].turn), (1.0 - i2, coupler))
         pins = four_bar_pins(links, linkage)
-        center_c = links["rocker"].at(linkage.rocker * MM)
+        center_c = links["rocker"].at(linkage.rocker)
         links["idler"] = Link(center_c, idler)
         links["output"] = Link(links["rocker"].origin, mixed((i3, idler), (1.0 - i3, rocker)))
         (r1, r3, flank), (r3_out, r5, flank_out) = self._rolling
@@ -134,6 +134,6 @@ class ThreeGearLoads(LoadsDesign):
 
 
 def _rolling_of(pair: Any) -> tuple[float, float, float]:
-    """Working radii [m] and the tangent of the working pressure angle."""
+    """Working radii [mm] and the tangent of the working pressure angle."""
     r1, r2 = pair.working_radius
-    return r1 * MM, r2 * MM, math.tan(pair.working_pressure_angle)
+    return r1, r2, math.tan(pair.working_pressure_angle)

@@ -166,8 +166,8 @@ def _drive_rooms(loads: WideSwingLoads) -> dict[str, float]:
 
     def distance(name: str, phi: Reals) -> Reals:
         at = loads.machine.at(phi).links
-        start, end = (at[name].at(place).value for place in (0j, 1e-3 * lengths[name]))
-        return 1e3 * beside_line(at["rocker"].origin.value, start, end)
+        start, end = (at[name].at(place).value for place in (0j, lengths[name]))
+        return beside_line(at["rocker"].origin.value, start, end)
 
     return {name: _least(lambda phi, name=name: distance(name, phi), 0.0, math.tau) for name in lengths}  # type: ignore[misc]
 

@@ -12,8 +12,6 @@ from gearlink.core.mechanism.links import FRAME, Link
 from gearlink.core.mechanism.rates import Turn, carried, fixed, steady
 from gearlink.core.numerics.arrays import Reals
 
-MM = 1e-3
-
 
 def turns(linkage: FourBar, crank_angle: Reals, order: int, *, velocity: float = 1.0) -> tuple[Turn, Turn]:
     """Angles of coupler and rocker, with so many derivatives for a crank that turns evenly with a velocity."""
@@ -24,7 +22,7 @@ def turns(linkage: FourBar, crank_angle: Reals, order: int, *, velocity: float =
 
 
 def four_bar(linkage: FourBar, phi: Reals, order: int = 2) -> dict[str, Link]:
-    """Crank, coupler and rocker at crank angles, A at 0 and D on +x; lengths in m.
+    """Crank, coupler and rocker at crank angles, A at 0 and D on +x; lengths in mm.
 
     Parameters
         linkage : FourBar [mm]
@@ -44,8 +42,8 @@ def four_bar(linkage: FourBar, phi: Reals, order: int = 2) -> dict[str, Link]:
     crank = Link(fixed(0j, phi, order=order), steady(phi, order=order))
     return {
         "crank": crank,
-        "coupler": Link(carried(crank.origin, crank.turn, linkage.crank * MM), coupler),
-        "rocker": Link(fixed(linkage.frame * MM, phi, order=order), rocker),
+        "coupler": Link(carried(crank.origin, crank.turn, linkage.crank), coupler),
+        "rocker": Link(fixed(linkage.frame, phi, order=order), rocker),
     }
 
 
@@ -54,7 +52,7 @@ def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:
     return [
         Pin("A", FRAME, "crank", links["crank"].origin.value),
         Pin("B", "crank", "coupler", links["coupler"].origin.value),
-        Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker * MM).value),
+        Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker).value),
         Pin("D", FRAME, "rocker", links["rocker"].origin.value),
     ]
 
@@ -66,19 +64,19 @@ def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0
 
     Parameters
         linkage : FourBar [mm]
-        masses : by link - crank, coupler, rocker, in SI units
+        masses : by link - crank, coupler, rocker
         at_c : float [kg] - mass of what turns on C
     Returns
-        moments : complex [kg m] by link - of crank and rocker, in their coordinates
+        moments : complex [kg mm] by link - of crank and rocker, in their coordinates
     Example
-        >>> moments = full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 0.01)})
+        >>> moments = full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 10.0)})
         >>> moments["crank"].real, abs(moments["rocker"])
-        (-0.02, 0.0)
+        (-20.0, 0.0)
 
     Source
         linearly independent vectors (Berkof and Lowen, 1969)
     """
-    a, b, c = linkage.crank * MM, linkage.coupler * MM, linkage.rocker * MM
+    a, b, c = linkage.crank, linkage.coupler, linkage.rocker
     crank, coupler, rocker = (masses.get(name, Mass()) for name in ("crank", "coupler", "rocker"))
     share = coupler.center / b
     return {

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
-_MM = 1e-3
-
 
 class SliderCrankLoads(LoadsDesign):
     """Input angle: direction of the crank from +x; the slider lies below on x = -offset and travels along -y."""
@@ -54,9 +52,9 @@ class SliderCrankLoads(LoadsDesign):
         from gearlink.core.mechanism.dynamics import Mass
 
         crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links)
-        part = rod.center / (self.spec.rod * _MM)
+        part = rod.center / self.spec.rod
         reciprocating = slider.mass + rod.mass * part
-        radius = self.slider_crank.crank_length * _MM
+        radius = self.slider_crank.crank_length
         return -(crank.mass * crank.center + radius * (rod.mass * (1.0 - part) + share * reciprocating))
 
     def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
@@ -67,8 +65,8 @@ class SliderCrankLoads(LoadsDesign):
         from gearlink.core.mechanism.rates import fixed, standing, steady
 
         crank = Link(fixed(0j, phi, order=order), steady(phi, order=order))
-        pin = crank.at(self.slider_crank.crank_length * _MM)
-        turn, end = slider(pin, self.spec.rod * _MM, complex(-self.spec.offset * _MM), -1j)
+        pin = crank.at(self.slider_crank.crank_length)
+        turn, end = slider(pin, self.spec.rod, complex(-self.spec.offset), -1j)
         links = {"crank": crank, "rod": Link(pin, turn), "slider": Link(end, standing(0.0, phi, order=order))}
         connections: list[Connection] = [
             Pin("D", FRAME, "crank", crank.origin.value),

@@ -1,7 +1,7 @@
 """Roller on cam: normals, curvature, force by lever, Hertzian pressure, roller and entrainment speed.
 
 World coordinates with the cam axis at 0, B the roller's centre, ' by the turned angle of the cam, eps its sense.
-Lengths in m, forces in N, pressures in N/mm^2.
+Lengths in mm, forces in N, pressures in N/mm^2.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from gearlink.core.mechanism.joints import NEWTON_METER
 from gearlink.core.mechanism.rates import cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
@@ -25,9 +26,9 @@ class RollerOnCam:
     """A roller over the turned angle of its cam.
 
     Fields
-        position, first, second : (N,) complex arrays [m] - B, B', B''
+        position, first, second : (N,) complex arrays [mm] - B, B', B''
         sense : +1 or -1 - eps
-        radius : float [m] - r_g
+        radius : float [mm] - r_g
     """
 
     position: Points
@@ -53,12 +54,12 @@ class RollerOnCam:
 
     @cached_property
     def curvature(self) -> Reals:
-        """kappa of the pitch curve [1/m], positive where it is convex."""
+        """kappa of the pitch curve [1/mm], positive where it is convex."""
         return np.asarray(-self.sense * cross(self.rate, self.bend) / np.abs(self.rate) ** 3)
 
     @cached_property
     def relative_radius(self) -> Reals:
-        """R = r_g (1 - r_g kappa) [m], of roller and profile in contact; 0 at a cusp."""
+        """R = r_g (1 - r_g kappa) [mm], of roller and profile in contact; 0 at a cusp."""
         return np.asarray(self.radius * (1.0 - self.radius * self.curvature))
 
     @cached_property
@@ -74,13 +75,13 @@ class RollerOnCam:
 
     @cached_property
     def entrainment(self) -> Reals:
-        """Speed of both surfaces through the contact per cam speed [m]: |D1| (1 - r_g kappa)."""
+        """Speed of both surfaces through the contact per cam speed [mm]: |D1| (1 - r_g kappa)."""
         return np.asarray(np.abs(self.rate) * (1.0 - self.radius * self.curvature))
 
     def cam_torque(self, force: Reals) -> Reals:
         """Torque that drives the cam, counter-clockwise [N m]: B x N n_out."""
         push: Points = np.asarray(force * self.normal)
-        return cross(self.position, push)
+        return cross(self.position, push) / NEWTON_METER
 
 
 def plane_modulus(modulus: float, poisson: float) -> float:

@@ -93,7 +93,7 @@ class CamLoadsDesign(LoadsDesign):
         from gearlink.core.loads.spec import Material
 
         material = self.section.material or Material()
-        radius = 1e3 * self.roller_on_cam(name, phi).relative_radius
+        radius = self.roller_on_cam(name, phi).relative_radius
         modulus = plane_modulus(material.modulus, material.poisson)
         return LineContact(self.contact_force(name, phi), radius, self.section.roller.width, modulus)
 
@@ -142,7 +142,7 @@ class CamLoadsDesign(LoadsDesign):
         return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
 
     def _radius(self, name: str, phi: Reals) -> Reals:
-        """Relative radius of a roller that is pressed [m]; its own where it is not, by which no least is found."""
+        """Relative radius of a roller that is pressed [mm]; its own where it is not, by which no least is found."""
         import numpy as np
 
         roller = self.roller_on_cam(name, phi)
@@ -214,7 +214,7 @@ class CamLoadsDesign(LoadsDesign):
 
     def entrainment(self, name: str, phi: Reals) -> Reals:
         """Speed of both surfaces through the contact [mm/s]."""
-        found: Reals = 1e3 * self.roller_on_cam(name, phi).entrainment * self.cam_speed(phi)
+        found: Reals = self.roller_on_cam(name, phi).entrainment * self.cam_speed(phi)
         return found
 
     @property
@@ -227,10 +227,12 @@ class CamLoadsDesign(LoadsDesign):
         moment."""
         import numpy as np
 
+        from gearlink.core.mechanism.joints import NEWTON_METER
+
         roller = self.section.roller
-        radius = self.roller_on_cam(name, phi).radius
-        need = (roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment) / radius
-        return np.asarray(need / self.contact_force(name, phi))
+        need = roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment
+        push = need * NEWTON_METER / self.roller_on_cam(name, phi).radius
+        return np.asarray(push / self.contact_force(name, phi))
 
     @cached_property
     def traction_needed(self) -> list[float | None] | None:

@@ -29,7 +29,7 @@ def contact(design: CamLoadsDesign, samples: int | None = None) -> Table:
         columns |= {
             f"{name}_force": (design.contact_force(name, phi), "N"),
             f"{name}_pressure": (none if line is None else line.pressure, "N/mm^2"),
-            f"{name}_radius": (1e3 * roller.relative_radius, "mm"),
+            f"{name}_radius": (roller.relative_radius, "mm"),
             f"{later}roller_speed": (design.roller_speed(name, phi) / _RPM, "1/min"),
             f"{later}entrainment": (design.entrainment(name, phi), "mm/s"),
         }

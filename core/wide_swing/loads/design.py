@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.loads.stroke import SwingStroke
     from gearlink.core.wide_swing.spec import WideSwingSpec
 
-_MM = 1e-3
 _RPM = 2.0 * math.pi / 60.0
 _CONTACT = (
     "contact_force_max",
@@ -245,7 +244,7 @@ class WideSwingLoads(LoadsDesign):
         return sector, share_of(turned - edges[sector], width[sector])
 
     def _rocker(self, sector: Any, share: Reals, order: int) -> tuple[Turn, Points, Points]:
-        """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
+        """The rocker's angle, the centre of the guided roller [mm], and the direction in which its cam pushes it."""
         import numpy as np
 
         from gearlink.core.mechanism.rates import Turn
@@ -275,7 +274,7 @@ class WideSwingLoads(LoadsDesign):
         sector, share = self._share(phi)
         turn, place, normal = self._rocker(sector, share, order)
         links, connections, sense, crank = self._driven(phi, order)
-        pivot = fixed(complex(self._side * self.cam.center_distance * _MM), phi, order=order)
+        pivot = fixed(complex(self._side * self.cam.center_distance), phi, order=order)
         links["rocker"] = Link(pivot, turn)
         connections.append(Pin("D", FRAME, "rocker", pivot.value))
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
@@ -298,7 +297,7 @@ class WideSwingLoads(LoadsDesign):
         return -1.0 if self.spec.layout == "twin-cam" else 1.0
 
     def _driven(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection], float, complex]:
-        """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
+        """The cams with what drives them, their pins, the sense of the driven link and its pivot [mm]."""
         from gearlink.core.mechanism.rates import fixed
         from gearlink.core.wide_swing.cams.outline import middle_of
         from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.loads.design import WideSwingLoads
     from gearlink.core.wide_swing.slider import SliderDrive
 
-_MM = 1e-3
 SLIDER_DIRECTION, DRIVE_DIRECTION = -90.0, -60.0
 
 
@@ -41,9 +40,9 @@ def with_slider(rocker: Link, drive: SliderDrive, direction: float) -> tuple[dic
         direction : float [rad] - from D, in which the slider is farthest
     """
     away = cmath.rect(1.0, direction)
-    pin = rocker.at(_MM * drive.crank * cmath.rect(1.0, drive.middle_angle) * away)
-    line = complex(rocker.origin.value[0]) - 1j * away * _MM * drive.offset
-    turn, block = slider(pin, _MM * drive.rod, line, away)
+    pin = rocker.at(drive.crank * cmath.rect(1.0, drive.middle_angle) * away)
+    line = complex(rocker.origin.value[0]) - 1j * away * drive.offset
+    turn, block = slider(pin, drive.rod, line, away)
     links = {"rod": Link(pin, turn), "slider": Link(block, standing(direction, turn.value, order=turn.order))}
     joints: list[Connection] = [
         Pin("E", "rocker", "rod", pin.value),
@@ -60,7 +59,7 @@ def with_shafts(
 
     Parameters
         phi : (N,) array [rad] - input angle
-        axis : Point [m] - of both cams
+        axis : Point [mm] - of both cams
         sense : float - in which the first one turns
         middles : by cam - input angle at which its roller stands on the line of centres [rad]
     """
@@ -82,20 +81,20 @@ def with_drive(
 
     Parameters
         phi : (N,) array [rad] - input angle from the start of the stroke
-        axis : Point [m] - of the cam, on which the rocker of the crank-rocker turns
+        axis : Point [mm] - of the cam, on which the rocker of the crank-rocker turns
         drive : CrankRockerDrive [mm]
         direction : float [rad] - from the cam's axis to the crank's pivot
     Notes
         The cam turns clockwise in the stroke; a crank-rocker whose rocker turns the other way is mirrored.
     """
     bar, sense = drive.linkage, -drive.rising
-    place = complex(axis.value[0]) + _MM * bar.frame * cmath.rect(1.0, direction)
+    place = complex(axis.value[0]) + bar.frame * cmath.rect(1.0, direction)
     turn = steady(phi, sense, direction + math.pi + sense * drive.crank_angles[0], order=axis.order)
     pivot = fixed(place, phi, order=axis.order)
-    pin = carried(pivot, turn, _MM * bar.crank)
-    along, cam = dyad(pin, axis, _MM * bar.coupler, _MM * bar.rocker, round(sense) * bar.assembly)
+    pin = carried(pivot, turn, bar.crank)
+    along, cam = dyad(pin, axis, bar.coupler, bar.rocker, round(sense) * bar.assembly)
     links = {"crank": Link(pivot, turn), "coupler": Link(pin, along), "cam": Link(axis, cam)}
-    end = axis.value + _MM * bar.rocker * np.exp(1j * cam.value)
+    end = axis.value + bar.rocker * np.exp(1j * cam.value)
     joints: list[Connection] = [
         Pin("A", FRAME, "crank", pivot.value),
         Pin("B", "crank", "coupler", pin.value),
@@ -110,7 +109,7 @@ def pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> 
     unloader, unloading = loads.spec.unloader, loads.design.unloading
     way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
     rocker = mechanism.links["rocker"]
-    arm = unloader.arm * _MM
+    arm = unloader.arm
     pin = rocker.at(arm * way)
     along = way * (
         unloader.pivot_ratio - rocker.unit
@@ -121,5 +120,5 @@ def pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> 
     else:
         geometry = loads.design.motion.law.geometry
         mounted = geometry.shortest - unloader.stretch_ratio * geometry.stroke
-        pull = 1e3 * (unloading.spring_rate or 0.0) * arm * (length - mounted)
+        pull = (unloading.spring_rate or 0.0) * arm * (length - mounted)
     return [Force("rocker", pull * along / length, pin)]

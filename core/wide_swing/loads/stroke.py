@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.loads.design import WideSwingLoads
 
 Parts: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
-_MM = 1e-3
 _ROUNDING = 8.0
 _STANDSTILL = 1e-4
 Wanted: TypeAlias = "dict[str, tuple[Callable[[Reals], Reals], bool]]"
@@ -102,9 +101,9 @@ class SwingStroke:
         return np.asarray(np.conj(z)) if self.mirrored else z
 
     def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:
-        """Roller centre [m] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
+        """Roller centre [mm] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
         at = path(self.cam, self.profile(k)[0], resting=resting)
-        return self.to_world(_MM * self.cam.center_distance * at.arm), self.to_world(at.outward)
+        return self.to_world(self.cam.center_distance * at.arm), self.to_world(at.outward)
 
     # Over the stroke
 

@@ -19,7 +19,7 @@ import pytest
 from six_bars import SIX_BARS
 
 from gearlink.core.mechanism.dynamics import Force
-from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.joints import NEWTON_METER, Contact, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME
 from gearlink.core.mechanism.rates import cross
 
@@ -32,7 +32,7 @@ TINY = 1e-30
 
 
 class Augmented:
-    """The constraints of a machine at one input angle; coordinates are (x, y, angle) of each centre of mass."""
+    """The constraints of a machine at one input angle; coordinates are (x, y, angle) of each centre of mass, in mm."""
 
     def __init__(self, design: Any, phi: float) -> None:
         self.design, self.machine = design, design.machine
@@ -49,7 +49,7 @@ class Augmented:
         self.q = np.array([x for p, t in pairs for x in (p.value[0].real, p.value[0].imag, t.value[0])])
         self.rate = np.array([x for p, t in pairs for x in (p.first[0].real, p.first[0].imag, t.first[0])])
         self.bend = np.array([x for p, t in pairs for x in (p.second[0].real, p.second[0].imag, t.second[0])])
-        self.mass = np.array([x for m in masses for x in ((m.mass, m.mass, m.inertia) if m else (0.0, 0.0, 0.0))])
+        self.mass = np.array([x for m in masses for x in ((m.tonnes, m.tonnes, m.moment) if m else (0.0, 0.0, 0.0))])
 
     def carried(self, name: str, place: complex, q: Any) -> tuple[Any, Any]:
         """A point that is now at a place and goes with a link, at other coordinates."""
@@ -80,8 +80,8 @@ class Augmented:
                 found += [x2 - x1, y2 - y1]
             else:
                 across = 1j * each.along
-                found += [(x2 - x1) * across.real + (y2 - y1) * across.imag, self.angle(each.second, q)]
-        return [*found, self.angle(self.mechanism.drive, q) * self.mechanism.sense]
+                found += [(x2 - x1) * across.real + (y2 - y1) * across.imag, NEWTON_METER * self.angle(each.second, q)]
+        return [*found, NEWTON_METER * self.angle(self.mechanism.drive, q) * self.mechanism.sense]
 
     def _teeth(self, mesh: Mesh, q: Any) -> Any:
         toward = complex(np.ravel(mesh.toward)[0])
@@ -123,7 +123,7 @@ class Augmented:
         x, y = c * (x2 - x1) + s * (y2 - y1), c * (y2 - y1) - s * (x2 - x1)
         cam = self.design._cam_turn(self.phi).value
         lift, sense = self.design.design.cams.follower.lift(cam), 1.0 if main else -1.0
-        rho, slope, bend = abs(at - axis), 1e-3 * sense * float(lift.first[0]), 1e-3 * sense * float(lift.second[0])
+        rho, slope, bend = abs(at - axis), sense * float(lift.first[0]), sense * float(lift.second[0])
         beta = -x / y - (-x / y) ** 3 / 3.0
         radius = rho - slope * beta + 0.5 * bend * beta * beta
         return sense * (np.sqrt(x * x + y * y) - radius) * rho / np.hypot(rho, slope)
@@ -264,7 +264,9 @@ def test_friction_of_racks_against_the_augmented_system(degrees: float) -> None:
 
 def _compare(augmented: Augmented) -> None:
     bend, multipliers = augmented.solve()
-    assert bend == pytest.approx(augmented.bend, abs=1e-8 * np.abs(augmented.bend).max())
+    meters = np.tile([1e-3, 1e-3, 1.0], len(bend) // 3)
+    wanted = meters * augmented.bend
+    assert meters * bend == pytest.approx(wanted, abs=1e-8 * np.abs(wanted).max())
     expected: list[float] = []
     for each in augmented.mechanism.connections:
         values = augmented.found.unknowns[each.name][:, 0].tolist()

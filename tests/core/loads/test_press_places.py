@@ -83,7 +83,7 @@ def test_a_cylinder_over_an_axis_is_told_by_how_much() -> None:
     found = _places(_press(loads__cylinder_direction=90))
     press = _press(loads__cylinder_direction=90)
     links = press.machine.at(np.zeros(1)).links
-    axis = 1e3 * complex(links["cylinder"].origin.value[0])
+    axis = complex(links["cylinder"].origin.value[0])
     (_, message) = found[-1]
     assert f"reaches {140.0 - abs(axis - 37.0):.5g} mm over the axis D" in message
     assert len(found) == 3
@@ -129,5 +129,5 @@ def test_a_pinion_out_of_balance_hangs_along_x_at_the_start(gravity: list[float]
         odd.machine.reactions(start).unknowns[name][0][0] - even.machine.reactions(start).unknowns[name][0][0]
         for name in ("rack_lower", "rack_upper")
     ]
-    turning = 16.0 * 0.02 * gravity[1]
+    turning = 16.0 * 20.0 * gravity[1]
     assert extra == pytest.approx([turning / odd.pinion_radius, 0.0], abs=1e-9)

@@ -111,7 +111,7 @@ def test_four_bar_by_lagrange_at_forty_digits() -> None:
 
 
 def _andrews() -> tuple[Mechanism, dict[str, Mass], list[Any]]:
-    """The mechanism at 0.03 s, derivatives by time, and the force of its spring."""
+    """The mechanism at 0.03 s in mm, derivatives by time, and the force of its spring."""
     be, th, ga, ph, de, om, ep = (
         Turn(*(np.array([x]) for x in values))
         for values in zip(
@@ -128,13 +128,13 @@ def _andrews() -> tuple[Mechanism, dict[str, Mass], list[Any]]:
     def plus(one: Turn, two: Turn) -> Turn:
         return Turn(*(x + y for x, y in zip(one, two, strict=True)))
 
-    a, b, o = (fixed(place, np.zeros(1)) for place in (-0.06934 - 0.00227j, -0.03635 + 0.03273j, 0j))
+    a, b, o = (fixed(place, np.zeros(1)) for place in (-69.34 - 2.27j, -36.35 + 32.73j, 0j))
     first = Link(o, be)
-    second = Link(first.at(7e-3), plus(be, th))
+    second = Link(first.at(7.0), plus(be, th))
     fifth, seventh = Link(a, de), Link(a, ep)
-    fourth, sixth = Link(fifth.at(4e-2), plus(ph, de)), Link(seventh.at(-4e-2j), plus(om, ep))
+    fourth, sixth = Link(fifth.at(40.0), plus(ph, de)), Link(seventh.at(-40j), plus(om, ep))
     links = {"1": first, "2": second, "3": Link(b, ga), "4": fourth, "5": fifth, "6": sixth, "7": seventh}
-    end = second.at(-28e-3).value
+    end = second.at(-28.0).value
     pins = [
         Pin("O", FRAME, "1", o.value), Pin("F", "1", "2", second.origin.value),
         Pin("E3", "2", "3", end), Pin("E4", "2", "4", end), Pin("E6", "2", "6", end),
@@ -142,23 +142,23 @@ def _andrews() -> tuple[Mechanism, dict[str, Mass], list[Any]]:
         Pin("H", "5", "4", fourth.origin.value), Pin("G", "7", "6", sixth.origin.value),
     ]  # fmt: skip
     masses = {
-        "1": Mass(0.04325, 2.194e-6, 9.2e-4 + 0j), "2": Mass(0.00365, 4.410e-7, -115e-4 + 0j),
-        "3": Mass(0.02373, 5.255e-6, 1.043e-2 - 1.874e-2j), "4": Mass(0.00706, 5.667e-7, -(2e-2 - 1.421e-2) * 1j),
-        "5": Mass(0.07050, 1.169e-5, 2.308e-2 + 0.916e-2j), "6": Mass(0.00706, 5.667e-7, 2e-2 - 1.421e-2 + 0j),
-        "7": Mass(0.05498, 1.912e-5, -0.449e-2 - 1.228e-2j),
+        "1": Mass(0.04325, 2.194e-6, 0.92 + 0j), "2": Mass(0.00365, 4.410e-7, -11.5 + 0j),
+        "3": Mass(0.02373, 5.255e-6, 10.43 - 18.74j), "4": Mass(0.00706, 5.667e-7, -(20.0 - 14.21) * 1j),
+        "5": Mass(0.07050, 1.169e-5, 23.08 + 9.16j), "6": Mass(0.00706, 5.667e-7, 20.0 - 14.21 + 0j),
+        "7": Mass(0.05498, 1.912e-5, -4.49 - 12.28j),
     }  # fmt: skip
-    arm = carried(b, ga, 2e-2 - 1.8e-2j)
-    way = 0.014 + 0.072j - arm.value
-    pull = 4530.0 * (np.abs(way) - 0.07785) * way / np.abs(way)
+    arm = carried(b, ga, 20.0 - 18.0j)
+    way = 14.0 + 72.0j - arm.value
+    pull = 4.53 * (np.abs(way) - 77.85) * way / np.abs(way)
     return Mechanism(links, pins, "1"), masses, [Force("3", pull, Point(*arm))]
 
 
 def test_andrews_mechanism_needs_the_torque_that_drives_it() -> None:
     """0.033 N m by reactions and by virtual power; multipliers are the forces of its three closed loops at E."""
     mechanism, masses, applied = _andrews()
-    ends = [mechanism.links["3"].at(-35e-3j), mechanism.links["4"].at(-2e-2j), mechanism.links["6"].at(2e-2)]
+    ends = [mechanism.links["3"].at(-35j), mechanism.links["4"].at(-20j), mechanism.links["6"].at(20.0)]
     for end in ends:  # the published state closes the loops
-        assert complex(end.value[0]) == pytest.approx(complex(mechanism.links["2"].at(-28e-3).value[0]), abs=1e-10)
+        assert complex(end.value[0]) == pytest.approx(complex(mechanism.links["2"].at(-28.0).value[0]), abs=1e-7)
     found = with_friction(mechanism, masses, applied, 0j, 1.0, None)
     assert found.torque[0] == pytest.approx(0.033, rel=2e-8)
     power = reduced(mechanism, masses, applied, 0j).torque(1.0)[0]

@@ -436,7 +436,7 @@ def test_cams_stand_in_the_frames_of_their_tables(base: str, changes: dict[str, 
         k = np.array(rows["k"])[1:-1]
         mechanism = design.machine.at(stroke.start + k * stroke.cam.cycle_angle)
         roller = next(each for each in mechanism.connections if each.name == "roller")
-        seen = 1e3 * roller.at * np.exp(-1j * mechanism.links[cam].turn.value)
+        seen = roller.at * np.exp(-1j * mechanism.links[cam].turn.value)
         assert np.abs(seen - pitch[1:-1]).max() <= 1e-9 * np.abs(pitch).max()
 
 
@@ -448,15 +448,15 @@ def test_directions_left_out_are_those_of_the_film(way: str) -> None:
     phi = np.array([0.2, 1.1, 2.3])
     drawn = _crank_rocker(Cycle(design.design, phi / (2.0 * math.pi)))
     links = design.machine.at(phi).links
-    shift = 1e-3 * design.spec.cam.center_distance
+    shift = design.spec.cam.center_distance
     for name, place in zip(("crank", "coupler", "cam"), (drawn[0], drawn[1], drawn[3]), strict=True):
-        assert np.abs(links[name].origin.value + shift - 1e-3 * place).max() <= 1e-12
+        assert np.abs(links[name].origin.value + shift - place).max() <= 1e-9
     swung = factory.design("wide_swing_slider_cam", command="loads", loads={})
     cycle = Cycle(swung.design, phi / swung.cam.cycle_angle * 0.5 * 150.0 / 180.0)
     _, chain = _slider(cycle)
     at = swung.machine.at(cycle.stroke * swung.cam.cycle_angle).links
-    assert np.abs(at["slider"].origin.value + shift - 1e-3 * chain.joints[2]).max() <= 1e-12  # type: ignore[union-attr]
-    assert np.abs(at["rod"].origin.value + shift - 1e-3 * chain.joints[1]).max() <= 1e-12  # type: ignore[union-attr]
+    assert np.abs(at["slider"].origin.value + shift - chain.joints[2]).max() <= 1e-9  # type: ignore[union-attr]
+    assert np.abs(at["rod"].origin.value + shift - chain.joints[1]).max() <= 1e-9  # type: ignore[union-attr]
 
 
 def test_a_mass_of_nothing_is_as_one_that_is_left_out() -> None:

@@ -26,7 +26,7 @@ from gearlink.core.mechanism.rates import fixed, standing, steady
 
 
 def _norton() -> tuple[Mechanism, dict[str, Mass]]:
-    """Crank 4 in, rod 12 in, at 45 deg; masses in blobs."""
+    """Crank 4 in, rod 12 in, at 45 deg; inches, blobs and pounds stand for mm, t and N."""
     phi = np.array([0.25 * math.pi])
     crank = Link(fixed(0j, phi), steady(phi))
     pin = crank.at(4.0)
@@ -34,7 +34,7 @@ def _norton() -> tuple[Mechanism, dict[str, Mass]]:
     links = {"2": crank, "3": Link(pin, turn), "4": Link(end, standing(0.0, phi))}
     joints = [Pin("O2", FRAME, "2", crank.origin.value), Pin("A", "2", "3", pin.value), Pin("B", "3", "4", end.value),
               Guide("slide", FRAME, "4", end.value, 1.0 + 0j)]  # fmt: skip
-    return Mechanism(links, joints, "2"), {"2": Mass(0.002, 0.1, 2.0), "3": Mass(0.02, 0.2, 5.0), "4": Mass(0.06)}
+    return Mechanism(links, joints, "2"), {"2": Mass(2.0, 1e-4, 2.0), "3": Mass(20.0, 2e-4, 5.0), "4": Mass(60.0)}
 
 
 def test_shaking_force_of_the_published_accelerations() -> None:
@@ -48,7 +48,7 @@ def test_shaking_force_of_the_published_accelerations() -> None:
         found = complex(center.second[0] * speed**2 + center.first[0] * acceleration)
         assert abs(found) == pytest.approx(size, abs=0.005)
         assert math.degrees(np.angle(found)) % 360.0 == pytest.approx(degrees, abs=0.005)
-        force -= masses[name].mass * size * np.exp(1j * math.radians(degrees))
+        force -= masses[name].tonnes * size * np.exp(1j * math.radians(degrees))
     assert complex(shaking(mechanism, masses, speed, acceleration)[0][0]) == pytest.approx(force, abs=1e-3)
     torque = [Torque("3", np.array([20.0]))]
     system = System(mechanism, masses)

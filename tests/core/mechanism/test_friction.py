@@ -81,7 +81,7 @@ def test_a_rack_wears_on_the_carriage_of_its_pinion() -> None:
     rolling = np.sign(found.mechanism.links["pinion"].turn.first)
     teeth = sum(np.abs(found.unknowns[name][0]) for name in ("rack_lower", "rack_upper"))
     couple = found.unknowns["guide_carriage"][1]
-    assert couple == pytest.approx(-0.1 * press.pinion_radius * teeth * rolling, abs=1e-9 * np.abs(couple).max())
+    assert couple == pytest.approx(-1e-4 * press.pinion_radius * teeth * rolling, abs=1e-9 * np.abs(couple).max())
 
 
 def test_ratio_is_that_of_the_last_passes() -> None:

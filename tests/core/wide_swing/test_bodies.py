@@ -206,15 +206,15 @@ def test_what_a_direction_places_against_the_links_of_the_loads(name: str, key: 
         pivot = links["rocker"].origin.value
         point, needed = 0j, spec.cam.shaft_radius
         if key == "device_direction":
-            arm, way = 1e-3 * spec.unloader.arm, cmath.rect(1.0, math.radians(direction))
+            arm, way = spec.unloader.arm, cmath.rect(1.0, math.radians(direction))
             lines = [(links["rocker"].at(arm * way).value, pivot + way * arm * spec.unloader.pivot_ratio)]
         elif key == "slider_direction":
             lines = [(links["rod"].origin.value, links["slider"].origin.value)]
         else:
             point, needed = complex(pivot[0]), spec.cam.roller_radius
             lengths = {"crank": spec.drive.crank, "coupler": spec.drive.coupler}
-            lines = [(links[each].origin.value, links[each].at(1e-3 * size).value) for each, size in lengths.items()]
-        rows = min(1e3 * rows_to_line(point, start, end, 101) for start, end in lines)
+            lines = [(links[each].origin.value, links[each].at(size).value) for each, size in lengths.items()]
+        rows = min(rows_to_line(point, start, end, 101) for start, end in lines)
         found = [value for text, value in told(design).items() if PLACED[key] in text]
         expected = rows - needed if key != "drive_direction" else rows
         if found:

@@ -519,8 +519,8 @@ def test_loads_roll_on_the_working_circles(name):
     machine = loaded(name, profile_shift=[0.1, 0.17], helix_angle=14.0)
     (mesh,) = meshes_of(machine.kinematics(np.linspace(0.0, 6.0, 4)))
     distance = mesh.radius - mesh.mate_radius if mesh.internal else mesh.radius + mesh.mate_radius
-    assert 1e3 * distance == pytest.approx(machine.design.distance(), rel=1e-14)
-    radii = {round(1e3 * radius, 9) for radius in (mesh.radius, mesh.mate_radius)}
+    assert distance == pytest.approx(machine.design.distance(), rel=1e-14)
+    radii = {round(radius, 9) for radius in (mesh.radius, mesh.mate_radius)}
     assert radii == {round(radius, 9) for radius in machine.design.raw("working_radius")}
     assert math.atan(mesh.tangent) == pytest.approx(machine.design.raw("working_pressure_angle"), rel=1e-14)
 

@@ -40,9 +40,9 @@ def test_gripper_against_the_reference(gripper: Any) -> None:
         "contact_force_main": gripper.contact_force("main", phi),
         "contact_force_return": gripper.contact_force("return", phi),
         "cam_torque": gripper.cam_torque(phi),
-        "relative_radius_main": 1e3 * roller.relative_radius,
+        "relative_radius_main": roller.relative_radius,
         "roller_speed_ratio_main": np.abs(roller.roller_speed),
-        "entrainment_main": roller.entrainment * gripper.speed,
+        "entrainment_main": 1e-3 * roller.entrainment * gripper.speed,
         **{f"pin_{name}": found.unknowns[name].T for name in "ACDE"},
     }
     for name, values in pairs.items():
