@@ -22,6 +22,9 @@ from gearlink.core.remedies.ways import Way
 from gearlink.core.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.results import cached_property, step
 
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.motion import Motion
+
 _PART_SIZES = (65_521, 65_537)
 
 
@@ -131,6 +134,13 @@ class Design:
     def costly(self) -> bool:
         """Whether to compute this design takes as long as tens of trials of others."""
         return False
+
+    @cached_property
+    def moving(self) -> Motion:
+        """Its links and joints over the input, of a kind that moves."""
+        from gearlink.core.kinds import KINDS
+
+        return KINDS[self.kind].motion_of(self)
 
     def outline(self, command: str) -> Outline:
         """The outline of a command."""

@@ -9,18 +9,21 @@ from weakref import WeakValueDictionary
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.design_axis import Maker
+    from gearlink.core.mechanism.motion import Motion
 
 
 class Kind(NamedTuple):
     """Where the spec model and, for each command, the design class of a kind stand ("module:Class").
 
-    `axis` is where its array form stands, which computes many designs at once; empty where it has none.
+    `axis` is where its array form stands, which computes many designs at once; empty where it has none. `motion` is
+    where the function stands that gives the motion of a design; empty where nothing moves.
     """
 
     name: str
     spec: str
     commands: dict[str, str]
     axis: str = ""
+    motion: str = ""
 
     def spec_model(self) -> Any:
         """The pydantic model of the kind's design file."""
@@ -37,6 +40,11 @@ class Kind(NamedTuple):
     def design_class(self, command: str) -> Any:
         """The class that serves a command."""
         return _load(f"gearlink.core.{self.commands[command]}")
+
+    def motion_of(self, design: Design) -> Motion:
+        """The motion of a design of this kind."""
+        found: Motion = _load(f"gearlink.core.{self.motion}")(design)
+        return found
 
     def axis_maker(self) -> Maker | None:
         """What makes the kind's array form, where it has one."""
@@ -106,6 +114,7 @@ KINDS: dict[str, Kind] = {
                 "register": "three_gear.register.budget:ThreeGearRegister",
             },
             "three_gear.many.axis:axis",
+            "three_gear.mechanism:motion",
         ),
         Kind(
             "gear-pair",
@@ -126,6 +135,7 @@ KINDS: dict[str, Kind] = {
                 "loads": "linkages.slider_crank.loads:SliderCrankLoads",
             },
             "linkages.slider_crank.axis:axis",
+            "linkages.slider_crank.mechanism:motion",
         ),
         Kind(
             "flatbed-press",

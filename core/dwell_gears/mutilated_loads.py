@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
+from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming
 from gearlink.core.loads.sources import mass_of
@@ -117,6 +117,7 @@ class MutilatedGearLoads(LoadsDesign):
             name: Link(
                 Point(link.origin.value, *(each * rate**k for k, each in enumerate(link.origin[1:], 1))),
                 Turn(link.turn.value, *(each * rate**k for k, each in enumerate(link.turn[1:], 1))),
+                link.points,
             )
             for name, link in four_bar(self.linkage, crank, order).items()
         }
@@ -125,7 +126,7 @@ class MutilatedGearLoads(LoadsDesign):
         tangent = math.tan(self.design.mesh.working_pressure_angle)
         teeth = ToothDrive("mesh_wheel", "crank", links["crank"].origin.value, cmath.exp(1j * direction), radius,
                            tangent, moves > 0.0)  # fmt: skip
-        connections: list[Connection] = [*four_bar_pins(links, self.linkage), teeth]
+        connections: list[Connection] = [*four_bar_pins(links), teeth]
         return Mechanism(links, connections, "mesh_wheel", gain=radius * rate)
 
     # Jumps of speed

@@ -150,7 +150,7 @@ class PressLoads(CamLoadsDesign):
 
     def _rods(self, phi: Reals, order: int) -> dict[str, Link]:
         """The links from gear 2 to the carriage."""
-        from gearlink.core.linkages.fourbar.loads import turns
+        from gearlink.core.linkages.fourbar.mechanism import turns
         from gearlink.core.mechanism.closures import slider
         from gearlink.core.mechanism.links import Link
         from gearlink.core.mechanism.rates import carried, fixed, from_start, standing, steady
@@ -338,7 +338,7 @@ class PressLoads(CamLoadsDesign):
     # Cylinder
 
     def _cylinder_chain(self, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
-        from gearlink.core.linkages.fourbar.loads import turns
+        from gearlink.core.linkages.fourbar.mechanism import turns
         from gearlink.core.mechanism.joints import Mesh, Pin
         from gearlink.core.mechanism.links import FRAME, Link
         from gearlink.core.mechanism.rates import fixed, from_start, mixed, steady

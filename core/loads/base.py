@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gearlink.core.loads.running import Running
     from gearlink.core.mechanism.dynamics import Mass
     from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.report import Check
@@ -42,6 +42,8 @@ class LoadsBase(Design):
     """
 
     joints_of_period: ClassVar[bool] = False
+    design: Any
+    """The geometry."""
     links: ClassVar[tuple[str, ...]]
     output: ClassVar[str] = "output"
     stands: ClassVar[bool] = False
@@ -57,9 +59,15 @@ class LoadsBase(Design):
     highest: int = 3
     """The highest derivative that the machine's law of motion has."""
 
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """The links and connections at input angles [rad], with so many derivatives, `highest` at most."""
-        raise NotImplementedError
+    @cached_property
+    def moving(self) -> Motion:
+        """The motion of the geometry."""
+        if hasattr(self, "kinematics"):
+            from gearlink.core.mechanism.motion import Motion
+
+            return Motion(lambda phi, order, _side: self.kinematics(phi, order), highest=getattr(self, "highest", 3))
+        found: Motion = self.design.moving
+        return found
 
     # The section and the machine
 
@@ -162,7 +170,7 @@ class LoadsBase(Design):
                 key="loads.links" if "links" in type(self.section).model_fields else "loads",
             )
         return Machine(
-            self.kinematics,
+            self.moving,
             self.masses,
             sources,
             gravity_of(self.section),
@@ -195,7 +203,7 @@ class LoadsBase(Design):
         """What joins the links."""
         import numpy as np
 
-        return self.kinematics(np.zeros(1)).connections
+        return self.moving.at(np.zeros(1), 1).connections
 
     def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
         """Refuse names of a section that no joint of some sorts in this design has."""

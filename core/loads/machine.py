@@ -1,7 +1,6 @@
 """A machine under its loads at any input angles: torque, reactions, and integrals over its period.
 
-The kinematics are computed anew for every array of angles that is asked for; the last few answers are kept, since
-several results look at the same rows.
+The last few answers are kept, since several results look at the same rows.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -23,11 +22,11 @@ from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Re
 from gearlink.core.mechanism.friction import Coefficients, passes_ratio, with_friction
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import Mechanism
+from gearlink.core.mechanism.motion import Motion
 from gearlink.core.mechanism.rates import TURNING_BACK, dot
 from gearlink.core.mechanism.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.numerics.arrays import Reals
 
-Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
 _KEPT = 24
 _ROWS_KEPT = 100_000
@@ -52,10 +51,10 @@ def free_what_others_kept() -> None:
 
 @dataclass(frozen=True)
 class Machine:
-    """Kinematics, masses and sources of one design.
+    """Motion, masses and sources of one design.
 
     Fields
-        kinematics : function of an array of input angles [rad]
+        motion : Motion - of its links
         masses : by link
         sources : Sources
         gravity : complex [mm/s^2]
@@ -69,7 +68,7 @@ class Machine:
         stroke : float [rad] - of a machine that is looked at over less than a turn; 0: over its turns
     """
 
-    kinematics: Kinematics
+    motion: Motion
     masses: Mapping[str, Mass]
     sources: Sources
     gravity: complex
@@ -104,12 +103,7 @@ class Machine:
 
     def at(self, phi: Reals) -> Mechanism:
         """The links at input angles [rad]."""
-        found: Mechanism = self._keep("links", phi, lambda: self._links(phi))
-        return found
-
-    def _links(self, phi: Reals) -> Mechanism:
-        _made[0] += phi.size
-        return self.kinematics(phi)
+        return self.motion.at(phi)
 
     def applied(self, phi: Reals) -> Applied:
         """What acts from outside there."""
@@ -117,6 +111,7 @@ class Machine:
         return found
 
     def _applied(self, phi: Reals) -> Applied:
+        _made[0] += phi.size
         links = self.at(phi)
         own = () if self.more is None else self.more(links, phi)
         return [*self.sources.at(links, phi, math.copysign(1.0, self.speed)), *own]
@@ -139,7 +134,7 @@ class Machine:
     def by_blocks(self, rows: int, block: int = _BLOCK) -> Iterator[tuple[slice, Machine]]:
         """Slices of very many rows, and for each the machine with nothing kept, so that it ends with its block."""
         for start in range(0, rows, block):
-            made = replace(self, kept={}, kept_few={}, kept_sums={})
+            made = replace(self, motion=self.motion.anew(), kept={}, kept_few={}, kept_sums={})
             vars(made).update({name: vars(self)[name] for name in ("locking", "breaks") if name in vars(self)})
             yield slice(start, start + block), made
 

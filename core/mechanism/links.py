@@ -24,18 +24,20 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Link:
-    """A link in motion: its origin, which is its first joint, and the direction of its x axis."""
+    """A link in motion: its origin, which is its first joint, the direction of its x axis, and named points [mm]."""
 
     origin: Point
     turn: Turn
+    points: Mapping[str, complex] = field(default_factory=dict)
 
     @cached_property
     def unit(self) -> Points:
         """e^(i t)."""
         return units(self.turn.value)
 
-    def at(self, arm: complex) -> Point:
-        """A point given in link coordinates [mm], computed once."""
+    def at(self, place: complex | str) -> Point:
+        """A point given by its name or in link coordinates [mm], computed once."""
+        arm = self.points[place] if isinstance(place, str) else place
         if arm not in self._points:
             self._points[arm] = carried(self.origin, self.turn, arm, self.unit)
         return self._points[arm]

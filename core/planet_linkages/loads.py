@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.gears.outline.mesh_phase import signed_pair
-from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
@@ -65,7 +65,7 @@ class PlanetLinkageLoads(LoadsDesign):
         from gearlink.core.mechanism.rates import from_start, mixed
 
         links, ratio = four_bar(self.linkage, phi, order), self.design.gear_ratio
-        pins = four_bar_pins(links, self.linkage)
+        pins = four_bar_pins(links)
         coupler = from_start(links["coupler"].turn, self._start[0])
         pivot = links["crank" if self.output_pin == "A_output" else "rocker"].origin
         links["output"] = Link(pivot, mixed((1.0 - ratio, self.carrier_turn(links)), (ratio, coupler)))

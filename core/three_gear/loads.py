@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins, full_balance
-from gearlink.core.linkages.fourbar.position import solve
+from gearlink.core.linkages.fourbar.mechanism import full_balance
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
-    from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.three_gear.loads_spec import ThreeGearLoads as Section
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
@@ -82,58 +79,3 @@ class ThreeGearLoads(LoadsDesign):
         """Those of the full force balance; the idler counts at C."""
         idler = self.masses.get("idler")
         return full_balance(self.design.linkage, self.masses, 0.0 if idler is None else idler.mass)
-
-    @cached_property
-    def _start(self) -> tuple[float, float]:
-        """Coupler and rocker angle at crank angle 0, from which the gears count."""
-        state = solve(self.design.linkage, 0.0)
-        return state.coupler_angle, state.rocker_angle
-
-    @cached_property
-    def _rolling(self) -> list[tuple[float, float, float]]:
-        """Working radii [mm] of both meshes and the tangent of their working pressure angle."""
-        design, gears = self.design, self.spec.gears
-        if design.own_teeth:
-            crank, output = design.meshes.values()
-            (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
-            return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
-        train, half = design.train, 0.5 * gears.module
-        tangent = math.tan(math.radians(gears.pressure_angle))
-        r1, r3, r5 = (half * teeth for teeth in (train.crank, train.idler, train.output))
-        return [(r1, r3, tangent), (r3, r5, tangent)]
-
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """The five links at crank angles."""
-        from gearlink.core.mechanism.joints import Mesh, Pin
-        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-        from gearlink.core.mechanism.rates import from_start, mixed
-
-        design, train = self.design, self.design.train
-        linkage = design.linkage
-        links = four_bar(linkage, phi, order)
-        coupler, rocker = (
-            from_start(links[name].turn, start) for name, start in zip(("coupler", "rocker"), self._start, strict=True)
-        )
-        i2, i3 = -train.crank / train.idler, -train.idler / train.output
-        idler = mixed((i2, links["crank"].turn), (1.0 - i2, coupler))
-        pins = four_bar_pins(links, linkage)
-        center_c = links["rocker"].at(linkage.rocker)
-        links["idler"] = Link(center_c, idler)
-        links["output"] = Link(links["rocker"].origin, mixed((i3, idler), (1.0 - i3, rocker)))
-        (r1, r3, flank), (r3_out, r5, flank_out) = self._rolling
-        b, d = links["coupler"], links["rocker"]
-        meshes = [
-            Mesh("mesh_13", "crank", "idler", b.origin.value, b.unit, abs(r1), r3, flank, r1 < 0.0, "coupler"),
-            Mesh("mesh_35", "output", "idler", d.origin.value, d.unit, abs(r5), r3_out, flank_out, r5 < 0.0, "rocker"),
-        ]
-        pins += [
-            Pin("C_idler", self.section.idler_pin, "idler", center_c.value),
-            Pin("D_output", FRAME, "output", links["output"].origin.value),
-        ]
-        return Mechanism(links, [*pins, *meshes], "crank")
-
-
-def _rolling_of(pair: Any) -> tuple[float, float, float]:
-    """Working radii [mm] and the tangent of the working pressure angle."""
-    r1, r2 = pair.working_radius
-    return r1, r2, math.tan(pair.working_pressure_angle)

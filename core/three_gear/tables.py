@@ -2,42 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.fourbar.link_motion import Motion
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.three_gear.design import ThreeGearFourBar
-
 
 _UNITS = 8.0
 
 
 def motion(design: ThreeGearFourBar, samples: int | None = None) -> Table:
     """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
-    import numpy as np
+    from gearlink.core.mechanism.courses import Shown, between, motion_table
+    from gearlink.core.three_gear.mechanism import OUTPUT
 
-    from gearlink.core.numerics.arrays import turn_degrees
-    from gearlink.core.three_gear.sweep import output_motion
-
-    degrees = turn_degrees(samples)
-    sweep = output_motion(design.linkage, design.train, np.radians(degrees))
-    columns = {
-        "crank_angle": (degrees, "deg"),
-        "output_angle": (np.degrees(sweep.output_angle), "deg"),
-        "speed_ratio": (sweep.speed_ratio, "1"),
-        "acceleration_ratio": (sweep.acceleration_ratio, "1"),
-        "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
-    }
-    rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-    return Table.of("motion", design.timed(columns, "crank_angle", rates))
+    shown = [
+        Shown("output_angle", OUTPUT),
+        Shown("speed_ratio", OUTPUT, 1, "output_speed"),
+        Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+        Shown("transmission_angle", between("coupler", "rocker")),
+    ]
+    return motion_table("motion", design, shown, samples)
 
 
 def links(design: ThreeGearFourBar, samples: int | None = None) -> Table:
-    """Angle, speed, acceleration and jerk of every link and gear over a turn, and the pole P15 on the line AD.
+    """Angle, speed, acceleration and jerk of every link and gear over a turn, and the pole P15 on the line AD."""
+    from gearlink.core.mechanism.courses import Shown, all_rates, motion_table, turned
+    from gearlink.core.mechanism.motion import Course
 
-    AP15 = W AD/(W - 1) from w5/w1 = AP15/DP15; none where both gears turn at one speed
+    names = ("coupler", "rocker", "idler", "output")
+    shown = all_rates({name: turned(name) for name in names})
+    pole = Course("mm", lambda mechanism: [_pole(design, mechanism)])
+    return motion_table("links", design, [*shown, Shown("pole_x", pole)], samples)
+
+
+def _pole(design: ThreeGearFourBar, mechanism: Mechanism) -> Reals:
+    """AP15 = W AD/(W - 1) from w5/w1 = AP15/DP15 [mm]; NaN where both gears turn at one speed.
 
     Notes
         W - 1 is a sum with the terms 1, i1, i2 w2/w1 and i3 w3/w1, each off by some units in the last place, the speeds
@@ -46,44 +49,18 @@ def links(design: ThreeGearFourBar, samples: int | None = None) -> Table:
     """
     import numpy as np
 
-    from gearlink.core.linkages.fourbar.link_motion import columns, four_bar_motions
-    from gearlink.core.numerics.arrays import turn_degrees
-
-    degrees = turn_degrees(samples)
-    motions = four_bar_motions(design.linkage, np.radians(degrees))
-    whole, rates = columns({**motions, **_gears(design, np.radians(degrees), motions)})
-    speed = whole["output_speed_ratio"][0]
+    speed = mechanism.links["output"].turn.first
     faster = speed - 1.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        known = np.abs(faster) > _UNITS * np.finfo(float).eps * _terms(design, motions)
-        pole = np.where(known, design.frame_length * speed / faster, np.nan)
-    columns_ = {"crank_angle": (degrees, "deg"), **whole, "pole_x": (pole, "mm")}
-    return Table.of("links", design.timed(columns_, "crank_angle", rates))
+        known = np.abs(faster) > _UNITS * np.finfo(float).eps * _terms(design, mechanism)
+        return np.where(known, design.frame_length * speed / faster, np.nan)
 
 
-def _terms(design: ThreeGearFourBar, motions: dict[str, Motion]) -> Any:
+def _terms(design: ThreeGearFourBar, mechanism: Mechanism) -> Reals:
     """The size of what W - 1 is summed from, with the condition of the speeds of the links."""
     import numpy as np
 
-    (coupler, coupler_speed, *_), (rocker, rocker_speed, *_) = motions["coupler"], motions["rocker"]
-    train, condition = design.train, 1.0 / np.abs(np.sin(coupler - rocker))
-    of_links = np.abs(train.coupler_share * coupler_speed) + np.abs(train.rocker_share * rocker_speed)
-    return 1.0 + abs(train.ratio) + condition * of_links
-
-
-def _gears(design: ThreeGearFourBar, crank: Any, motions: dict[str, Motion]) -> dict[str, Motion]:
-    """Idler and output gear, 0 at crank angle 0: w3 = (1 + r1/r3) w2 - (r1/r3) w1, and thesis (4-24)."""
-    import numpy as np
-
-    from gearlink.core.linkages.fourbar.link_motion import combined
-    from gearlink.core.linkages.fourbar.position import solve
-
-    start, still = solve(design.linkage, 0.0), np.zeros_like(crank)
-    steady = (crank, np.ones_like(crank), still, still)
-    coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
-    rocker = (motions["rocker"][0] - start.rocker_angle, *motions["rocker"][1:])
-    ratio, train = design.crank_teeth / design.idler_teeth, design.train
-    return {
-        "idler": combined((1.0 + ratio, coupler), (-ratio, steady)),
-        "output": combined((train.ratio, steady), (train.coupler_share, coupler), (train.rocker_share, rocker)),
-    }
+    train, coupler, rocker = design.train, mechanism.links["coupler"].turn, mechanism.links["rocker"].turn
+    condition = 1.0 / np.abs(np.sin(coupler.value - rocker.value))
+    of_links = np.abs(train.coupler_share * coupler.first) + np.abs(train.rocker_share * rocker.first)
+    return np.asarray(1.0 + abs(train.ratio) + condition * of_links)

@@ -26,6 +26,8 @@ _NEAR = 0.02
 """Of the height of a curve: by so much a hump of its points may lie below the highest and be the extreme."""
 _EQUAL = 1e-11
 """Of the height of a curve: what differs by less is equal."""
+_BEFORE = 8.0
+"""Units in the last place by which a place is surely before a joint, in deg and in rad."""
 _FEW = 9
 """Points between a place and those beside it."""
 
@@ -96,6 +98,40 @@ def courses(design: Any) -> list[Course]:
     return [] if make is None else make(design)
 
 
+def _of_motion(design: Any) -> list[Course]:
+    """The outputs of its motion, over the whole period or range of the input."""
+    motion, speed = design.moving, getattr(design, "angular_speed", None)
+    given = motion.input
+    start, end = math.degrees(given.start), math.degrees(given.end)
+    joints = np.array(given.joints)
+    after = np.degrees(joints)
+    before = after - _BEFORE * np.spacing(after)
+    x = np.unique(np.concatenate([np.linspace(start, end, 720 * (given.turns or 1) + 1), after, before]))
+
+    def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
+        def rates(x: Reals) -> tuple[Reals, ...]:
+            q = np.radians(x)
+            for joint, degrees in zip(joints, after, strict=True):
+                q[x == degrees] = joint
+            return tuple(course.rates(motion, q, 3))
+
+        return rates
+
+    over = f"{given.column.replace('_', ' ')} [deg]"
+    return [
+        Course(
+            each.name,
+            over,
+            x,
+            at(each.course),
+            each.course.unit,
+            speed,
+            tuple(panels.Phase(name, math.degrees(low), math.degrees(high)) for name, low, high in each.phases),
+        )
+        for each in motion.outputs
+    ]
+
+
 def draw(design: Any) -> Figure:
     """A column for each output, its rates aligned; on the right in time where the speed is known."""
     shown = courses(design)
@@ -157,31 +193,6 @@ def _angles() -> Reals:
     return np.arange(721) * 0.5
 
 
-def _three_gears(design: Any) -> list[Course]:
-    from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-
-    train, linkage = design.train, design.linkage
-    p, q = train.coupler_share, train.rocker_share
-    start = fourbar_sweep.solve(linkage, np.zeros(1))
-
-    def output(x: Reals) -> tuple[Reals, ...]:
-        state = fourbar_sweep.solve(linkage, np.radians(x), 3)
-        coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
-        return (
-            train.ratio * np.radians(x) + p * coupler + q * rocker,
-            train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
-            p * state.coupler_acceleration + q * state.rocker_acceleration,
-            p * state.coupler_jerk + q * state.rocker_jerk,
-        )
-
-    def rocking(x: Reals) -> tuple[Reals, ...]:
-        state = fourbar_sweep.solve(linkage, np.radians(x), 3)
-        return state.rocker_angle, state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk
-
-    x, speed, over = _angles(), design.angular_speed, "crank angle [deg]"
-    return [Course("Output gear 5", over, x, output, "rad", speed), Course("Rocker CD", over, x, rocking, "rad", speed)]
-
-
 def _planets(design: Any) -> list[Course]:
     drive = design.drive
     kinds: tuple[Callable[[float], float], ...] = (drive.angle, drive.speed, drive.acceleration, drive.jerk)
@@ -190,20 +201,6 @@ def _planets(design: Any) -> list[Course]:
         return tuple(np.array([rate(phi) for phi in np.radians(x).tolist()]) for rate in kinds)
 
     return [Course("Output gear 5", "crank angle [deg]", _angles(), rates, "rad", design.angular_speed)]
-
-
-def _slider_crank(design: Any) -> list[Course]:
-    from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
-
-    part = design.slider_crank
-    x = _angles()
-    nearest = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 0)[0].min()
-
-    def rates(x: Reals) -> tuple[Reals, ...]:
-        depth, *others = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 3)
-        return depth - nearest, *others
-
-    return [Course("Slider F", "crank angle [deg]", x, rates, "mm", design.angular_speed)]
 
 
 def _press(design: Any) -> list[Course]:
@@ -308,10 +305,10 @@ def _six_bar(design: Any) -> list[Course]:
 
 
 _KINDS: dict[str, Callable[[Any], list[Course]]] = {
-    "three-gear-four-bar": _three_gears,
+    "three-gear-four-bar": _of_motion,
     "two-gear-four-bar": _planets,
     "geared-rocker": _planets,
-    "slider-crank": _slider_crank,
+    "slider-crank": _of_motion,
     "flatbed-press": _press,
     "swing-gripper": _gripper,
     "hypocycloid-dwell": _hypocycloid,

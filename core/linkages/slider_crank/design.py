@@ -138,25 +138,18 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""
-        import numpy as np
+        from gearlink.core.linkages.slider_crank.mechanism import displacement
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
-        from gearlink.core.linkages.slider_crank.sweep import slider as sweep
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees, (crank, rod, offset) = turn_degrees(samples), (self.crank_length, self.spec.rod, self.spec.offset)
-        angles = np.radians(degrees)
-        depth, velocity, acceleration = sweep(angles, crank, rod, offset, 2)
-        lean = np.degrees(np.arcsin((crank * np.cos(angles) + offset) / rod))
-        columns = {
-            "input_angle": (degrees, "deg"),
-            "displacement": (depth - self.depth(self._dead_centers[0], 0), "mm"),
-            "velocity": (velocity, "mm/rad"),
-            "acceleration": (acceleration, "mm/rad^2"),
-            "rod_angle": (lean, "deg"),
-            "transmission_angle": (90.0 - np.abs(lean), "deg"),
-        }
-        rates = {"slider_velocity": ("velocity", 1), "slider_acceleration": ("acceleration", 2)}
-        return Table.of("motion", self.timed(columns, "input_angle", rates))
+        way = displacement(self)
+        shown = [
+            Shown("displacement", way),
+            Shown("velocity", way, 1, "slider_velocity"),
+            Shown("acceleration", way, 2, "slider_acceleration"),
+            Shown("rod_angle", turned("rod", sense=-1.0).less(0.5 * math.pi)),
+            Shown("transmission_angle", between("rod", "slider")),
+        ]
+        return motion_table("motion", self, shown, samples)
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""

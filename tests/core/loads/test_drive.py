@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar.loads import four_bar, full_balance
+from gearlink.core.linkages.fourbar.mechanism import four_bar, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.loads.flywheel import Energy
 from gearlink.core.loads.motor import MotorRun

@@ -82,7 +82,7 @@ def _spectral(values: Any) -> Any:
 def test_derivatives_of_every_point_against_its_fourier_series(case: dict[str, Any]) -> None:
     design = loads_of(case)
     phi = np.arange(1024) * (2.0 * math.pi / 1024)
-    for link in design.kinematics(phi).links.values():
+    for link in design.moving.at(phi).links.values():
         point = link.at(31.0 - 20.0j)
         for place, rate in ((point.value, point.first), (point.first, point.second)):
             if abs(place[0] - place[-1]) < 0.1 * np.abs(place).max():  # a free gear need not come home after a turn

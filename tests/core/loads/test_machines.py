@@ -21,6 +21,7 @@ from gearlink.core.loads import machine
 from gearlink.core.mechanism import friction
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.links import Link, Mechanism
+from gearlink.core.mechanism.motion import Motion
 from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Reals
 
@@ -201,16 +202,16 @@ def test_of_many_rows_the_links_are_held_once_and_once_more_for_the_block_in_han
     made: list[weakref.ref[Link]] = []
     most = 0
 
-    def counted(phi: Reals) -> Mechanism:
+    def counted(phi: Reals, order: int, _side: int) -> Mechanism:
         nonlocal most
         most = max(most, 1 + sum(each() is not None for each in made))
-        found = machine.kinematics(phi)
+        found = machine.motion.make(phi, order, 1)
         made.append(weakref.ref(found.links["output"]))
         return found
 
     phi = np.linspace(0.0, 6.0, 4 * 4096 + 5)
     assert machine.locking[0] < 1.0
-    held = replace(machine, kinematics=counted, kept={}, kept_few={})
+    held = replace(machine, motion=Motion(counted), kept={}, kept_few={})
     vars(held)["locking"] = machine.locking
     found = held.reactions(phi)
     assert (len(made), most) == (6, 2)

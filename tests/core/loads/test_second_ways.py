@@ -189,7 +189,7 @@ def test_what_has_no_masses_computes_nothing(monkeypatch: pytest.MonkeyPatch) ->
     def refuse(*_: Any) -> Any:
         raise AssertionError("loads were computed")
 
-    monkeypatch.setattr(ThreeGearLoads, "kinematics", refuse)
+    monkeypatch.setattr(ThreeGearLoads, "moving", property(refuse))
     assert factory.design("loaded_feed").report("analyze").quantities
     with pytest.raises(GearlinkError, match="needs the section loads"):
         factory.design("candy_feed", command="loads").report("loads")

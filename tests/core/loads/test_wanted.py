@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gearlink.core.mechanism.motion import Motion
 from tests.factory import design
 
 
@@ -30,8 +31,8 @@ def test_quantities_found_together_are_those_found_alone() -> None:
 def test_links_are_computed_once_for_all_that_look_at_them() -> None:
     """All quantities together compute the links as often as a few searches do: 19 times ahead, 60 in all."""
     loads, asked = _loads(), []
-    plain = loads.kinematics
-    loads.kinematics = lambda phi: asked.append(phi.size) or plain(phi)
+    plain = loads.moving
+    loads.moving = Motion(lambda phi, *more: asked.append(phi.size) or plain.make(phi, *more))
     loads.prepare(loads.outline("loads").quantities)
     searched = len(asked)
     loads.require("loads")

@@ -55,7 +55,7 @@ def _places(design: Any, count: int = 24) -> Any:
 
 def _near(design: Any, phi: Any, order: int, step: float) -> Any:
     """Links at both sides."""
-    return [design.kinematics(phi + sign * step, order).links for sign in (1.0, -1.0)]
+    return [design.moving.at(phi + sign * step, order).links for sign in (1.0, -1.0)]
 
 
 def _parts(link: Any) -> tuple[Rates[Any], Rates[Any]]:
@@ -65,9 +65,9 @@ def _parts(link: Any) -> tuple[Rates[Any], Rates[Any]]:
 @pytest.mark.parametrize("name", DESIGNS)
 def test_each_derivative_is_the_rate_of_the_one_below(name: str) -> None:
     design = _made(name)
-    phi, highest = _places(design), design.highest
+    phi, highest = _places(design), design.moving.highest
     assert len(phi) > 12
-    here = design.kinematics(phi, highest).links
+    here = design.moving.at(phi, highest).links
     wide, narrow = (_near(design, phi, highest, step) for step in (STEP, 0.5 * STEP))
     for link, at in here.items():
         for i, part in enumerate(_parts(at)):
@@ -86,9 +86,9 @@ def test_lower_orders_give_the_same_and_no_more(name: str) -> None:
     """To the last bit. The press has one derivative at least, for the normals of its rollers."""
     design = _made(name)
     phi = _places(design, 5)
-    whole = design.kinematics(phi, design.highest).links
-    for order in range(design.highest):
-        found = design.kinematics(phi, order).links
+    whole = design.moving.at(phi, design.moving.highest).links
+    for order in range(design.moving.highest):
+        found = design.moving.make(phi, order, 1).links
         for link, at in found.items():
             for part, of_whole in zip(_parts(at), _parts(whole[link]), strict=True):
                 assert part.order == max(order, 1 if design.kind == "flatbed-press" else 0)
@@ -97,9 +97,9 @@ def test_lower_orders_give_the_same_and_no_more(name: str) -> None:
 
 def test_a_law_without_a_third_derivative_says_so() -> None:
     slider = _made("wide swing, slider")
-    assert slider.highest == 2
+    assert slider.moving.highest == 2
     with pytest.raises(AssertionError, match="third derivative was not asked for"):
-        _ = slider.kinematics(np.zeros(1), 3).links["rocker"].turn.third
+        _ = slider.moving.at(np.zeros(1), 3).links["rocker"].turn.third
 
 
 def test_a_derivative_that_was_not_asked_for_is_named() -> None:

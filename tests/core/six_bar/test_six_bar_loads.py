@@ -75,7 +75,7 @@ def test_links_move_as_their_rates_say(name: str) -> None:
     """Places, turns and their rates against differences of sixth order over 1e-3 rad: 1e-9 of the largest."""
     loads = design(SIX_BARS[name], command="loads")
     phi, step = np.array([0.4, 2.9, 5.1]), 1e-3
-    near = {k: loads.kinematics(phi + k * step).links for k in (-3, -2, -1, 0, 1, 2, 3)}
+    near = {k: loads.moving.at(phi + k * step).links for k in (-3, -2, -1, 0, 1, 2, 3)}
     for link, here in near[0].items():
         for part in ("origin", "turn"):
             motion = {k: getattr(links[link], part) for k, links in near.items()}
@@ -109,7 +109,7 @@ def test_without_the_section_there_are_no_loads(monkeypatch: pytest.MonkeyPatch)
     def refuse(*_: Any) -> Any:
         raise AssertionError("loads were computed")
 
-    monkeypatch.setattr(SixBarLoads, "kinematics", refuse)
+    monkeypatch.setattr(SixBarLoads, "moving", property(refuse))
     assert "loads" not in design(SWING).spec.commands()
     assert design({**worked(SWING), "loads": LOADS}).report("analyze").quantities
     with pytest.raises(GearlinkError, match="needs the section loads"):

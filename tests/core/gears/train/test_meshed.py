@@ -517,7 +517,7 @@ def loaded(name, **gears):
 @pytest.mark.parametrize("name", ["sun", "ring", "rocker", "path", "path in a ring", "function", "function in a ring"])
 def test_loads_roll_on_the_working_circles(name):
     machine = loaded(name, profile_shift=[0.1, 0.17], helix_angle=14.0)
-    (mesh,) = meshes_of(machine.kinematics(np.linspace(0.0, 6.0, 4)))
+    (mesh,) = meshes_of(machine.moving.at(np.linspace(0.0, 6.0, 4)))
     distance = mesh.radius - mesh.mate_radius if mesh.internal else mesh.radius + mesh.mate_radius
     assert distance == pytest.approx(machine.design.distance(), rel=1e-14)
     radii = {round(radius, 9) for radius in (mesh.radius, mesh.mate_radius)}

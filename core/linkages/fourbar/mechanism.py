@@ -1,4 +1,4 @@
-"""A four-bar as links under load: what all machines that hold one give to `gearlink.core.loads`."""
+"""A four-bar as links and joints, for all machines that hold one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.mechanism.dynamics import Mass
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME, Link
-from gearlink.core.mechanism.rates import Turn, carried, fixed, steady
+from gearlink.core.mechanism.rates import Turn, fixed, steady
 from gearlink.core.numerics.arrays import Reals
 
 
@@ -29,7 +29,7 @@ def four_bar(linkage: FourBar, phi: Reals, order: int = 2) -> dict[str, Link]:
         phi : (N,) array [rad] - crank angles, which are the input angles
         order : 0..3 - of the derivatives
     Returns
-        links : crank (A->B), coupler (B->C), rocker (D->C)
+        links : crank (A->B), coupler (B->C), rocker (D->C), with those points by name
     Raises
         NoSolution - where the linkage does not close
     Example
@@ -39,20 +39,20 @@ def four_bar(linkage: FourBar, phi: Reals, order: int = 2) -> dict[str, Link]:
         -0.174081238
     """
     coupler, rocker = turns(linkage, phi, order)
-    crank = Link(fixed(0j, phi, order=order), steady(phi, order=order))
+    crank = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": linkage.crank})
     return {
         "crank": crank,
-        "coupler": Link(carried(crank.origin, crank.turn, linkage.crank), coupler),
-        "rocker": Link(fixed(linkage.frame, phi, order=order), rocker),
+        "coupler": Link(crank.at("B"), coupler, {"B": 0.0, "C": linkage.coupler}),
+        "rocker": Link(fixed(linkage.frame, phi, order=order), rocker, {"D": 0.0, "C": linkage.rocker}),
     }
 
 
-def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:
+def four_bar_pins(links: Mapping[str, Link]) -> list[Pin]:
     """A, B, C, D of these links."""
     return [
         Pin("A", FRAME, "crank", links["crank"].origin.value),
         Pin("B", "crank", "coupler", links["coupler"].origin.value),
-        Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker).value),
+        Pin("C", "coupler", "rocker", links["rocker"].at("C").value),
         Pin("D", FRAME, "rocker", links["rocker"].origin.value),
     ]
 
