@@ -125,6 +125,7 @@ KINDS: dict[str, Kind] = {
                 "loads": "gears.loads:GearPairLoads",
             },
             "gears.axis:axis",
+            "gears.mechanism:motion",
         ),
         Kind(
             "slider-crank",
@@ -180,6 +181,7 @@ KINDS: dict[str, Kind] = {
             "mutilated-gear-dwell",
             "dwell_gears.mutilated_spec:MutilatedGearDwellSpec",
             {"analyze": _MUTILATED, "gear": _MUTILATED, "loads": "dwell_gears.mutilated_loads:MutilatedGearLoads"},
+            motion="dwell_gears.mutilated_mechanism:motion",
         ),
         Kind(
             "two-gear-four-bar",
@@ -216,6 +218,7 @@ KINDS: dict[str, Kind] = {
                 "gear": _HYPOCYCLOID,
                 "loads": "dwell_gears.hypocycloid_loads:HypocycloidDwellLoads",
             },
+            motion="dwell_gears.hypocycloid_mechanism:motion",
         ),
     )
 }

@@ -14,7 +14,6 @@ from gearlink.cli.scenes.scene import (
     Chart,
     Curve,
     Line,
-    Points,
     Readout,
     Reals,
     Scene,
@@ -23,7 +22,6 @@ from gearlink.cli.scenes.scene import (
     letters,
     loop,
     standing,
-    track,
 )
 from gearlink.core.gears.outline.mesh_phase import ring_turn
 
@@ -34,21 +32,22 @@ if TYPE_CHECKING:
 def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
     """Positions over fractions of the loop, from mid-dwell on."""
     t = TURN * fraction
-    a, b = track(0.0, fraction), design.carrier_length * np.exp(1j * t)
-    m, inwards = _points(design, t), _inwards(design, t)
+    now, whole = (design.moving.at(angles, 0).links for angles in (t, TURN * loop(361)))
+    a, b, m, f = (
+        now[link].at(name).value for link, name in (("carrier", "A"), ("carrier", "B"), ("rod", "M"), ("rod", "F"))
+    )
     rest = design.slider.point(0.0).real + design.slider.rod
-    f = track(rest - inwards, fraction)
+    inwards, course = rest - now["slider"].origin.value.real, rest - whole["slider"].origin.value.real
     planet, ring = design.planet_teeth, design.ring_teeth
     turn = ring_turn((ring, planet), t, np.zeros_like(t))
-    whole = _inwards(design, TURN * loop())
     size = 0.5 * design.point_radius
     half = np.degrees(0.5 * design.dwell_carrier_angle)
-    way = rest - np.array([whole.min() - size, whole.max() + size]) + 0j
+    way = rest - np.array([course.min() - size, course.max() + size]) + 0j
     return Scene(
         parts=(
             *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, ORANGE, "", "ring gear, fixed"),
             *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, BLUE, "2", "planet"),
-            standing(_points(design, TURN * loop(361)), fraction, GREEN, "path of the point M"),
+            standing(whole["planet"].at("M").value, fraction, GREEN, "path of the point M"),
             *(Line(points=way + side * 0.5j * size, width=1.5) for side in (-1.0, 1.0)),
             block(f, 1.6 * size, size, BLACK),
             Chain(joints=(a, b, m), color=BLUE),
@@ -58,18 +57,10 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
         chart=Chart(
             "carrier angle [deg]",
             "slider, inwards from mid-dwell [mm]",
-            360.0 * loop(),
+            360.0 * loop(361),
             np.degrees(t),
-            (Curve("slider", BLUE, whole, inwards),),
+            (Curve("slider", BLUE, course, inwards),),
             bands([("dwell wanted", -half, half, DWELL)]),
         ),
         readouts=(Readout("carrier", "°", np.degrees(t)), Readout("slider", " mm", inwards)),
     )
-
-
-def _points(design: HypocycloidDwell, t: Reals) -> Points:
-    return np.array([design.slider.point(angle) for angle in t.tolist()])
-
-
-def _inwards(design: HypocycloidDwell, t: Reals) -> Reals:
-    return np.array([design.slider.deviation(angle) for angle in t.tolist()])

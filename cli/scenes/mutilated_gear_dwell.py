@@ -12,6 +12,7 @@ from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import TURN, Band, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
+from gearlink.core.dwell_gears.mutilated_mechanism import driven
 from gearlink.core.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.errors import NoSolution
 
@@ -23,15 +24,15 @@ def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the wheel turns clockwise, a motion begins at fraction 0."""
     cycles = design.mutilated.cycles_to_repeat
     turns = cycles * design.cycle_turns * fraction
-    driven, axis = _driven(design, turns), track(0.0, fraction)
+    moved, axis = _driven(design, turns), track(0.0, fraction)
     bars, toward = design.linkage, 1.0 if design.linkage is None else 1j
     center = track(-toward * design.mesh.center_distance, fraction)
-    at = None if bars is None else Joints.of(bars, driven + (design.start_crank_angle or 0.0))
+    at = None if bars is None else Joints.of(bars, moved + (design.start_crank_angle or 0.0))
     return Scene(
         parts=(*_gears(design, turns, center, toward), *([] if at is None else [at.chain()])),
         marks=(Mark(center, pivot=True), *((Mark(axis, pivot=True),) if at is None else at.marks())),
-        chart=_chart(design, cycles * design.cycle_turns, turns, driven),
-        readouts=(Readout("input turns", "", turns), Readout("driven gear", "°", np.degrees(driven))),
+        chart=_chart(design, cycles * design.cycle_turns, turns, moved),
+        readouts=(Readout("input turns", "", turns), Readout("driven gear", "°", np.degrees(moved))),
     )
 
 
@@ -45,8 +46,8 @@ def mesh_scene(design: MutilatedGearDwell) -> Scene:
 def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: complex) -> list[Body]:
     """The wheel, and the driven gear in a direction from it, after turns of the input."""
     # A space of the wheel and a tooth of the driven gear stand on the line of centres where a motion begins.
-    driven, line = _driven(design, turns), cmath.phase(toward)
-    place = line + math.pi - math.pi / design.mesh.teeth[1] + driven
+    line = cmath.phase(toward)
+    place = line + math.pi - math.pi / design.mesh.teeth[1] + _driven(design, turns)
     axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
     return [
         _wheel(design, center, line - TURN * turns / design.reduction),
@@ -55,12 +56,12 @@ def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: com
 
 
 def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
-    return np.array([design.mutilated.driven_angle(TURN * value) for value in turns.tolist()])
+    return driven(design.mutilated, TURN * turns)[0]
 
 
-def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, driven: Reals) -> Chart:
+def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, now: Reals) -> Chart:
     x = whole * loop(361)
-    curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(driven))
+    curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(now))
     cycle, count = design.cycle_turns, design.mutilated.cycles_to_repeat
     dwells = tuple(Band("dwell", k * cycle + design.motion_turns, (k + 1) * cycle) for k in range(count))
     return Chart("input turns", "driven gear [deg]", x, turns, (curve,), dwells)

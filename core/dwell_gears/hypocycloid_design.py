@@ -21,7 +21,6 @@ from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.motion_extremes import names
-from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.remedies.ways import Way, either, up
 from gearlink.core.report import Check, Remedy, Table
@@ -272,21 +271,19 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
-        count, slider = samples or 360, self.slider
-        degrees = [360.0 * i / count for i in row_numbers(samples, count)]
-        angles = [math.remainder(math.radians(x), 2.0 * math.pi) for x in degrees]
-        points = [slider.point(t) for t in angles]
-        columns = {
-            "carrier_angle": (degrees, "deg"),
-            "deviation": ([slider.deviation(t) for t in angles], "mm"),
-            "velocity": ([slider.speed(t) for t in angles], "mm/rad"),
-            "acceleration": ([slider.acceleration(t) for t in angles], "mm/rad^2"),
-            "rod_angle": ([math.degrees(slider.rod_angle(t)) for t in angles], "deg"),
-            "x": ([p.real for p in points], "mm"),
-            "y": ([p.imag for p in points], "mm"),
-        }
-        rates = {"slider_velocity": ("velocity", 1), "slider_acceleration": ("acceleration", 2)}
-        return Table.of("motion", self.timed(columns, "carrier_angle", rates))
+        from gearlink.core.dwell_gears.hypocycloid_mechanism import outwards
+        from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, turned
+
+        way, point = outwards(self), -self.slider.planet_radius
+        shown = [
+            Shown("deviation", way.scaled(-1.0)),
+            Shown("velocity", way, 1, "slider_velocity"),
+            Shown("acceleration", way, 2, "slider_acceleration"),
+            Shown("rod_angle", turned("rod", sense=-1.0)),
+            Shown("x", coordinate("planet", point)),
+            Shown("y", coordinate("planet", point, 1j)),
+        ]
+        return motion_table("motion", self, shown, samples)
 
     # Checks
 

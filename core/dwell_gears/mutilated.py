@@ -168,34 +168,6 @@ class MutilatedGear:
         """Pitches from the last tooth of a group to the first of the next, Z_M/g - n + 1."""
         return self.full_teeth / self.groups - self.group_teeth + 1.0
 
-    def driven_angle(self, input_angle: float) -> float:
-        """Angle of the driven gear, counted in its own sense; 0 where a motion starts at input angle 0.
-
-        psi = k n/Z_F 2 pi + min(speed_ratio * rest, n/Z_F 2 pi),   k whole cycles
-
-        Parameters
-            input_angle : float [rad] - any real angle
-        Returns
-            psi : float [rad]
-        Example
-            >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
-            >>> [round(gear.driven_angle(2.0 * math.pi * turns) / (2.0 * math.pi), 12) for turns in (0.75, 3.0, 6.75)]
-            [0.5, 1.0, 1.5]
-        """
-        cycles, rest = divmod(input_angle, 2.0 * math.pi * self.cycle_turns)
-        step = 2.0 * math.pi * self.driven_turn
-        return cycles * step + min(self.speed_ratio * rest, step)
-
-    def moves(self, input_angle: float) -> bool:
-        """Whether the driven gear turns at an input angle (its start counts, its end does not).
-
-        Example
-            >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
-            >>> [gear.moves(2.0 * math.pi * turns) for turns in (0.0, 1.4, 1.6)]
-            [True, True, False]
-        """
-        return input_angle % (2.0 * math.pi * self.cycle_turns) < 2.0 * math.pi * self.motion_turns
-
 
 def _teeth(number: int) -> str:
     return amount(number, "tooth", "teeth")

@@ -21,7 +21,6 @@ from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import TARGET
-from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.fourbar.swing import rocker_swing
@@ -249,33 +248,24 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
+        import numpy as np
+
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
-        cycle = _TURN * self.cycle_turns
-        inputs = [cycle * i / count for i in row_numbers(samples, cycles * count)]
-        driven = [self.mutilated.driven_angle(angle) for angle in inputs]
-        speeds = [self.driven_speed_ratio if self.mutilated.moves(angle) else 0.0 for angle in inputs]
-        columns: dict[str, tuple[list[float], str]] = {
-            "input_angle": ([math.degrees(angle) for angle in inputs], "deg"),
-            "driven_angle": ([math.degrees(angle) for angle in driven], "deg"),
-            "driven_speed_ratio": (speeds, "1"),
-        }
-        if self.linkage is not None and self.start_crank_angle is not None:
-            start = self.start_crank_angle
-            states = [solve(self.linkage, start + angle, 2) for angle in driven]
-            columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
-            rocker = [state.rocker_velocity * speed + 0.0 for state, speed in zip(states, speeds, strict=True)]
-            columns["rocker_speed_ratio"] = (rocker, "1")
+        rows = row_numbers(samples, cycles * count)
+        degrees = 360.0 * self.cycle_turns * np.arange(rows.start, rows.stop) / count
+        gear, rocker = turned("crank").less(self.start_crank_angle or 0.0), turned("rocker")
+        shown = [Shown("driven_angle", gear), Shown("driven_speed_ratio", gear, 1, "driven_speed")]
+        if self.linkage is not None:
             # The jump of the speed at a start has no acceleration: these are those of the motion.
-            hard = [state.rocker_acceleration * speed**2 + 0.0 for state, speed in zip(states, speeds, strict=True)]
-            columns["rocker_acceleration_ratio"] = (hard, "1")
-            columns["transmission_angle"] = ([math.degrees(acute(s.transmission_angle)) for s in states], "deg")
-        rates = {"driven_speed": ("driven_speed_ratio", 1)}
-        if "rocker_speed_ratio" in columns:
-            rates |= {
-                "rocker_speed": ("rocker_speed_ratio", 1),
-                "rocker_acceleration": ("rocker_acceleration_ratio", 2),
-            }
-        return Table.of("motion", self.timed(columns, "input_angle", rates))
+            shown += [
+                Shown("rocker_angle", rocker),
+                Shown("rocker_speed_ratio", rocker, 1, "rocker_speed"),
+                Shown("rocker_acceleration_ratio", rocker, 2, "rocker_acceleration"),
+                Shown("transmission_angle", between("coupler", "rocker")),
+            ]
+        return motion_table("motion", self, shown, samples, degrees=degrees)
 
     reduction: float = placed("spec.reduction")
     full_teeth: int = placed("spec.gears.full_teeth")

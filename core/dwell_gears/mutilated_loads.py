@@ -6,29 +6,24 @@ their energy.
 
 from __future__ import annotations
 
-import cmath
-import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
+from gearlink.core.linkages.fourbar.mechanism import four_bar
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming
 from gearlink.core.loads.sources import mass_of
 from gearlink.core.loads.spec import of_body
+from gearlink.core.mechanism.motion import TURN, Motion
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.loads_spec import MutilatedLoads as Section
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
     from gearlink.core.linkages.fourbar.position import FourBar
-    from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.numerics.arrays import Reals
 
-_TURN = 2.0 * math.pi
 _MOST_MOTIONS = 200
 
 
@@ -55,6 +50,12 @@ class MutilatedGearLoads(LoadsDesign):
         if self.design.linkage is None:
             raise MissingSection("`loads` needs the four-bar on the driven shaft: give links", key="links")
         return self.design.linkage
+
+    @property
+    def moving(self) -> Motion:
+        """The motion of the links, which the file must give."""
+        _ = self.linkage
+        return self.design.moving
 
     @cached_property
     def turns(self) -> int:
@@ -83,51 +84,11 @@ class MutilatedGearLoads(LoadsDesign):
         """The wheel's, which turns once in `reduction` input turns."""
         return mass_of(of_body(self.section.links, "wheel")).inertia / self.design.reduction**2
 
-    @cached_property
+    @property
     def own_joints(self) -> list[float]:
-        """Input angles of all turns at which a motion begins or ends [rad]."""
-        cycle, motion = _TURN * self.design.cycle_turns, _TURN * self.design.motion_turns
-        count = round(self.turns / self.design.cycle_turns)
-        return [start for k in range(count) for start in (k * cycle, k * cycle + motion)]
-
-    def _driven(self, phi: Reals) -> tuple[Reals, Reals]:
-        """Angle of the driven gear [rad], and whether it moves, as 1 or 0."""
-        import numpy as np
-
-        gear = self.design.mutilated
-        cycle, step = _TURN * gear.cycle_turns, _TURN * gear.driven_turn
-        rest = np.mod(phi, cycle)
-        # A place that is the start of a motion but for rounding is the start.
-        rest = np.where(cycle - rest <= 8.0 * np.spacing(np.maximum(np.abs(phi), cycle)), 0.0, rest)
-        whole = np.round((phi - rest) / cycle)
-        moves = np.where(rest < _TURN * gear.motion_turns, 1.0, 0.0)
-        # within a cycle the gear turns by one step, and then stands
-        return np.asarray(whole * step + np.minimum(gear.speed_ratio * rest, step)), moves
-
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """The three links at input angles."""
-        from gearlink.core.mechanism.joints import ToothDrive
-        from gearlink.core.mechanism.links import Link, Mechanism
-        from gearlink.core.mechanism.rates import Point, Turn
-
-        angle, moves = self._driven(phi)
-        crank = (self.design.start_crank_angle or 0.0) + angle
-        rate = moves * self.design.mutilated.speed_ratio
-        links = {
-            name: Link(
-                Point(link.origin.value, *(each * rate**k for k, each in enumerate(link.origin[1:], 1))),
-                Turn(link.turn.value, *(each * rate**k for k, each in enumerate(link.turn[1:], 1))),
-                link.points,
-            )
-            for name, link in four_bar(self.linkage, crank, order).items()
-        }
-        direction = math.radians(self.section.wheel_direction or 0.0)
-        radius = self.design.mesh.working_radius[1]
-        tangent = math.tan(self.design.mesh.working_pressure_angle)
-        teeth = ToothDrive("mesh_wheel", "crank", links["crank"].origin.value, cmath.exp(1j * direction), radius,
-                           tangent, moves > 0.0)  # fmt: skip
-        connections: list[Connection] = [*four_bar_pins(links), teeth]
-        return Mechanism(links, connections, "mesh_wheel", gain=radius * rate)
+        """Input angles of the period at which a motion begins or ends [rad]."""
+        home = self.moving.input
+        return [turn * home.end + joint for turn in range(round(TURN * self.turns / home.end)) for joint in home.joints]
 
     # Jumps of speed
 
@@ -143,7 +104,7 @@ class MutilatedGearLoads(LoadsDesign):
         from gearlink.core.mechanism.links import Mechanism
 
         count = self.design.cycles_to_repeat
-        starts = np.arange(count, dtype=np.float64) * (_TURN * self.design.driven_turn) + (
+        starts = np.arange(count, dtype=np.float64) * (TURN * self.design.driven_turn) + (
             self.design.start_crank_angle or 0.0
         )
         links = four_bar(self.linkage, starts, 2)

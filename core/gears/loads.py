@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from gearlink.core.gears.data import GearData
     from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.numerics.arrays import Reals
 
 
 class GearPairLoads(LoadsDesign):
@@ -34,23 +32,26 @@ class GearPairLoads(LoadsDesign):
     outlines = loads_outline(pins, meshes, ("axial_force_max", "tilting_moment_max"))
 
     @cached_property
-    def _geometry(self) -> GearPairDesign:
+    def design(self) -> GearPairDesign:
+        """The geometry."""
         return GearPairDesign(self.spec)
 
     @property
     def pair(self) -> GearPair:
-        """The geometry."""
-        return self._geometry.gear_pair
+        """The two gears."""
+        return self.design.gear_pair
 
     @property
     def mesh_data(self) -> dict[str, GearData]:
         """The pair with what its rating needs."""
-        return {"": self._geometry.data}
+        return {"": self.design.data}
 
     @property
     def turns(self) -> int:
         """Turns of gear 1 until both gears are back at their place."""
-        return abs(self.pair.teeth[1]) // math.gcd(*self.pair.teeth)
+        turns = self.moving.input.turns
+        assert turns is not None, "both gears come home"
+        return turns
 
     @property
     def axial_share(self) -> float:
@@ -79,26 +80,3 @@ class GearPairLoads(LoadsDesign):
         columns = dict(zip(found.columns, zip(found.data, found.units, strict=True), strict=True))
         columns["mesh_12_axial"] = (self.axial_share * abs(found["mesh_12"]), "N")
         return Table.of("teeth", columns)
-
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """Both gears at angles of gear 1."""
-        from gearlink.core.mechanism.joints import Mesh, Pin
-        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-        from gearlink.core.mechanism.rates import fixed, steady
-
-        pair = self.pair
-        r1, r2 = pair.working_radius
-        links = {
-            "gear1": Link(fixed(0j, phi, order=order), steady(phi, order=order)),
-            "gear2": Link(
-                fixed(complex(abs(pair.center_distance)), phi, order=order), steady(phi, -r1 / r2, order=order)
-            ),
-        }
-        a, b = links["gear1"].origin.value, links["gear2"].origin.value
-        tangent = math.tan(pair.working_pressure_angle)
-        if r2 < 0.0:
-            mesh = Mesh("mesh_12", "gear2", "gear1", b, -1.0 + 0j, -r2, r1, tangent, True)
-        else:
-            mesh = Mesh("mesh_12", "gear1", "gear2", a, 1.0 + 0j, r1, r2, tangent)
-        pins = [Pin("gear1", FRAME, "gear1", a), Pin("gear2", FRAME, "gear2", b)]
-        return Mechanism(links, [*pins, mesh], "gear1")

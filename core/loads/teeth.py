@@ -92,6 +92,6 @@ def _drawn(design: LoadsDesign) -> list[str]:
 
 def _with_gears(design: Any) -> tuple[Any, Any]:
     """The part of a machine that knows its meshes, and the section with their keys."""
-    machine = getattr(design, "design", design)
+    machine = design if hasattr(type(design), "mesh_data") else design.design
     spec = machine.spec
     return machine, getattr(spec, "gears", None) or getattr(spec, "input_gears", None) or spec

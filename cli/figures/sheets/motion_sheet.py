@@ -106,7 +106,7 @@ def _of_motion(design: Any) -> list[Course]:
     joints = np.array(given.joints)
     after = np.degrees(joints)
     before = after - _BEFORE * np.spacing(after)
-    x = np.unique(np.concatenate([np.linspace(start, end, 720 * (given.turns or 1) + 1), after, before]))
+    x = np.unique(np.concatenate([np.linspace(start, end, math.ceil(2.0 * (end - start)) + 1), after, before]))
 
     def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
         def rates(x: Reals) -> tuple[Reals, ...]:
@@ -236,19 +236,6 @@ def _gripper(design: Any) -> list[Course]:
     return [Course("Gripper arm", "cylinder angle [deg]", x, rates, "rad", design.shaft_speed, phases)]
 
 
-def _hypocycloid(design: Any) -> list[Course]:
-    slider = design.slider
-    kinds: tuple[Callable[[float], float], ...] = (slider.deviation, slider.speed, slider.acceleration)
-
-    def rates(x: Reals) -> tuple[Reals, ...]:
-        angles = [math.remainder(angle, _TURN) for angle in np.radians(x).tolist()]
-        deviation, *others = (np.array([rate(angle) for angle in angles]) for rate in kinds)
-        return -deviation, *others  # it counts inwards, velocities along the slide
-
-    speed = getattr(design, "angular_speed", None)
-    return [Course("Slider F, outwards", "carrier angle [deg]", _angles(), rates, "mm", speed)]
-
-
 def _five_bar(design: Any) -> list[Course]:
     from gearlink.core.five_bar.path import sweep
 
@@ -311,7 +298,7 @@ _KINDS: dict[str, Callable[[Any], list[Course]]] = {
     "slider-crank": _of_motion,
     "flatbed-press": _press,
     "swing-gripper": _gripper,
-    "hypocycloid-dwell": _hypocycloid,
+    "hypocycloid-dwell": _of_motion,
     "geared-five-bar": _five_bar,
     "geared-six-bar": _six_bar,
     "wide-swing-cam": _wide_swing,
