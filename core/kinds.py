@@ -171,6 +171,7 @@ KINDS: dict[str, Kind] = {
                 "analyze": _SWING,
                 "loads": "wide_swing.loads.design:WideSwingLoads",
             },
+            motion="wide_swing.mechanism:motion",
         ),
         Kind(
             "gear-train-mobility",

@@ -152,7 +152,7 @@ def stroke_profile(axes: Axes, stroke: Any) -> None:
     parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
     gap = 0.5 * (parts[0][-1] + parts[1][0])
     k = np.concatenate([parts[0], [gap], parts[1]])
-    points, pressure = stroke.cam.points(stroke.profile(k)[0]).profile, stroke.contact(k).pressure
+    points, pressure = stroke.cam.points(stroke.at.profile(k)[0]).profile, stroke.contact(k).pressure
     points[len(parts[0])] = complex(np.nan, np.nan)
     _colored(axes, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)

@@ -255,28 +255,20 @@ def _five_bar(design: Any) -> list[Course]:
 
 
 def _wide_swing(design: Any) -> list[Course]:
-    """The rocker over its working stroke, and the slider that it drives."""
-    motion = design.motion
-    law, angle, swing = motion.law, motion.cycle_angle, motion.swing
-    x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / motion.working_time
-    slider: Any = motion.slider if design.spec.slider is not None else None
-
-    def fraction(x: Reals) -> Reals:
-        return np.minimum(x / math.degrees(angle), 1.0)
-
-    def rocking(x: Reals) -> tuple[Reals, ...]:
-        found = law.invariants(fraction(x), 2 if slider is not None else 3)
-        return tuple(swing * rate / angle**order for order, rate in enumerate(found))
-
-    def sliding(x: Reals) -> tuple[Reals, ...]:
-        found = slider.slider_invariants(fraction(x))
-        return tuple(slider.stroke * rate / angle**order for order, rate in enumerate(found))
-
+    """The rocker over its working stroke, and the slider that it drives, both from where the stroke begins."""
+    moving, angle = design.moving, design.motion.cycle_angle
+    x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / design.motion.working_time
     over = "cam angle [deg]" if design.spec.drive is None else "crank angle [deg]"
-    shown = [Course("Rocker, working stroke", over, x, rocking, "rad", speed)]
-    if slider is not None:
-        shown.append(Course("Slider", over, x, sliding, "mm", speed))
-    return shown
+
+    def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
+        at_start = float(course.rates(moving, np.zeros(1), 0)[0][0])
+        return lambda x: tuple(course.less(at_start).rates(moving, np.minimum(np.radians(x), angle), 3, side=-1))
+
+    names = ("Rocker, working stroke", "Slider")
+    return [
+        Course(name, over, x, at(each.course), each.course.unit, speed)
+        for name, each in zip(names, moving.outputs, strict=False)
+    ]
 
 
 def _six_bar(design: Any) -> list[Course]:

@@ -28,11 +28,9 @@ if TYPE_CHECKING:
 
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.vibrating import Vibrating
-    from gearlink.core.mechanism.dynamics import Mass
-    from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.mechanism.links import Link, Mechanism
-    from gearlink.core.mechanism.rates import Turn
-    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.report import Remedy
     from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.loads.pressing import Pressing
@@ -91,7 +89,6 @@ class WideSwingLoads(LoadsDesign):
         return self.spec.cycle is not None or self.spec.drive is not None
 
     weight: int = placed("halves")
-    highest: int = placed("design.motion.highest")
 
     @property
     def halves(self) -> int:
@@ -101,27 +98,15 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def strokes(self) -> tuple[SwingStroke, ...]:
         """The working stroke, and what brings the rocker back where the whole turn is known."""
-        from gearlink.core.wide_swing.loads.stroke import SwingStroke, WayHome
+        from gearlink.core.wide_swing.loads.stroke import SwingStroke
+        from gearlink.core.wide_swing.strokes import strokes_of
 
-        main = SwingStroke("main", self.cam, 0.0, self)
-        if self.spec.drive is not None:
-            return main, WayHome("return", self.cam, self.cam.cycle_angle, self)
-        if not self.whole:
-            return (main,)
-        back = self.design.return_cam or self.cam
-        return main, SwingStroke("return", back, sum(self.design.motion.cycle_angles[:2]), self)
+        return tuple(SwingStroke(stroke, self) for stroke in strokes_of(self.design))
 
     @property
     def has_return_cam(self) -> bool:
         """Whether a second cam turns the other way."""
         return self.spec.cycle is not None and self.spec.layout == "twin-cam"
-
-    @cached_property
-    def _phases(self) -> tuple[float, ...]:
-        """Input angles of working stroke, rest, return stroke and rest [rad]; of a stroke alone its own."""
-        if self.spec.drive is not None:
-            return self.cam.cycle_angle, 0.0, self.strokes[1].width, 0.0
-        return self.design.motion.cycle_angles if self.whole else (self.cam.cycle_angle,)
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:
@@ -158,14 +143,12 @@ class WideSwingLoads(LoadsDesign):
         from dataclasses import replace
         from functools import partial
 
-        from gearlink.core.wide_swing.loads.links import pull_of_device
-
         self._require_turn()
         self._require_own_directions()
         for stroke in self.strokes:
             stroke.cam.require_profile()
         return replace(
-            super().machine, more=partial(pull_of_device, self), stroke=0.0 if self.whole else self.cam.cycle_angle
+            super().machine, more=partial(_pull_of_device, self), stroke=0.0 if self.whole else self.cam.cycle_angle
         )
 
     def _require_turn(self) -> None:
@@ -194,21 +177,14 @@ class WideSwingLoads(LoadsDesign):
     @property
     def own_joints(self) -> list[float]:
         """The ends of the strokes, and where the rollers change sides."""
-        from gearlink.core.wide_swing.cams.outline import middle_of
-
-        ends = [
-            stroke.start + share * stroke.width
-            for stroke in self.strokes
-            for share in (0.0, stroke.at_profile(middle_of(stroke.cam)), 1.0)
-        ]
-        return [angle for angle in ends if angle > 0.0]
+        return list(self.moving.input.joints)
 
     @property
     def dwell_zones(self) -> list[tuple[float, float]]:
         """Both rests of a whole turn."""
         if self.spec.cycle is None:
             return []
-        working, far, back, near = self._phases
+        working, far, back, near = self.design.motion.cycle_angles
         return [(working, far), (working + far + back, near)]
 
     @property
@@ -226,89 +202,6 @@ class WideSwingLoads(LoadsDesign):
         if spec.drive is not None and section.drive_direction is None:
             found.append("O")
         return tuple(found)
-
-    # Motion
-
-    def _share(self, phi: Reals) -> tuple[Any, Reals]:
-        """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
-        import numpy as np
-
-        from gearlink.core.numerics.extremes import share_of
-
-        edges = np.concatenate(([0.0], np.cumsum(self._phases)))
-        turned = np.mod(phi, 2.0 * math.pi) if self.whole else phi
-        sector = np.searchsorted(edges[1:-1], turned, side="right")
-        width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
-        # The phases add up to the turn but for rounding, and what asks on which side of its end a stroke changes sign
-        # looks a millionth of a radian beyond it, where the rocker rests.
-        return sector, share_of(turned - edges[sector], width[sector])
-
-    def _rocker(self, sector: Any, share: Reals, order: int) -> tuple[Turn, Points, Points]:
-        """The rocker's angle, the centre of the guided roller [mm], and the direction in which its cam pushes it."""
-        import numpy as np
-
-        from gearlink.core.mechanism.rates import Turn
-
-        rows = len(share)
-        turn, place, normal = np.zeros((order + 1, rows)), *np.zeros((2, rows), dtype=np.complex128)
-        for number, stroke in enumerate(self.strokes):
-            moving, resting = sector == 2 * number, sector == 2 * number + 1
-            if moving.any():
-                turn[:, moving] = stroke.turn(share[moving], order)
-                place[moving], normal[moving] = stroke.roller(share[moving])
-            if resting.any():
-                turn[0, resting] = stroke.turn(np.ones(1), 0).value
-                place[resting], normal[resting] = stroke.roller(np.ones(1), resting=True)
-        return Turn(*turn), place, normal
-
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """Rocker and cams at input angles."""
-        import numpy as np
-
-        from gearlink.core.mechanism.joints import Pin, SharedContact
-        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-        from gearlink.core.mechanism.rates import fixed
-        from gearlink.core.wide_swing.loads.links import SLIDER_DIRECTION, with_slider
-
-        order = min(order, self.highest)
-        sector, share = self._share(phi)
-        turn, place, normal = self._rocker(sector, share, order)
-        links, connections, sense, crank = self._driven(phi, order)
-        pivot = fixed(complex(self._side * self.cam.center_distance), phi, order=order)
-        links["rocker"] = Link(pivot, turn)
-        connections.append(Pin("D", FRAME, "rocker", pivot.value))
-        shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
-        if self.has_return_cam:
-            shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
-        travel = {}
-        if self.spec.slider is not None:
-            direction = math.radians(_or(self.section.slider_direction, SLIDER_DIRECTION))
-            hung, joints = with_slider(links["rocker"], self.design.motion.slider.drive, direction)
-            links |= hung
-            connections += joints
-            travel["slider"] = cmath.rect(1.0, direction)
-        connections.append(SharedContact("roller", "rocker", place, normal, shares))
-        drive = "crank" if self.spec.drive is not None else "cam"
-        return Mechanism(links, connections, drive, sense, crank, travel)
-
-    @property
-    def _side(self) -> float:
-        """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
-        return -1.0 if self.spec.layout == "twin-cam" else 1.0
-
-    def _driven(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection], float, complex]:
-        """The cams with what drives them, their pins, the sense of the driven link and its pivot [mm]."""
-        from gearlink.core.mechanism.rates import fixed
-        from gearlink.core.wide_swing.cams.outline import middle_of
-        from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts
-
-        axis = fixed(0j, phi, order=order)
-        if self.spec.drive is not None:
-            direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
-            return with_drive(phi, axis, self.design.motion.drive, direction)
-        middles = [stroke.start + middle_of(stroke.cam) * stroke.width for stroke in self.strokes]
-        links, connections = with_shafts(phi, axis, self._side, middles[: 1 + self.has_return_cam])
-        return links, connections, self._side, 0j
 
     # The stroke
 
@@ -385,5 +278,24 @@ class WideSwingLoads(LoadsDesign):
     check_resonance, check_body_clearance = loads_checks.resonance, bodies.placed_clearance
 
 
-def _or(given: float | None, otherwise: float) -> float:
-    return otherwise if given is None else given
+def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
+    """The pull of the device on its pin of the rocker, towards its base pin."""
+    import numpy as np
+
+    from gearlink.core.mechanism.dynamics import Force
+
+    unloader, unloading = loads.spec.unloader, loads.design.unloading
+    way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
+    rocker = mechanism.links["rocker"]
+    arm = unloader.arm
+    pin = rocker.at(arm * way)
+    # In arms from the pivot: of any size, and a short one is not lost.
+    along = way * (unloader.pivot_ratio - rocker.unit)
+    length = np.abs(along)
+    if unloader.type == "pneumatic":
+        pull = np.full(length.shape, unloading.force or 0.0)
+    else:
+        geometry = loads.design.motion.law.geometry
+        mounted = geometry.shortest - unloader.stretch_ratio * geometry.stroke
+        pull = (unloading.spring_rate or 0.0) * arm * (length - mounted)
+    return [Force("rocker", pull * along / length, pin)]
