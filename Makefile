@@ -106,11 +106,11 @@ bench/.venv/.ready: Makefile
 	touch $@
 
 bench: $(READY) bench/.venv/.ready
-	$(BIN)/python bench/write_page.py
+	$(BIN)/python -m bench.write_page
 
 # What is slower than on docs/benchmarks.json, as ratios to the floors of the same run.
 bench-guard: $(READY)
-	$(BIN)/python bench/guard.py
+	$(BIN)/python -m bench.guard
 
 # Tests that share nothing: each goes to the next free process.
 stress: $(READY)

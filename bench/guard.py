@@ -10,7 +10,7 @@ import json
 import sys
 from pathlib import Path
 
-from gearlink.cli.bench.families import measured
+from bench.families import measured
 
 RECORD = Path(__file__).resolve().parents[1] / "docs" / "benchmarks.json"
 FAMILIES = ("start-up", "pictures", "four-bar", "involute", "press", "studies")

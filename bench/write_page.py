@@ -10,11 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gearlink.cli.bench.command import NAMES
-from gearlink.cli.bench.families import measured
-from gearlink.cli.bench.page import as_markdown, duration, write_pictures
-from gearlink.cli.bench.pictures import WAITS
-from gearlink.cli.bench.timing import Family, machine
+from bench.families import FAMILIES, measured
+from bench.page import as_markdown, duration, write_pictures
+from bench.pictures import WAITS
+from bench.timing import Family, machine
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
@@ -22,7 +21,7 @@ PEERS = ROOT / "bench" / ".venv" / "bin" / "python"
 
 _HEAD = """# Run time against error
 
-Written by `make bench` (`gearlink bench` prints the tables alone). Every time is a median of rounds in which all
+Written by `make bench` (`python -m bench` prints the tables alone). Every time is a median of rounds in which all
 methods of a table take their turn, so ratios within a table hold even on a busy machine; single times do not.
 Errors are against 30 digits and more on a sample.
 """
@@ -223,7 +222,7 @@ def main() -> None:
     """Measure, write, say where."""
     quick = "--quick" in sys.argv[1:]
     found = {}
-    for name in NAMES:
+    for name in FAMILIES:
         print(f"measuring {name} ...", file=sys.stderr)
         found[name] = measured(name, quick)
     here = machine()

@@ -13,7 +13,6 @@ import typer
 import typer.main
 
 from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn, Unchanged
-from gearlink.cli.bench.command import register as register_bench
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
 from gearlink.cli.commands.laws import laws
@@ -133,7 +132,6 @@ def _batch(
 
 register(app)
 register_export(app)
-register_bench(app)
 register_exploring(app)
 register_tolerances(app)
 register_pictures(app)

@@ -12,7 +12,7 @@ GROUPS = {
     "Compute a design": ("analyze", "gear", "crank", "press", "gripper", "swing", "cam", "loads"),
     "Judge it": ("check", "diff", "tolerance", "register", "verify"),
     "Show it, make it": ("report", "watch", "sheet", "animate", "export"),
-    "Many designs": ("batch", "bench"),
+    "Many designs": ("batch",),
 }
 """Headings and the commands below them; a command that stands in none comes last."""
 

@@ -108,13 +108,6 @@ def published_cases(incomplete: str) -> Offer:
     return _beginning(incomplete, ((name, "") for text in texts for name in _CASE.findall(text)))
 
 
-def families(incomplete: str) -> Offer:
-    """Families that `bench` measures."""
-    from gearlink.cli.bench.command import NAMES
-
-    return _beginning(incomplete, ((name, "") for name in NAMES))
-
-
 def commands(incomplete: str) -> Offer:
     """Commands to have help on; behind `synth` its own."""
     from gearlink.cli.command_groups import GROUPS

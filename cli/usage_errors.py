@@ -34,6 +34,9 @@ _GONE = {
 }
 """What serves in place of options that were once there."""
 
+_NO_MORE = {"bench": "run times are measured in a checkout of gearlink, by `make bench`"}
+"""The same of commands."""
+
 
 def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     """Put into an error of usage what would have been right; it stays as it is where nothing is known.
@@ -57,6 +60,8 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
         wrong.message = message or str(getattr(wrong.param, "help", "") or "")
     elif getattr(wrong, "param", None) is not None:
         wrong.message = _of_value(wrong, arguments, command, tree)
+    elif command is tree and (gone := _NO_MORE.get(message.removeprefix("No such command '").partition("'")[0])):
+        wrong.message = f"{message.partition('.')[0]}; {gone}"
     elif message.startswith("No such command") and "Did you mean" not in message:
         remedy = _of_command(message.split("'")[1], command, tree)
         wrong.message = f"{message.rstrip('.')}; {remedy}" if remedy else message

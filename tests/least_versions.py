@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[1] / "pyproject.toml"
-EXTRAS = ("bench", "cluster")
+EXTRAS = ("cluster",)
 """Of the extras those whose libraries the tests import; `step` is a program of its own of some hundred MB."""
 
 

@@ -245,9 +245,7 @@ def test_a_narrow_terminal_keeps_every_number(
     assert "…" not in narrow
 
 
-@pytest.mark.parametrize(
-    "line", ["batch nowhere -f json", "batch nowhere -f jsonl", "check nowhere -f json", "bench nofamily --format json"]
-)
+@pytest.mark.parametrize("line", ["batch nowhere -f json", "batch nowhere -f jsonl", "check nowhere -f json"])
 def test_errors_before_any_file_are_in_json_too(gearlink: Any, line: str) -> None:
     ended = gearlink(*line.split())
     (error,) = ended.json["errors"]

@@ -95,8 +95,7 @@ def test_without_a_design_all_names_are_offered(line: pytest.MonkeyPatch) -> Non
     assert set(words(completing.places(""))) == {"dwell", "zone", "handover"}
 
 
-def test_families_and_commands() -> None:
-    assert words(completing.families("inv")) == ["involute"]
+def test_commands() -> None:
     assert "synth" in words(completing.commands(""))
 
 
@@ -150,7 +149,6 @@ LINES = [
     (f"gearlink sheet {typed(DESIGNS / 'ty460.yaml')} ti", "timing"),
     (f"gearlink export {typed(DESIGNS / 'gear_pair.yaml')} --part blo", "blocking_contour"),
     (f"gearlink register {typed(DESIGNS / 'ty460_register.yaml')} --at z", "zone"),
-    ("gearlink bench inv", "involute"),
     ("gearlink help synth mom", "momentary-dwell"),
 ]
 

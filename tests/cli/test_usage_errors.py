@@ -71,6 +71,7 @@ def pair(tmp_path: Path) -> Path:
         ("batch SPEC -jx", "'x' is not a whole number from 0 on"),
         ("dwell SPEC", "; use `gearlink synth dwell`"),
         ("SPEC", "; for a file: `gearlink analyze "),
+        ("bench involute", "; run times are measured in a checkout of gearlink, by `make bench`"),
         ("gear SPEC other.yaml", "; gear takes one file, `gearlink batch` and `gearlink check` several"),
         ("gear", "Missing argument 'SPEC'. design file, or - for standard input"),
     ],

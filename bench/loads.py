@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.bench.timing import Family, Method, measure, mpmath, numpy_pass
+from bench.timing import Family, Method, measure, mpmath, numpy_pass
 from gearlink.core.loads.flywheel import Energy
 from gearlink.core.loads.motor import MotorRun
 from gearlink.core.loads.panels import Panels

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, numpy_pass
+from bench.timing import Family, Method, Row, measure, numpy_pass
 from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one
 from gearlink.core.explore.preparing import problem
 from gearlink.core.explore.problem import CHUNK, Problem

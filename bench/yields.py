@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, numpy_pass
+from bench.timing import Family, Method, Row, measure, numpy_pass
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.tolerance.sampling import REPLICATIONS, estimate, replications
 

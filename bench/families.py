@@ -1,4 +1,4 @@
-"""The families that `bench` measures, by name; modules are imported only when theirs is asked for."""
+"""The families that are measured, by name; modules are imported only when theirs is asked for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gearlink.cli.bench.timing import Family
+    from bench.timing import Family
 
 FAMILIES = {
     "four-bar": "four_bar:family",
@@ -32,5 +32,5 @@ FAMILIES = {
 def measured(name: str, quick: bool) -> Family:
     """The table of a family."""
     module, _, function = FAMILIES[name].partition(":")
-    family: Family = getattr(import_module(f"gearlink.cli.bench.{module}"), function)(quick)
+    family: Family = getattr(import_module(f"bench.{module}"), function)(quick)
     return family

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.bench.timing import Family, Method, measure, mpmath
+from bench.timing import Family, Method, measure, mpmath
 from gearlink.core.wide_swing.law.device import Pneumatic
 from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 from gearlink.core.wide_swing.law.iteration import legacy_law

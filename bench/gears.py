@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from gearlink.cli.bench.timing import Family, Method, measure, mpmath
+from bench.timing import Family, Method, measure, mpmath
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.mesh.pair import GearPair

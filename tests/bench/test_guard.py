@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import math
 import sys
@@ -11,25 +10,21 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.bench.families import FAMILIES
-from gearlink.cli.bench.timing import Family, Row
+import bench.guard
+from bench.families import FAMILIES
+from bench.timing import Family, Row
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
 def guard(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
-    """The script as a module, with a record of its own."""
-    spec = importlib.util.spec_from_file_location("guard", ROOT / "bench" / "guard.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    """The module, with a record of its own."""
     record = tmp_path / "benchmarks.json"
     record.write_text(json.dumps({"press": {"chains, 1": 2.0, "scipy newton, 1": 1.0}}))
-    monkeypatch.setattr(module, "RECORD", record)
+    monkeypatch.setattr(bench.guard, "RECORD", record)
     monkeypatch.setattr(sys, "argv", ["guard", "press"])
-    return module
+    return bench.guard
 
 
 def _measured(ratios: list[float]) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
+from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
 from gearlink.core.gears.tooth.involute import inverse_involute as scalar
 from gearlink.core.gears.tooth.involute_sweep import inverse_involute
 

@@ -8,20 +8,13 @@ import platform
 import statistics
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from importlib import import_module
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from gearlink.core.errors import GearlinkError
-
 EPS = 2.0**-52
 _LEAST_SECONDS = 2e-3
-
-
-class BenchNeedsMpmath(GearlinkError):
-    """The reference digits are worked out with mpmath, which is not installed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,17 +56,11 @@ class Family:
 
 
 def mpmath(digits: int = 30) -> Any:
-    """mpmath at a number of digits.
+    """mpmath at a number of digits."""
+    import mpmath
 
-    Raises
-        BenchNeedsMpmath - where it is not installed
-    """
-    try:
-        module = import_module("mpmath")
-    except ImportError:
-        raise BenchNeedsMpmath("bench compares with 30 digits of mpmath: pip install mpmath") from None
-    module.mp.dps = digits
-    return module
+    mpmath.mp.dps = digits
+    return mpmath
 
 
 def measure(methods: Sequence[Method], reference: Callable[[], object], size: int, rounds: int) -> tuple[Row, ...]:

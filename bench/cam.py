@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
+from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
 from gearlink.core.cams.profile import profile, profile_points, translating
 from gearlink.core.numerics.blocks import BLOCK
 

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from gearlink.cli.bench.start_up import RUN, compile_all, designs
-from gearlink.cli.bench.timing import Family, Method, measure
+from bench.start_up import RUN, compile_all, designs
+from bench.timing import Family, Method, measure
 
 LEAST = """import sys
 from matplotlib.figure import Figure

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
+from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
 from gearlink.core.three_gear.dwell.momentary_dwell import momentary_frame_length
 from gearlink.core.three_gear.many import symmetric as symmetric_many
 from gearlink.core.three_gear.sweep import momentary_dwells

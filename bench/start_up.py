@@ -11,7 +11,7 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure
+from bench.timing import Family, Method, Row, measure
 
 MINIMAL = """import typer
 app = typer.Typer(pretty_exceptions_enable=False)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.bench.timing import Family, Method, Row, measure, numpy_pass
+from bench.timing import Family, Method, Row, measure, numpy_pass
 from gearlink.core.design import in_unit
 from gearlink.core.nomenclature import term
 from gearlink.core.three_gear.as_made.samples import ThreeGearSamples

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
+from bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
 from gearlink.core.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar import refine as fourbar_refine

@@ -1,17 +1,15 @@
-"""Tables and pictures of measured families: text for a terminal, Markdown, JSON, work-precision diagrams."""
+"""Tables and pictures of measured families: text for a terminal, Markdown, work-precision diagrams."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
-from gearlink.cli.bench.timing import Family, Row
+from bench.timing import Family, Row
 from gearlink.cli.printable import visible
 from gearlink.cli.render.lists import hanging
 
@@ -44,20 +42,6 @@ def as_markdown(
             lines += ["", f"![{family.title}]({pictures[family.name]})"]
         blocks.append("\n".join(lines))
     return "\n\n".join(blocks) + "\n"
-
-
-def as_json(families: Sequence[Family], machine: Mapping[str, str]) -> str:
-    """The same as JSON; what was not measured is null."""
-    data = {"gearlink": 1, "command": "bench", "machine": machine, "families": [asdict(family) for family in families]}
-    return json.dumps(_finite(data), indent=1)
-
-
-def _finite(node: Any) -> Any:
-    if isinstance(node, Mapping):
-        return {key: _finite(value) for key, value in node.items()}
-    if isinstance(node, (list, tuple)):
-        return [_finite(value) for value in node]
-    return None if isinstance(node, float) and not math.isfinite(node) else node
 
 
 def _head(family: Family) -> tuple[str, ...]:

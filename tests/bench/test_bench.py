@@ -1,8 +1,7 @@
-"""`bench`: what it prints; its errors are real measurements, its times are not tested."""
+"""bench/: what it prints; its errors are real measurements, its times are not tested."""
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -10,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlink.cli.bench import four_bar, timing
-from gearlink.cli.bench.command import NAMES
-from gearlink.cli.bench.families import FAMILIES
-from gearlink.cli.bench.page import as_json, as_markdown, as_text, curves, duration, write_pictures
-from gearlink.cli.bench.timing import BenchNeedsMpmath, Family, Row, interleaved, mpmath, worst
-from gearlink.cli.main import run
+from bench import four_bar, timing
+from bench.__main__ import main
+from bench.families import measured
+from bench.page import as_markdown, as_text, curves, duration, write_pictures
+from bench.timing import Family, Row, interleaved, mpmath, worst
 
 FAMILY = Family(
     "cam",
@@ -31,29 +29,17 @@ FAMILY = Family(
 )
 
 
-def test_names_of_the_families_agree() -> None:
-    assert tuple(FAMILIES) == NAMES
-
-
-def test_unloading_family_shows_the_errors_of_its_methods(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_unloading_family_shows_the_errors_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
-    assert run(["bench", "unloading", "--quick", "--format", "json", "--quiet"]) == 0
-    (family,) = json.loads(capsys.readouterr().out)["families"]
-    error = {row["method"]: row["error"] for row in family["rows"]}
+    error = {row.method: row.error for row in measured("unloading", quick=True).rows}
     assert error["quadrature, 16 nodes"] < 1e-15 < error["quadrature, 4 nodes"] < 1e-6
     assert 1e-4 < error["the dissertation's iteration, 20 steps"] < 1e-3  # the figure of its docstring: 8e-4
 
 
-def test_loads_family_shows_what_the_textbook_leaves_out(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_loads_family_shows_what_the_textbook_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
-    monkeypatch.setattr("gearlink.cli.bench.loads.KINDS", ("loaded_feed",))
-    assert run(["bench", "loads", "--quick", "--format", "json", "--quiet"]) == 0
-    (family,) = json.loads(capsys.readouterr().out)["families"]
-    error = {row["method"]: row["error"] for row in family["rows"]}
+    monkeypatch.setattr("bench.loads.KINDS", ("loaded_feed",))
+    error = {row.method: row.error for row in measured("loads", quick=True).rows}
     exact = ("three-gear-four-bar: all forces", "flywheel, exact with J(phi)", "motor, periodic by Newton")
     assert all(error[name] < 1e-13 for name in exact)
     assert error["residual after a cycloid"] < 1e-12
@@ -62,28 +48,9 @@ def test_loads_family_shows_what_the_textbook_leaves_out(
 
 
 def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["bench", "five-bar"]) == 2
+    with pytest.raises(SystemExit, match="2"):
+        main(["five-bar"])
     assert "the families are four-bar" in capsys.readouterr().err
-
-
-def test_a_file_in_the_place_of_a_folder_is_told_before_anything_is_measured(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr("gearlink.cli.bench.command.measured", pytest.fail)
-    taken = tmp_path / "taken"
-    taken.touch()
-    assert run(["bench", "involute", "--out", str(taken)]) == 2
-    assert capsys.readouterr().err == f"error: cannot write into {taken}: {taken} is no folder\n"
-
-
-def test_without_mpmath_the_remedy_is_named(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "mpmath", None)
-    with pytest.raises(BenchNeedsMpmath):
-        mpmath()
-    assert run(["bench", "involute"]) == 2
-    assert "pip install mpmath" in capsys.readouterr().err
 
 
 def test_reference_of_the_four_bar_is_the_loop_itself() -> None:
@@ -110,7 +77,6 @@ def test_pages_hold_every_row(tmp_path: Path) -> None:
     machine = timing.machine()
     for page in (as_text([FAMILY], machine), as_markdown([FAMILY], machine)):
         assert all(text in page for text in ("closed", "5 ns", "2 ms", "1e-15", "a note", machine["numpy"]))
-    assert json.loads(as_json([FAMILY], machine))["families"][0]["rows"][2]["error"] is None
     alone = {"closed": [(5.0, 1e-15)], "Newton, 2 steps": [(9.0, 1e-4)]}
     assert curves(FAMILY) == alone
     stepped = replace(FAMILY, rows=(*FAMILY.rows, Row("Newton, 3 steps", 10, 12.0, 1e-8, 2.5)))
@@ -138,13 +104,9 @@ def test_errors_are_in_units_of_the_last_place() -> None:
 
 
 @pytest.mark.slow
-def test_yields_family_shows_what_scrambled_points_are_worth(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_yields_family_shows_what_scrambled_points_are_worth(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
-    assert run(["bench", "yields", "--quick", "--format", "json", "--quiet"]) == 0
-    (family,) = json.loads(capsys.readouterr().out)["families"]
-    error = {row["method"]: row["error"] for row in family["rows"]}
+    error = {row.method: row.error for row in measured("yields", quick=True).rows}
     for name, share in (("four-branch", 0.00222), ("RP22", 0.00421)):
         textbook = math.sqrt((1.0 - share) / (share * 2**14))
         assert 0.5 * textbook < error[f"{name}, random points"] < 2.0 * textbook

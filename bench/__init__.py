@@ -1,0 +1,1 @@
+"""Run time against error, measured in a checkout: `make bench`, `make bench-guard`, `python -m bench`."""

@@ -1,4 +1,0 @@
-"""Run time against error of every solver (`gearlink bench`).
-
-Begin with `command` and `families`.
-"""
