@@ -195,11 +195,13 @@ KINDS: dict[str, Kind] = {
                 "gear": _TWO_GEAR,
                 "loads": "planet_linkages.loads:TwoGearLoads",
             },
+            motion="planet_linkages.mechanism:two_gears",
         ),
         Kind(
             "geared-rocker",
             "planet_linkages.rocker_spec:GearedRockerSpec",
             {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER, "loads": "planet_linkages.loads:GearedRockerLoads"},
+            motion="planet_linkages.mechanism:geared_rocker",
         ),
         Kind(
             "geared-five-bar",
@@ -210,6 +212,7 @@ KINDS: dict[str, Kind] = {
             "geared-six-bar",
             "six_bar.spec:GearedSixBarSpec",
             {"analyze": _SIX_BAR, "gear": _SIX_BAR, "loads": "six_bar.loads:SixBarLoads"},
+            motion="six_bar.mechanism:motion",
         ),
         Kind(
             "hypocycloid-dwell",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,8 @@ from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Part, Points, Readout, Reals, Scene, letters, loop
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.gears.outline.mesh_phase import driven_turn, ring_turn
-from gearlink.core.six_bar.loop import pins
+from gearlink.core.six_bar.mechanism import output, pins
+from gearlink.core.six_bar.spec import LINKS
 
 if TYPE_CHECKING:
     from gearlink.core.gears.mesh.pair import GearPair
@@ -25,9 +27,9 @@ _OWNERS = ("frame", "AB", "BC", "CD", "DE", "EF")
 def build(design: GearedSixBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     phi, whole = _input_angles(design, fraction), np.linspace(design.course.start, design.course.end, 361)
-    joints = pins(design.bar, phi, design.course.angles(phi))
+    joints = pins(design, phi)
     a, b, c, d, e, f = joints
-    curve, now = np.degrees(design.output(whole)), np.degrees(design.output(phi))
+    curve, now = (np.degrees(output(design).rates(design.moving, angles, 0)[0]) for angles in (whole, phi))
     return Scene(
         parts=(*_gears(design, phi, joints), Chain(joints=(a, b, c, d, e, f))),
         marks=letters("AF", A=a, B=b, C=c, D=d, E=e, F=f),
@@ -52,10 +54,12 @@ def _input_angles(design: GearedSixBar, fraction: Reals) -> Reals:
 
 def _directions(design: GearedSixBar, phi: Reals) -> Reals:
     """Directions of all six links on the way round, the frame's from F to A first; (6, N) array."""
-    return np.vstack([np.full(phi.shape, math.pi), phi, design.course.angles(phi)])
+    links = design.moving.at(phi, 0).links
+    turns = [links[name].turn.value for name in LINKS[1:]]
+    return np.vstack([np.full(phi.shape, math.pi), *turns[:4], turns[4] - math.pi])
 
 
-def _gears(design: GearedSixBar, phi: Reals, joints: Points) -> list[Part]:
+def _gears(design: GearedSixBar, phi: Reals, joints: Sequence[Points]) -> list[Part]:
     """The gears of both trains, rings first."""
     ways = _directions(design, phi)
     ends = _directions(design, _input_angles(design, loop(3)[::2]))

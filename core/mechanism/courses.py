@@ -35,11 +35,11 @@ def turned(link: str, against: str = FRAME, sense: float = 1.0) -> Course:
     return Course("rad", of)
 
 
-def coordinate(link: str, point: complex = 0j, along: complex = 1.0) -> Course:
+def coordinate(link: str, point: complex | str = 0j, along: complex = 1.0) -> Course:
     """Where a point of a link lies along a direction of the frame [mm].
 
     Parameters
-        point : complex [mm] - in coordinates of the link
+        point : complex [mm] or str - in coordinates of the link, or by its name there
         along : complex - unit vector; 1: x, 1j: y
     """
 

@@ -16,7 +16,7 @@ from gearlink.core.gears.train.meshed import Meshed
 from gearlink.core.gears.train.names import TRAIN_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
-from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import Turning, turnings
@@ -245,45 +245,24 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
-        import numpy as np
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+        from gearlink.core.planet_linkages.mechanism import OUTPUT
 
-        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.linkages.fourbar.refine import dead_point_distance
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees, ratio = turn_degrees(samples), self.gear_ratio
-        sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
-        start = solve(self.linkage, 0.0)
-        rocker, coupler = sweep.rocker_angle - start.rocker_angle, sweep.coupler_angle - start.coupler_angle
-        columns = {
-            "crank_angle": (degrees, "deg"),
-            "rocker_angle": (np.degrees(sweep.rocker_angle), "deg"),
-            "output_angle": (np.degrees((1.0 - ratio) * rocker + ratio * coupler), "deg"),
-            "speed_ratio": ((1.0 - ratio) * sweep.rocker_velocity + ratio * sweep.coupler_velocity, "1"),
-            "acceleration_ratio": (
-                (1.0 - ratio) * sweep.rocker_acceleration + ratio * sweep.coupler_acceleration,
-                "1",
-            ),
-            "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("motion", self.timed(columns, "crank_angle", rates))
+        shown = [
+            Shown("rocker_angle", turned("rocker")),
+            Shown("output_angle", OUTPUT),
+            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
+            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            Shown("transmission_angle", between("coupler", "rocker")),
+        ]
+        return motion_table("motion", self, shown, samples)
 
     def table_links(self, samples: int | None = None) -> Table:
         """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
-        import numpy as np
+        from gearlink.core.mechanism.courses import all_rates, motion_table, turned
 
-        from gearlink.core.linkages.fourbar.link_motion import columns, combined, four_bar_motions
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees = turn_degrees(samples)
-        motions = four_bar_motions(self.linkage, np.radians(degrees))
-        start = solve(self.linkage, 0.0)
-        carrier = (motions["rocker"][0] - start.rocker_angle, *motions["rocker"][1:])
-        coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
-        motions["output"] = combined((1.0 - self.gear_ratio, carrier), (self.gear_ratio, coupler))
-        whole, rates = columns(motions)
-        return Table.of("links", self.timed({"crank_angle": (degrees, "deg"), **whole}, "crank_angle", rates))
+        shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})
+        return motion_table("links", self, shown, samples)
 
     # Checks
 

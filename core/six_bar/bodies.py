@@ -16,7 +16,7 @@ from gearlink.core.clearance.reach import Reach, constant
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.numerics.together import kept_last
-from gearlink.core.six_bar.loop import pins
+from gearlink.core.six_bar.mechanism import pins
 from gearlink.core.six_bar.spec import PINS
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
 
 def _sought(design: GearedSixBar, moving: Sequence[tuple[str, int, int]]) -> dict[str, Reach]:
     """Reaches of pins that are not on one link, searched together."""
-    placed = kept_last(lambda phi: pins(design.bar, phi, design.course.angles(phi)))
+    placed = kept_last(lambda phi: pins(design, phi))
 
     def distance(i: int, j: int) -> Callable[[Reals], Reals]:
         return lambda phi: np.asarray(np.abs(placed(phi)[i] - placed(phi)[j]))

@@ -22,6 +22,7 @@ from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
 from gearlink.core.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.report import Check, Table, without_noise
 from gearlink.core.results import cached_property
+from gearlink.core.six_bar.spec import LINKS
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.standstills import Turning
@@ -34,8 +35,7 @@ if TYPE_CHECKING:
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9
 _STANDSTILL = 1e-9
-_LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
-_MOVED = _LINKS[2:]
+_AXES = (("x", 1.0), ("y", 1j))
 _MOST_MESHES = 4
 _FREE_LINKS = either(*(f"links.{name}" for name in ("coupler_2", "coupler_1", "coupler_3", "frame", "output", "input")))
 _CARRIERS = modules("trains[0].module", "trains[1].module")
@@ -139,10 +139,10 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         carried: dict[str, tuple[float, str]] = {}
         for i, (train, meshes) in enumerate(zip(self.spec.trains, self.train_meshes, strict=True)):
             for k, mesh in enumerate(meshes):
-                link, distance = _LINKS[(train.first_pin + k + 1) % 6], mesh.center_distance
+                link, distance = LINKS[(train.first_pin + k + 1) % 6], mesh.center_distance
                 known = carried.setdefault(link, (distance, f"trains[{i}]"))[0]
                 self._require_equal(link, known, distance, f"trains[{i}].gears", "the train before asks for")
-        return tuple(self._length(name, carried.get(name)) for name in _LINKS)
+        return tuple(self._length(name, carried.get(name)) for name in LINKS)
 
     def _length(self, name: str, carried: tuple[float, str] | None) -> float:
         given: float | None = getattr(self.spec.links, name)
@@ -179,7 +179,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         one, other = (train_relation(train.first_pin, train.gears) for train in self.spec.trains)
         # The file counts the output from its pivot, the loop on the way from A to F.
         start = {
-            _LINKS.index(name): math.radians(angle + (180.0 if name == "output" else 0.0))
+            LINKS.index(name): math.radians(angle + (180.0 if name == "output" else 0.0))
             for name, angle in self.spec.start.given.items()
         }
         with at_key("start"):
@@ -307,48 +307,39 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Directions of all links, speed and acceleration of the output, transmission angle."""
-        import numpy as np
+        from gearlink.core.mechanism.courses import Shown, motion_table, turned
+        from gearlink.core.six_bar.mechanism import output, transmission
 
-        degrees = self._rows(samples)
-        angles, first, second = self.course.rates(np.radians(degrees), 2)
-        columns = {
-            "input_angle": (degrees, "deg"),
-            "output_angle": (np.degrees(self.output(np.radians(degrees))), "deg"),
-            "speed_ratio": (first[3], "1"),
-            "acceleration_ratio": (second[3], "1"),
-            **{f"{name}_angle": (np.degrees(angles[k]), "deg") for k, name in enumerate(_MOVED[:3])},
-            "transmission_angle": (np.degrees(self.bar.transmission(angles)), "deg"),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("motion", self.timed(columns, "input_angle", rates))
+        course = output(self)
+        shown = [
+            Shown("output_angle", course),
+            Shown("speed_ratio", course, 1, "output_speed"),
+            Shown("acceleration_ratio", course, 2, "output_acceleration"),
+            *(Shown(f"{name}_angle", turned(name)) for name in LINKS[2:5]),
+            Shown("transmission_angle", transmission(self)),
+        ]
+        return motion_table("motion", self, shown, samples, degrees=self._rows(samples))
 
     def table_links(self, samples: int | None = None) -> Table:
         """Angle, speed, acceleration and jerk of the couplers and the output."""
-        import numpy as np
+        from gearlink.core.mechanism.courses import all_rates, motion_table, turned
+        from gearlink.core.six_bar.mechanism import output
 
-        from gearlink.core.linkages.fourbar.link_motion import columns
-
-        degrees = self._rows(samples)
-        angle, *rates_ = self.course.rates(np.radians(degrees))
-        angle = np.vstack([angle[:3], self.output(np.radians(degrees))])
-        motions = {name: (angle[k], *(rate[k] for rate in rates_)) for k, name in enumerate(_MOVED)}
-        whole, rates = columns(motions)
-        return Table.of("links", self.timed({"input_angle": (degrees, "deg"), **whole}, "input_angle", rates))
+        shown = all_rates({name: turned(name) for name in LINKS[2:5]} | {"output": output(self)})
+        return motion_table("links", self, shown, samples, degrees=self._rows(samples))
 
     def table_joints(self, samples: int | None = None) -> Table:
         """Places of the moving pins."""
         import numpy as np
 
-        from gearlink.core.six_bar.loop import pins
+        from gearlink.core.mechanism.courses import Shown, columns_of, coordinate
 
         degrees = self._rows(samples)
-        phi = np.radians(degrees)
-        placed_ = pins(self.bar, phi, self.course.angles(phi))
-        both = chain.from_iterable(
-            ((f"x_{pin}", (placed_[k].real, "mm")), (f"y_{pin}", (placed_[k].imag, "mm")))
-            for k, pin in enumerate("BCDE", start=1)
+        pins = zip("BCDE", LINKS[1:5], strict=True)
+        shown = [Shown(f"{x}_{pin}", coordinate(link, pin, along)) for pin, link in pins for x, along in _AXES]
+        return Table.of(
+            "joints", {"input_angle": (degrees, "deg"), **columns_of(self.moving, np.radians(degrees), shown)}
         )
-        return Table.of("joints", {"input_angle": (degrees, "deg"), **dict(both)})
 
     # Checks
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.dyad import close_dyad, require_lengths
-from gearlink.core.numerics.arrays import Points, Reals, product, turned, units
+from gearlink.core.numerics.arrays import Reals, product, turned
 from gearlink.core.results import cached_property
 from gearlink.core.six_bar.relations import LINKS, Row, reduced
 
@@ -269,11 +269,3 @@ def _closing(cos: Reals, sin: Reals, x: Reals, y: Reals) -> Reals:
     determinant = sin[0] * cos[1] - sin[1] * cos[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.array([x * cos[1] + y * sin[1], -(x * cos[0] + y * sin[0])]) / determinant)
-
-
-def pins(bar: SixBar, phi: Reals, angles: Reals) -> Points:
-    """The pins A to F; (6, N) array [mm]."""
-    links = np.vstack([bar.lengths[1] * units(phi), bar.numbers[0][:3, None] * units(angles[:3])])
-    walked = np.cumsum(links, axis=0)
-    ends = np.zeros((1, phi.size)), np.full((1, phi.size), bar.lengths[0])
-    return np.vstack([ends[0], walked, ends[1]]).astype(np.complex128)

@@ -13,6 +13,9 @@ from gearlink.core.linkages.spec_sections import InputRange
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec
 
 PINS = "ABCDEF"
+LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
+HOLDING = ("frame", *LINKS[1:5], "frame")
+"""By pin, the link that it is held in: what else turns on the pin runs against this one."""
 Pin = Literal["A", "B", "C", "D", "E", "F"]
 TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 
@@ -131,3 +134,9 @@ class GearedSixBarSpec(DrivenSpec):
 
 def _refuse(key: str, message: str) -> None:
     raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})
+
+
+def gear_bodies(train: SixTrain, number: int) -> list[str]:
+    """What each gear of a train is fixed to, or its own name where it turns freely; trains count from 1."""
+    free = [f"gear_{number}{pin}" for pin in train.pins[1:-1]]
+    return [LINKS[train.first_pin], *free, LINKS[(train.first_pin + len(train.pins)) % 6]]

@@ -193,16 +193,6 @@ def _angles() -> Reals:
     return np.arange(721) * 0.5
 
 
-def _planets(design: Any) -> list[Course]:
-    drive = design.drive
-    kinds: tuple[Callable[[float], float], ...] = (drive.angle, drive.speed, drive.acceleration, drive.jerk)
-
-    def rates(x: Reals) -> tuple[Reals, ...]:
-        return tuple(np.array([rate(phi) for phi in np.radians(x).tolist()]) for rate in kinds)
-
-    return [Course("Output gear 5", "crank angle [deg]", _angles(), rates, "rad", design.angular_speed)]
-
-
 def _press(design: Any) -> list[Course]:
     over, speed, bed = "input angle [deg]", design.input_speed, design.bed
     zone = panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end))
@@ -271,28 +261,16 @@ def _wide_swing(design: Any) -> list[Course]:
     ]
 
 
-def _six_bar(design: Any) -> list[Course]:
-    course = design.course
-    x = np.linspace(math.degrees(course.start), math.degrees(course.end), 720 * (course.period_turns or 1) + 1)
-
-    def rates(x: Reals) -> tuple[Reals, ...]:
-        phi = np.clip(np.radians(x), course.start, course.end)
-        _, *found = course.rates(phi)
-        return design.output(phi), *(rate[3] for rate in found)
-
-    return [Course("Output link EF", "input angle [deg]", x, rates, "rad", design.angular_speed)]
-
-
 _KINDS: dict[str, Callable[[Any], list[Course]]] = {
     "three-gear-four-bar": _of_motion,
-    "two-gear-four-bar": _planets,
-    "geared-rocker": _planets,
+    "two-gear-four-bar": _of_motion,
+    "geared-rocker": _of_motion,
     "slider-crank": _of_motion,
     "flatbed-press": _press,
     "swing-gripper": _gripper,
     "hypocycloid-dwell": _of_motion,
     "geared-five-bar": _five_bar,
-    "geared-six-bar": _six_bar,
+    "geared-six-bar": _of_motion,
     "wide-swing-cam": _wide_swing,
 }
 

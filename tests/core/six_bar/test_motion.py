@@ -22,7 +22,8 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.six_bar import loop
 from gearlink.core.six_bar.course import Course
 from gearlink.core.six_bar.following import Follower
-from gearlink.core.six_bar.loop import SixBar, pins
+from gearlink.core.six_bar.loop import SixBar
+from gearlink.core.six_bar.mechanism import pins
 from gearlink.core.six_bar.relations import reduced, train_relation
 from gearlink.core.six_bar.spec import GearedSixBarSpec, SixStart
 
@@ -196,7 +197,7 @@ def test_periods_and_ranges() -> None:
     machine = six_bar(FOLLOWED, trains=trains, links__coupler_1=10, links__coupler_2=170)
     assert machine.period_turns == 2
     phi = np.array([0.3, 0.3 + 4.0 * math.pi, 0.3 - 4.0 * math.pi])
-    pinned = pins(machine.bar, phi, machine.course.angles(phi))
+    pinned = np.vstack(pins(machine, phi))
     assert np.ptp(pinned.real, axis=1).max() < 1e-11
     part = six_bar(FOLLOWED, range={"start": -40, "end": 75})
     whole = six_bar(FOLLOWED)
@@ -298,7 +299,7 @@ def test_gears_of_one_plane_are_judged() -> None:
     assert apart.gear_gap is not None
     assert all(check.status == "pass" for check in apart.check("gear-collision"))
     phi = np.linspace(0.0, 2.0 * math.pi, 4001)
-    placed = pins(apart.bar, phi, apart.course.angles(phi))
+    placed = np.vstack(pins(apart, phi))
     tips = 0.5 * 1.5 * 20 + 1.5 + 0.5 * 3 * 20 + 3
     assert abs(apart.gear_gap - (np.abs(placed[1] - placed[4]).min() - tips)) < 1e-4
     assert near.lengths[0] == 110.0
