@@ -207,6 +207,7 @@ KINDS: dict[str, Kind] = {
             "geared-five-bar",
             "five_bar.spec:GearedFiveBarSpec",
             {"analyze": _FIVE_BAR, "gear": _FIVE_BAR, "loads": "five_bar.loads:FiveBarLoads"},
+            motion="five_bar.mechanism:motion",
         ),
         Kind(
             "geared-six-bar",

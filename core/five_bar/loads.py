@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.design import GearedFiveBar
-from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property
@@ -18,9 +16,7 @@ if TYPE_CHECKING:
     from gearlink.core.five_bar.function_motion import FunctionFiveBar
     from gearlink.core.five_bar.loads_spec import FiveBarLoads as Section
     from gearlink.core.five_bar.spec import GearedFiveBarSpec
-    from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.mechanism.links import Link, Mechanism
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.mechanism.motion import Motion
 
 
 class FiveBarLoads(LoadsDesign):
@@ -78,87 +74,11 @@ class FiveBarLoads(LoadsDesign):
             return self.design.min_transmission_angle
         return self.function_bar.min_transmission_angle(0.0, 2.0 * math.pi * self.turns)[0]
 
-    def _rolling(self, name: str = "") -> tuple[float, float, float]:
-        """Working radii of a mesh [mm], the first gear of the file's lists first, and tan of the pressure angle."""
-        pair = signed_pair(self.design.meshes[name])
-        one, other = (abs(radius) for radius in pair.working_radius)
-        if self.design.signed_teeth[0] < 0:
-            one, other = other, one
-        return one, other, math.tan(pair.working_pressure_angle)
+    @cached_property
+    def moving(self) -> Motion:
+        """The motion over the whole period, whatever the range."""
+        if self.design.is_path:
+            return self.design.moving
+        from gearlink.core.five_bar.mechanism import function_motion
 
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """The links at input angles, A at 0 and E on +x."""
-        from gearlink.core.mechanism.links import Mechanism
-
-        links, connections = self._path(phi, order) if self.design.is_path else self._function(phi, order)
-        return Mechanism(links, connections, "input")
-
-    def _path(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
-        from gearlink.core.mechanism.closures import dyad
-        from gearlink.core.mechanism.joints import Pin
-        from gearlink.core.mechanism.links import FRAME, Link
-        from gearlink.core.mechanism.rates import fixed, steady
-
-        bar = self.design.path_bar
-        first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
-        last = Link(fixed(bar.frame, phi, order=order), steady(phi, float(bar.ratio), bar.phase, order=order))
-        b, d = first.at(bar.input), last.at(bar.output)
-        t2, t3 = dyad(b, d, bar.coupler, bar.follower, bar.assembly)
-        links = {"input": first, "coupler": Link(b, t2), "follower": Link(d, t3), "output": last}
-        pins: list[Connection] = [
-            Pin("A", FRAME, "input", first.origin.value),
-            Pin("B", "input", "coupler", b.value),
-            Pin("C", "coupler", "follower", links["coupler"].at(bar.coupler).value),
-            Pin("D", "output", "follower", d.value),
-            Pin("E", FRAME, "output", last.origin.value),
-        ]
-        return links, pins + self._path_gears(links, phi, order)
-
-    def _path_gears(self, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
-        """The mesh of input and output, or those with the idler between them, which joins the links."""
-        from gearlink.core.mechanism.joints import Mesh, Pin
-        from gearlink.core.mechanism.links import FRAME, Link
-        from gearlink.core.mechanism.rates import fixed, steady
-
-        gears = self.spec.gears
-        a, e = links["input"].origin.value, links["output"].origin.value
-        if not self.has_idler:
-            r1, r4, tangent = self._rolling()
-            if gears.mesh == "internal" and r4 > r1:
-                return [Mesh("mesh_14", "output", "input", e, -1.0 + 0j, r4, r1, tangent, True)]
-            return [Mesh("mesh_14", "input", "output", a, 1.0 + 0j, r1, r4, tangent, gears.mesh == "internal")]
-        (r1, ri, tangent), (ri_out, r4, tangent_out) = (self._rolling(name) for name in self.design.mesh_names)
-        frame = self.design.path_bar.frame
-        near, far = r1 + ri, ri_out + r4
-        along = 0.5 * (frame + (near - far) * (near + far) / frame)
-        axis = cmath.rect(near, self.spec.gears.idler_side * math.acos(along / near))
-        center = fixed(axis, phi, order=order)
-        links["idler"] = Link(center, steady(phi, -r1 / ri, order=order))
-        return [
-            Pin("O", FRAME, "idler", center.value),
-            Mesh("mesh_1i", "input", "idler", a, axis / near, r1, ri, tangent),
-            Mesh("mesh_i4", "idler", "output", center.value, (frame - axis) / far, ri_out, r4, tangent_out),
-        ]
-
-    def _function(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection]]:
-        from gearlink.core.mechanism.closures import dyad
-        from gearlink.core.mechanism.joints import Mesh, Pin
-        from gearlink.core.mechanism.links import FRAME, Link
-        from gearlink.core.mechanism.rates import fixed, steady
-
-        bar, gears = self.function_bar, self.spec.gears
-        first = Link(fixed(0j, phi, order=order), steady(phi, order=order))
-        coupler = Link(first.at(bar.input), steady(phi, bar.coupler_ratio, bar.phase, order=order))
-        c, pivot = coupler.at(bar.coupler), fixed(bar.frame, phi, order=order)
-        t3, t4 = dyad(c, pivot, bar.follower, bar.output, bar.assembly)
-        links = {"input": first, "coupler": coupler, "follower": Link(c, t3), "output": Link(pivot, t4)}
-        r2, r5, tangent = self._rolling()
-        return links, [
-            Pin("A", FRAME, "input", first.origin.value),
-            Pin("B", "input", "coupler", coupler.origin.value),
-            Pin("C", "coupler", "follower", c.value),
-            Pin("D", "follower", "output", links["output"].at(bar.output).value),
-            Pin("E", FRAME, "output", pivot.value),
-            Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, tangent,
-                 gears.ring is not None, "input"),
-        ]  # fmt: skip
+        return function_motion(self.design, self.function_bar, 0.0, 2.0 * math.pi * self.turns)

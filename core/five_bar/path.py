@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,59 +18,21 @@ _BRANCHES = 3
 _AT_ONCE = 1_000_000
 
 
-@dataclass(frozen=True, slots=True)
-class PathSweep:
-    """The five-bar over input angles: coupler angle continuous from the first row, rates per input angle."""
-
-    coupler_angle: Reals
-    transmission_angle: Reals
-    point: Points
-    velocity: Points
-    acceleration: Points
-
-
-def sweep(bar: PathFiveBar, phi: Reals, offset: complex) -> PathSweep:
-    """Coupler angle, transmission angle, coupler point, its velocity and acceleration.
-
-    w2 = Re[(B' - D') e^(-i t3)]/(b sin(t2 - t3)),   M' = B' + i w2 (M - B)
-    a2 = Re[(B'' - D'' - w2^2 (C - B) + w3^2 (C - D)) e^(-i t3)]/(b sin(t2 - t3)),   M'' = B'' + (i a2 - w2^2) (M - B)
-
-    Parameters
-        bar : PathFiveBar
-        phi : (N,) array [rad] - ascending
-        offset : complex [mm] - u + i v
-    Returns
-        sweep : PathSweep - angles [rad], point [mm], velocity [mm/rad], acceleration [mm/rad^2]
-    Raises
-        NoSolution - where the five-bar opens anywhere in its period
-    Example
-        >>> from fractions import Fraction
-        >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
-        >>> point = sweep(bar, np.radians([60.0, 200.0]), 60.0 + 0j).point
-        >>> [complex(round(m.real, 9), round(m.imag, 9)) for m in point]
-        [(45.321887013+65.821686389j), (21.851649007+37.295106807j)]
-    """
-    bar.closure()
-    start, end, u2, u3, gamma = _position(bar, phi)
-    velocity, acceleration = _rates(bar, start, end, u2, u3, offset)
-    return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity, acceleration)
-
-
 def rates(bar: PathFiveBar, phi: Reals, offset: complex) -> tuple[Points, Points]:
     """Velocity [mm/rad] and acceleration [mm/rad^2] of the coupler point; closure is not checked."""
-    start, end, u2, u3, _ = _position(bar, phi)
+    start, end, u2, u3 = _position(bar, phi)
     return _rates(bar, start, end, u2, u3, offset)
 
 
 def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
     """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens)."""
-    start, _, u2, _, _ = _position(bar, phi)
+    start, _, u2, _ = _position(bar, phi)
     result: Points = start + offset * u2
     return result
 
 
-def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points, Reals]:
-    """B, D, unit vectors of coupler (B->C) and follower (D->C), transmission angle."""
+def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points]:
+    """B, D, unit vectors of coupler (B->C) and follower (D->C)."""
     b, c = bar.coupler, bar.follower
     start = bar.input * np.exp(1j * phi)
     end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
@@ -82,8 +43,7 @@ def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Poi
         height = 0.5 * np.sqrt(near * far) / n
         along = 0.5 * (n + (b - c) * (b + c) / n)
         joint = start + way / n * (along + 1j * bar.assembly * height)
-        gamma = 2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))
-    return start, end, (joint - start) / b, (joint - end) / c, gamma
+    return start, end, (joint - start) / b, (joint - end) / c
 
 
 def _rates(
@@ -100,12 +60,12 @@ def _rates(
     return velocity, acceleration
 
 
-def _continuous(bar: PathFiveBar, phi: Reals) -> Reals:
-    """Coupler angle without jumps, however near the five-bar comes to its dead points.
+def coupler_angles(bar: PathFiveBar, phi: Reals) -> Reals:
+    """Coupler angle over ascending input angles [rad] without jumps, however near the dead points it comes.
 
     The coupler stands within half a turn of BD, always on the same side: it winds as BD does.
     """
-    start, end, u2, _, _ = _position(bar, phi)
+    start, end, u2, _ = _position(bar, phi)
     angle, way = np.angle(u2), end - start
     wound = np.concatenate(([0.0], np.cumsum(_windings(bar, phi[:-1], phi[1:]))))
     turned = np.angle(way[:1]) + wound + np.angle(product(u2, np.conj(way)))
@@ -191,7 +151,7 @@ def _near(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[float, Re
     count = _places(bar)
     step, at_once = bar.period / count, max(1, _AT_ONCE // count)
     grid = np.asarray(step * np.arange(count), dtype=np.float64)
-    start, end, u2, u3, _ = _position(bar, grid)
+    start, end, u2, u3 = _position(bar, grid)
     path, (velocity, _) = start + offset * u2, _rates(bar, start, end, u2, u3, offset)
     blocks = [targets[i : i + at_once] for i in range(0, targets.size, at_once)]
     places = [near_places(path[None, :], velocity[None, :], step, block, _BRANCHES)[0] for block in blocks]

@@ -14,35 +14,22 @@ if TYPE_CHECKING:
 
 def path(design: GearedFiveBar, samples: int | None = None) -> Table:
     """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
-    import numpy as np
-
-    from gearlink.core.five_bar.path import sweep
-    from gearlink.core.linkages.fourbar.refine import dead_point_distance
+    from gearlink.core.mechanism.courses import Shown, between, coordinate, motion_table, turned
     from gearlink.core.numerics.arrays import turn_degrees
 
-    turns = design.shown_turns
-    degrees = turn_degrees(samples, turns)
-    bar = design.path_bar
-    found = sweep(bar, np.radians(degrees), design.offset)
-    columns = {
-        "input_angle": (degrees, "deg"),
-        "output_angle": (math.degrees(bar.phase) + float(bar.ratio) * degrees, "deg"),
-        "coupler_angle": (np.degrees(found.coupler_angle), "deg"),
-        "x": (found.point.real, "mm"),
-        "y": (found.point.imag, "mm"),
-        "x_velocity": (found.velocity.real, "mm/rad"),
-        "y_velocity": (found.velocity.imag, "mm/rad"),
-        "x_acceleration": (found.acceleration.real, "mm/rad^2"),
-        "y_acceleration": (found.acceleration.imag, "mm/rad^2"),
-        "transmission_angle": (np.degrees(dead_point_distance(found.transmission_angle)), "deg"),
-    }
-    rates = {
-        "point_x_velocity": ("x_velocity", 1),
-        "point_y_velocity": ("y_velocity", 1),
-        "point_x_acceleration": ("x_acceleration", 2),
-        "point_y_acceleration": ("y_acceleration", 2),
-    }
-    return Table.of("path", design.timed(columns, "input_angle", rates))
+    x, y = (coordinate("coupler", "M", along) for along in (1.0 + 0j, 1j))
+    shown = [
+        Shown("output_angle", turned("output")),
+        Shown("coupler_angle", turned("coupler")),
+        Shown("x", x),
+        Shown("y", y),
+        Shown("x_velocity", x, 1, "point_x_velocity"),
+        Shown("y_velocity", y, 1, "point_y_velocity"),
+        Shown("x_acceleration", x, 2, "point_x_acceleration"),
+        Shown("y_acceleration", y, 2, "point_y_acceleration"),
+        Shown("transmission_angle", between("coupler", "follower")),
+    ]
+    return motion_table("path", design, shown, samples, degrees=turn_degrees(samples, design.shown_turns))
 
 
 def deviations(design: GearedFiveBar, _samples: int | None = None) -> Table:

@@ -227,21 +227,7 @@ def _gripper(design: Any) -> list[Course]:
 
 
 def _five_bar(design: Any) -> list[Course]:
-    from gearlink.core.five_bar.path import sweep
-
-    if not design.is_path or design.period_turns != 1:
-        return []
-
-    def of(part: Callable[[Any], Reals]) -> Callable[[Reals], tuple[Reals, ...]]:
-        def rates(x: Reals) -> tuple[Reals, ...]:
-            found = sweep(design.path_bar, np.radians(x), design.offset)
-            return part(found.point), part(found.velocity), part(found.acceleration)
-
-        return rates
-
-    speed = getattr(design, "angular_speed", None)
-    axes = (("x", np.real), ("y", np.imag))
-    return [Course(f"Point M, {name}", "input angle [deg]", _angles(), of(part), "mm", speed) for name, part in axes]
+    return _of_motion(design) if design.is_path and design.period_turns == 1 else []
 
 
 def _wide_swing(design: Any) -> list[Course]:
