@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 Offer: TypeAlias = list[tuple[str, str]]
 _KIND = re.compile(r"^\W*kind\W+([\w-]+)", re.MULTILINE)
@@ -24,9 +24,9 @@ _LINES = ("COMP_WORDS", "_TYPER_COMPLETE_ARGS")
 
 def kinds(incomplete: str) -> Offer:
     """Kinds of design files."""
-    from gearlink.core.kinds import SUMMARIES
+    from gearlink.core.kinds import FILES
 
-    return _beginning(incomplete, SUMMARIES.items())
+    return _beginning(incomplete, ((kind.name, kind.summary) for kind in FILES.values()))
 
 
 def explained(incomplete: str) -> Offer:
@@ -68,10 +68,8 @@ def tables(incomplete: str) -> Offer:
 def settings(incomplete: str) -> Offer:
     """Keys of the design file on the line, as `--set` takes them."""
     from gearlink.cli.texts.spec_keys import spec_keys
-    from gearlink.core.kinds import KINDS
 
-    kind, _ = _design()
-    keys = [key for each in ([kind] if kind else KINDS.values()) for key in spec_keys(each)]
+    keys = [key for kind in _kinds() for key in spec_keys(kind)]
     return _beginning(
         incomplete, ((f"{key.path}=", key.words) for key in keys if not key.section and key.path != "kind")
     )
@@ -79,25 +77,21 @@ def settings(incomplete: str) -> Offer:
 
 def parts(incomplete: str) -> Offer:
     """Parts that `export` takes of the design file on the line."""
-    kind, _ = _design()
-    if kind is not None and kind.name == "geared-six-bar":
-        return _beginning(incomplete, ((name, "") for name in _gears_on_pins()))
-    known = _PARTS.values() if kind is None else [_PARTS.get(kind.name, ())]
-    return _beginning(incomplete, ((name, "") for names in known for name in names))
+    kinds = _kinds()
+    of_file = _gears_on_pins() if [bool(kind.profiles and not kind.parts) for kind in kinds] == [True] else ()
+    return _beginning(incomplete, ((name, "") for name in (*of_file, *(name for kind in kinds for name in kind.parts))))
 
 
 def sheets(incomplete: str) -> Offer:
     """Further sheets of the design file on the line."""
-    kind, _ = _design()
-    names = _SHEETS_OF_CAMS if kind is None else _SHEETS.get(kind.name, ("motion",))
-    return _beginning(incomplete, ((name, "") for name in names))
+    names = [name for kind in _kinds() for name in kind.sheets]
+    each = ("drawing-1", "drawing-2") if "drawing" in names else ()
+    return _beginning(incomplete, ((name, "") for name in (*names, *each)))
 
 
 def places(incomplete: str) -> Offer:
     """Where the register of the design file on the line is asked for, beside angles."""
-    kind, _ = _design()
-    known = _PLACES.values() if kind is None else [_PLACES[kind.name]] if kind.name in _PLACES else []
-    return _beginning(incomplete, ((name, "") for name in known))
+    return _beginning(incomplete, ((kind.register_at, "") for kind in _kinds() if kind.register_at))
 
 
 def published_cases(incomplete: str) -> Offer:
@@ -120,24 +114,6 @@ def commands(incomplete: str) -> Offer:
     return _beginning(incomplete, ((name, "") for name in (*inner, *outer)))
 
 
-_PARTS = {
-    "flatbed-press": ("main_cam", "return_cam", "gear1", "gear2"),
-    "gear-pair": ("gear1", "gear2", "rack", "blocking_contour"),
-    "geared-five-bar": ("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear"),
-    "geared-rocker": ("gear2", "gear5"),
-    "hypocycloid-dwell": ("planet", "ring"),
-    "mutilated-gear-dwell": ("wheel", "gear2"),
-    "swing-gripper": ("main_cam", "return_cam"),
-    "three-gear-four-bar": ("gear1", "gear3", "gear5"),
-    "two-gear-four-bar": ("gear2", "gear5"),
-    "wide-swing-cam": ("main_cam", "return_cam", "contour", "return_contour"),
-}
-"""Names of parts by kind; written down here, for the designs themselves take too long to make on Tab."""
-
-_SHEETS_OF_CAMS = ("motion", "timing", "pressure", "drawing", "drawing-1", "drawing-2")
-_SHEETS: dict[str, tuple[str, ...]] = {"flatbed-press": _SHEETS_OF_CAMS, "swing-gripper": _SHEETS_OF_CAMS}
-_SHEETS |= dict.fromkeys(("gear-pair", "gear-train-mobility", "mutilated-gear-dwell"), ())
-_PLACES = {"three-gear-four-bar": "dwell", "flatbed-press": "zone", "swing-gripper": "handover"}
 _PINS = re.compile(r"\bpins\W*:\s*\[([^\]]*)\]")
 
 
@@ -175,6 +151,14 @@ def _design() -> tuple[Kind | None, list[str]]:
         if (found := _KIND.search(text)) and found[1] in KINDS:
             return KINDS[found[1]], words
     return None, words
+
+
+def _kinds() -> list[Kind]:
+    """The kind of the first design file on the line; without one, all kinds."""
+    from gearlink.core.kinds import KINDS
+
+    kind, _ = _design()
+    return [*KINDS.values()] if kind is None else [kind]
 
 
 def _words() -> list[str]:

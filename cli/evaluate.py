@@ -14,7 +14,8 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import FILES, STUDY, FileDesigns, Kind
+from gearlink.core.kind import FileDesigns, Kind
+from gearlink.core.kinds import FILES, STUDY
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design

@@ -17,7 +17,8 @@ from gearlink.cli.reading.design_file import parse, read_kind, validate, with_ov
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import GearlinkError, NoSolution, named
-from gearlink.core.kinds import KINDS, FileDesigns
+from gearlink.core.kind import FileDesigns
+from gearlink.core.kinds import KINDS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -3,41 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
+from importlib import import_module
 
-from gearlink.core.cams import codes as cams
-from gearlink.core.dwell_gears import codes as dwell_gears
-from gearlink.core.five_bar import codes as five_bar
-from gearlink.core.flatbed_press import codes as flatbed_press
-from gearlink.core.gears import codes as gears
-from gearlink.core.linkages import codes as linkages
-from gearlink.core.loads import codes as loads
-from gearlink.core.planet_linkages import codes as planet_linkages
+from gearlink.core.kinds import FILES
 from gearlink.core.report import Rule
-from gearlink.core.study import codes as studies
-from gearlink.core.swing_gripper import codes as swing_gripper
-from gearlink.core.three_gear import codes as three_gear
-from gearlink.core.tolerance import codes as tolerance
-from gearlink.core.wide_swing import codes as wide_swing
 
-_ROOMS = (
-    gears,
-    linkages,
-    three_gear,
-    planet_linkages,
-    five_bar,
-    dwell_gears,
-    cams,
-    flatbed_press,
-    swing_gripper,
-    wide_swing,
-    studies,
-    loads,
-    tolerance,
-)
+_LIBRARIES = ("cams", "linkages", "loads", "tolerance")
 
 
 @cache
 def rules() -> dict[str, Rule]:
     """The rules by their codes, in the order of the codes."""
-    found = [rule for room in _ROOMS for rule in vars(room).values() if isinstance(rule, Rule)]
+    rooms = dict.fromkeys([f"{kind.folder}.{kind.codes}" for kind in FILES.values() if kind.codes])
+    modules = [import_module(f"gearlink.core.{place}") for place in (*(f"{name}.codes" for name in _LIBRARIES), *rooms)]
+    found = [rule for module in modules for rule in vars(module).values() if isinstance(rule, Rule)]
     return {rule.code: rule for rule in sorted(found, key=lambda rule: rule.code)}

@@ -1,254 +1,298 @@
-"""The kinds of design and the commands that each understands; classes are imported only when one is wanted."""
+"""The kinds of design, one record each; a new kind is a new record. Nothing that a record names is imported here."""
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
-from weakref import WeakValueDictionary
-
-if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.design_axis import Maker
-    from gearlink.core.mechanism.motion import Motion
-
-
-class Kind(NamedTuple):
-    """Where the spec model and, for each command, the design class of a kind stand ("module:Class").
-
-    `axis` is where its array form stands, which computes many designs at once; empty where it has none. `motion` is
-    where the function stands that gives the motion of a design; empty where nothing moves.
-    """
-
-    name: str
-    spec: str
-    commands: dict[str, str]
-    axis: str = ""
-    motion: str = ""
-
-    def spec_model(self) -> Any:
-        """The pydantic model of the kind's design file."""
-        return _load(f"gearlink.core.{self.spec}")
-
-    def design(self, command: str, spec: Any) -> Design:
-        """The design of a spec, of the class that the command needs."""
-        return FileDesigns(self, spec).of(command)
-
-    def class_for(self, command: str, spec: Any) -> Any:
-        """The class that serves a command on a spec: that of a synthesis where the file leaves its links to it."""
-        return self.design_class(spec.sized_by(command) or command)
-
-    def design_class(self, command: str) -> Any:
-        """The class that serves a command."""
-        return _load(f"gearlink.core.{self.commands[command]}")
-
-    def motion_of(self, design: Design) -> Motion:
-        """The motion of a design of this kind."""
-        found: Motion = _load(f"gearlink.core.{self.motion}")(design)
-        return found
-
-    def axis_maker(self) -> Maker | None:
-        """What makes the kind's array form, where it has one."""
-        found: Maker | None = _load(f"gearlink.core.{self.axis}") if self.axis else None
-        return found
-
-
-class FileDesigns:
-    """The designs of one file: commands of one class share theirs, and so do remedies that look at other commands.
-
-    They last as long as something else holds them.
-    """
-
-    def __init__(self, kind: Kind, spec: Any) -> None:
-        self._kind, self._spec = kind, spec
-        self._made: WeakValueDictionary[Any, Design] = WeakValueDictionary()
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return FileDesigns, (self._kind, self._spec)
-
-    def of(self, command: str) -> Design:
-        """The design that serves a command."""
-        cls = self._kind.class_for(command, self._spec)
-        design = self._made.get(cls)
-        if design is None:
-            design = self._made[cls] = cls(self._spec)
-            design.kin = self
-        return design
-
-    def changed(self, spec: Any) -> FileDesigns:
-        """The designs of another file of the kind."""
-        return FileDesigns(self._kind, spec)
-
-
-def _load(place: str) -> Any:
-    module, _, name = place.partition(":")
-    return getattr(import_module(module), name)
-
-
-_THREE_GEAR = "three_gear.design:ThreeGearFourBar"
-_PRESS = "flatbed_press.design:FlatbedPress"
-_GRIPPER = "swing_gripper.design:SwingGripper"
-_SWING = "wide_swing.design:WideSwingDesign"
-_TWO_GEAR = "planet_linkages.two_gear_design:TwoGearFourBar"
-_GEARED_ROCKER = "planet_linkages.rocker_design:GearedRocker"
-_HYPOCYCLOID = "dwell_gears.hypocycloid_design:HypocycloidDwell"
-_FIVE_BAR = "five_bar.design:GearedFiveBar"
-_SIX_BAR = "six_bar.design:GearedSixBar"
-_MUTILATED = "dwell_gears.mutilated_design:MutilatedGearDwell"
-
-_UNTOLERANCED = ("gear-train-mobility",)
+from gearlink.core.kind import Kind
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
     for kind in (
         Kind(
             "three-gear-four-bar",
-            "three_gear.spec:ThreeGearSpec",
+            "feed drive that dwells: gear on the crank, idler, output gear on the rocker's axis",
+            "three_gear",
+            "spec:ThreeGearSpec",
             {
-                "synth dwell": "three_gear.synthesis.dwell:DwellSynthesis",
-                "synth back-step": "three_gear.synthesis.back_step:BackStepSynthesis",
-                "synth variable-speed": "three_gear.synthesis.variable_speed:VariableSpeedSynthesis",
-                "synth momentary-dwell": "three_gear.synthesis.momentary:MomentaryDwellSynthesis",
-                "analyze": _THREE_GEAR,
-                "gear": _THREE_GEAR,
-                "loads": "three_gear.loads:ThreeGearLoads",
-                "register": "three_gear.register.budget:ThreeGearRegister",
+                "synth dwell": "synthesis.dwell:DwellSynthesis",
+                "synth back-step": "synthesis.back_step:BackStepSynthesis",
+                "synth variable-speed": "synthesis.variable_speed:VariableSpeedSynthesis",
+                "synth momentary-dwell": "synthesis.momentary:MomentaryDwellSynthesis",
+                "analyze": "design:ThreeGearFourBar",
+                "gear": "design:ThreeGearFourBar",
+                "loads": "loads:ThreeGearLoads",
+                "register": "register.budget:ThreeGearRegister",
+                "tolerance": "",
             },
-            "three_gear.many.axis:axis",
-            "three_gear.mechanism:motion",
+            motion="mechanism:motion",
+            array="many.axis:axis",
+            samples="as_made.samples:ThreeGearSamples",
+            outputs={"motion": ("output_angle",)},
+            register_at="dwell",
+            picture="cli.figures.three_gear_four_bar:draw",
+            scene="cli.scenes.three_gear_four_bar:build",
+            profiles="cli.export.parts:three_gears",
+            parts=("gear1", "gear3", "gear5"),
+            rexs=("gear 1", "gear 3", "gear 5"),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
+            worked="standing_feed",
         ),
         Kind(
             "gear-pair",
-            "gears.spec:GearPairSpec",
+            "two gears in mesh",
+            "gears",
+            "spec:GearPairSpec",
             {
-                "gear": "gears.design:GearPairDesign",
-                "analyze": "gears.design:GearPairDesign",
-                "loads": "gears.loads:GearPairLoads",
+                "gear": "design:GearPairDesign",
+                "analyze": "design:GearPairDesign",
+                "loads": "loads:GearPairLoads",
+                "tolerance": "",
             },
-            "gears.axis:axis",
-            "gears.mechanism:motion",
+            motion="mechanism:motion",
+            array="axis:axis",
+            picture="cli.figures.gear_pair:draw",
+            scene="cli.scenes.gear_pair:build",
+            profiles="cli.export.parts:gear_pair",
+            parts=("gear1", "gear2", "rack", "blocking_contour"),
+            rexs=("gear 1", "gear 2"),
         ),
         Kind(
             "slider-crank",
-            "linkages.slider_crank.spec:SliderCrankSpec",
+            "offset slider-crank from its stroke",
+            "linkages.slider_crank",
+            "spec:SliderCrankSpec",
             {
-                "crank": "linkages.slider_crank.design:SliderCrankDesign",
-                "analyze": "linkages.slider_crank.design:SliderCrankDesign",
-                "loads": "linkages.slider_crank.loads:SliderCrankLoads",
+                "crank": "design:SliderCrankDesign",
+                "analyze": "design:SliderCrankDesign",
+                "loads": "loads:SliderCrankLoads",
+                "tolerance": "",
             },
-            "linkages.slider_crank.axis:axis",
-            "linkages.slider_crank.mechanism:motion",
+            motion="mechanism:motion",
+            codes="",
+            array="axis:axis",
+            outputs={"motion": ("displacement",)},
+            picture="cli.figures.slider_crank:draw",
+            scene="cli.scenes.slider_crank:build",
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
+            worked="ty460_slider_crank",
         ),
         Kind(
             "flatbed-press",
-            "flatbed_press.spec:FlatbedPressSpec",
+            "flatbed cylinder press: bed and cylinder chain, synchronous zone, compensation cam",
+            "flatbed_press",
+            "spec:FlatbedPressSpec",
             {
-                "press": _PRESS,
-                "cam": _PRESS,
-                "gear": _PRESS,
-                "crank": _PRESS,
-                "analyze": _PRESS,
-                "loads": "flatbed_press.loads:PressLoads",
-                "register": "flatbed_press.register:PressRegister",
+                "press": "design:FlatbedPress",
+                "cam": "design:FlatbedPress",
+                "gear": "design:FlatbedPress",
+                "crank": "design:FlatbedPress",
+                "analyze": "design:FlatbedPress",
+                "loads": "loads:PressLoads",
+                "register": "register:PressRegister",
+                "tolerance": "",
             },
+            outputs={"positions": ("bed_displacement", "cylinder_displacement")},
+            register_at="zone",
+            picture="cli.figures.flatbed_press:draw",
+            scene="cli.scenes.flatbed_press:build",
+            profiles="cli.export.parts:press",
+            parts=("main_cam", "return_cam", "gear1", "gear2"),
+            rexs=("gear 1", "gear 2"),
+            sheets={
+                "motion": "cli.figures.sheets.motion_sheet:press",
+                "timing": "cli.figures.sheets.timing_sheet:press",
+                "pressure": "cli.figures.sheets.cam_sheets:press_discs",
+                "drawing": "cli.figures.sheets.cam_sheets:press_discs",
+            },
+            worked="ty460",
         ),
         Kind(
             "swing-gripper",
-            "swing_gripper.spec:SwingGripperSpec",
+            "swing gripper of a sheet-fed press: law, linkage, handover, cams",
+            "swing_gripper",
+            "spec:SwingGripperSpec",
             {
-                "gripper": _GRIPPER,
-                "cam": _GRIPPER,
-                "analyze": _GRIPPER,
-                "loads": "swing_gripper.loads:GripperLoads",
-                "register": "swing_gripper.register:GripperRegister",
+                "gripper": "design:SwingGripper",
+                "cam": "design:SwingGripper",
+                "analyze": "design:SwingGripper",
+                "loads": "loads:GripperLoads",
+                "register": "register:GripperRegister",
+                "tolerance": "",
+            },
+            outputs={"motion": ("output_angle",)},
+            register_at="handover",
+            picture="cli.figures.swing_gripper:draw",
+            scene="cli.scenes.swing_gripper:build",
+            profiles="cli.export.parts:gripper",
+            parts=("main_cam", "return_cam"),
+            sheets={
+                "motion": "cli.figures.sheets.motion_sheet:gripper",
+                "timing": "cli.figures.sheets.timing_sheet:gripper",
+                "pressure": "cli.figures.sheets.cam_sheets:gripper_discs",
+                "drawing": "cli.figures.sheets.cam_sheets:gripper_discs",
             },
         ),
         Kind(
             "wide-swing-cam",
-            "wide_swing.spec:WideSwingSpec",
+            "cam drive of a wide swing with a device that bears the inertia",
+            "wide_swing",
+            "spec:WideSwingSpec",
             {
-                "swing": _SWING,
-                "cam": _SWING,
-                "analyze": _SWING,
-                "loads": "wide_swing.loads.design:WideSwingLoads",
+                "swing": "design:WideSwingDesign",
+                "cam": "design:WideSwingDesign",
+                "analyze": "design:WideSwingDesign",
+                "loads": "loads.design:WideSwingLoads",
+                "tolerance": "",
             },
-            motion="wide_swing.mechanism:motion",
+            motion="mechanism:motion",
+            outputs={"law": ("displacement",)},
+            picture="cli.figures.wide_swing_cam:draw",
+            scene="cli.scenes.wide_swing_cam:build",
+            profiles="cli.export.parts:wide_swing",
+            parts=("main_cam", "return_cam", "contour", "return_contour"),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:wide_swing"},
+            worked="wide_swing_twin_cam",
         ),
         Kind(
             "gear-train-mobility",
-            "linkages.mobility.spec:GearTrainMobilitySpec",
-            {"analyze": "linkages.mobility.design:GearTrainMobility"},
+            "degrees of freedom of a linkage that carries gear trains",
+            "linkages.mobility",
+            "spec:GearTrainMobilitySpec",
+            {"analyze": "design:GearTrainMobility"},
+            codes="",
+            picture="cli.figures.gear_train_mobility:draw",
         ),
         Kind(
             "mutilated-gear-dwell",
-            "dwell_gears.mutilated_spec:MutilatedGearDwellSpec",
-            {"analyze": _MUTILATED, "gear": _MUTILATED, "loads": "dwell_gears.mutilated_loads:MutilatedGearLoads"},
-            motion="dwell_gears.mutilated_mechanism:motion",
+            "long dwell by a wheel with teeth left out",
+            "dwell_gears",
+            "mutilated_spec:MutilatedGearDwellSpec",
+            {
+                "analyze": "mutilated_design:MutilatedGearDwell",
+                "gear": "mutilated_design:MutilatedGearDwell",
+                "loads": "mutilated_loads:MutilatedGearLoads",
+                "tolerance": "",
+            },
+            motion="mutilated_mechanism:motion",
+            outputs={"motion": ("rocker_angle",)},
+            picture="cli.figures.mutilated_gear_dwell:draw",
+            scene="cli.scenes.mutilated_gear_dwell:build",
+            profiles="cli.export.parts:mutilated",
+            parts=("wheel", "gear2"),
         ),
         Kind(
             "two-gear-four-bar",
-            "planet_linkages.two_gear_spec:TwoGearFourBarSpec",
+            "planet on the coupler drives a sun or a ring on the crank's axis",
+            "planet_linkages",
+            "two_gear_spec:TwoGearFourBarSpec",
             {
-                "synth dwell": "planet_linkages.two_gear_synthesis:DwellSynthesis",
-                "synth back-step": "planet_linkages.two_gear_synthesis:BackStepSynthesis",
-                "synth momentary-dwell": "planet_linkages.two_gear_synthesis:MomentaryDwellSynthesis",
-                "analyze": _TWO_GEAR,
-                "gear": _TWO_GEAR,
-                "loads": "planet_linkages.loads:TwoGearLoads",
+                "synth dwell": "two_gear_synthesis:DwellSynthesis",
+                "synth back-step": "two_gear_synthesis:BackStepSynthesis",
+                "synth momentary-dwell": "two_gear_synthesis:MomentaryDwellSynthesis",
+                "analyze": "two_gear_design:TwoGearFourBar",
+                "gear": "two_gear_design:TwoGearFourBar",
+                "loads": "loads:TwoGearLoads",
+                "tolerance": "",
             },
-            motion="planet_linkages.mechanism:two_gears",
+            motion="mechanism:two_gears",
+            outputs={"motion": ("output_angle",)},
+            picture="cli.figures.two_gear_four_bar:draw",
+            scene="cli.scenes.two_gear_four_bar:build",
+            profiles="cli.export.parts:two_gears",
+            parts=("gear2", "gear5"),
+            rexs=("gear 2", "gear 5"),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
+            worked="two_gear_drag_link",
         ),
         Kind(
             "geared-rocker",
-            "planet_linkages.rocker_spec:GearedRockerSpec",
-            {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER, "loads": "planet_linkages.loads:GearedRockerLoads"},
-            motion="planet_linkages.mechanism:geared_rocker",
+            "rocker whose swing a gear on the coupler multiplies",
+            "planet_linkages",
+            "rocker_spec:GearedRockerSpec",
+            {
+                "analyze": "rocker_design:GearedRocker",
+                "gear": "rocker_design:GearedRocker",
+                "loads": "loads:GearedRockerLoads",
+                "tolerance": "",
+            },
+            motion="mechanism:geared_rocker",
+            outputs={"motion": ("output_angle",)},
+            picture="cli.figures.geared_rocker:draw",
+            scene="cli.scenes.geared_rocker:build",
+            profiles="cli.export.parts:two_gears",
+            parts=("gear2", "gear5"),
+            rexs=("gear 2", "gear 5"),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
+            worked="wide_lever",
         ),
         Kind(
             "geared-five-bar",
-            "five_bar.spec:GearedFiveBarSpec",
-            {"analyze": _FIVE_BAR, "gear": _FIVE_BAR, "loads": "five_bar.loads:FiveBarLoads"},
-            motion="five_bar.mechanism:motion",
+            "five-bar held by gears: path of a point, or output as a function of the input",
+            "five_bar",
+            "spec:GearedFiveBarSpec",
+            {
+                "analyze": "design:GearedFiveBar",
+                "gear": "design:GearedFiveBar",
+                "loads": "loads:FiveBarLoads",
+                "tolerance": "",
+            },
+            motion="mechanism:motion",
+            outputs={"path": ("x", "y"), "function": ("output_angle",)},
+            picture="cli.figures.geared_five_bar:draw",
+            scene="cli.scenes.geared_five_bar:build",
+            profiles="cli.export.parts:five_bar",
+            parts=("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear"),
+            rexs=(),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:five_bar"},
         ),
         Kind(
             "geared-six-bar",
-            "six_bar.spec:GearedSixBarSpec",
-            {"analyze": _SIX_BAR, "gear": _SIX_BAR, "loads": "six_bar.loads:SixBarLoads"},
-            motion="six_bar.mechanism:motion",
+            "loop of six links that two gear trains drive by one input",
+            "six_bar",
+            "spec:GearedSixBarSpec",
+            {
+                "analyze": "design:GearedSixBar",
+                "gear": "design:GearedSixBar",
+                "loads": "loads:SixBarLoads",
+                "tolerance": "",
+            },
+            motion="mechanism:motion",
+            codes="",
+            outputs={"motion": ("output_angle",)},
+            picture="cli.figures.geared_six_bar:draw",
+            scene="cli.scenes.geared_six_bar:build",
+            profiles="cli.export.parts:six_bar",
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
         ),
         Kind(
             "hypocycloid-dwell",
-            "dwell_gears.hypocycloid_spec:HypocycloidDwellSpec",
+            "slider that dwells on an arc of a hypocycloid",
+            "dwell_gears",
+            "hypocycloid_spec:HypocycloidDwellSpec",
             {
-                "analyze": _HYPOCYCLOID,
-                "gear": _HYPOCYCLOID,
-                "loads": "dwell_gears.hypocycloid_loads:HypocycloidDwellLoads",
+                "analyze": "hypocycloid_design:HypocycloidDwell",
+                "gear": "hypocycloid_design:HypocycloidDwell",
+                "loads": "hypocycloid_loads:HypocycloidDwellLoads",
+                "tolerance": "",
             },
-            motion="dwell_gears.hypocycloid_mechanism:motion",
+            motion="hypocycloid_mechanism:motion",
+            outputs={"motion": ("deviation",)},
+            picture="cli.figures.hypocycloid_dwell:draw",
+            scene="cli.scenes.hypocycloid_dwell:build",
+            profiles="cli.export.parts:hypocycloid",
+            parts=("planet", "ring"),
+            rexs=("planet", "ring"),
+            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
         ),
     )
 }
-for _kind in KINDS.values():
-    if _kind.name not in _UNTOLERANCED:
-        _kind.commands["tolerance"] = "tolerance_study.design:ToleranceStudy"
 
-STUDY = Kind("study", "study.spec:StudySpec", {"explore": "explore.exploration:Exploration"})
+STUDY = Kind(
+    "study",
+    "search through many designs of one kind, for `gearlink explore`",
+    "study",
+    "spec:StudySpec",
+    {"explore": ""},
+    picture="cli.figures.study:draw",
+)
 FILES: dict[str, Kind] = {**KINDS, STUDY.name: STUDY}
 """Every kind of file: designs, and studies of many designs."""
-
-SUMMARIES = {
-    "three-gear-four-bar": "feed drive that dwells: gear on the crank, idler, output gear on the rocker's axis",
-    "gear-pair": "two gears in mesh",
-    "slider-crank": "offset slider-crank from its stroke",
-    "flatbed-press": "flatbed cylinder press: bed and cylinder chain, synchronous zone, compensation cam",
-    "swing-gripper": "swing gripper of a sheet-fed press: law, linkage, handover, cams",
-    "wide-swing-cam": "cam drive of a wide swing with a device that bears the inertia",
-    "gear-train-mobility": "degrees of freedom of a linkage that carries gear trains",
-    "mutilated-gear-dwell": "long dwell by a wheel with teeth left out",
-    "two-gear-four-bar": "planet on the coupler drives a sun or a ring on the crank's axis",
-    "geared-rocker": "rocker whose swing a gear on the coupler multiplies",
-    "geared-five-bar": "five-bar held by gears: path of a point, or output as a function of the input",
-    "geared-six-bar": "loop of six links that two gear trains drive by one input",
-    "hypocycloid-dwell": "slider that dwells on an arc of a hypocycloid",
-    "study": "search through many designs of one kind, for `gearlink explore`",
-}
-"""Each kind of file in a few words."""

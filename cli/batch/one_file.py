@@ -17,12 +17,12 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.kinds import FileDesigns
+from gearlink.core.kind import FileDesigns
 from gearlink.core.report import Remedy, Report
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 
 _AT_A_TIME = 100

@@ -19,12 +19,12 @@ from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
 from gearlink.core.design import Outline
-from gearlink.core.kinds import FileDesigns
+from gearlink.core.kind import FileDesigns
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 # Starting processes costs some hundredths of a second.
 _WORTH_SECONDS = 0.15

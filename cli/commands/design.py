@@ -22,7 +22,7 @@ from gearlink.core.errors import NoSolution
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
     from gearlink.core.report import Report
 
 

@@ -21,7 +21,7 @@ from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 TOLERANCE = 1e-9
 

@@ -15,7 +15,7 @@ from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
     from gearlink.core.report import Rule
 
 _JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name

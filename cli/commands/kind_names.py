@@ -6,7 +6,8 @@ from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import named
-from gearlink.core.kinds import FILES, Kind
+from gearlink.core.kind import Kind
+from gearlink.core.kinds import FILES
 
 
 def kind_named(name: str) -> Kind | None:

@@ -11,12 +11,12 @@ from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.worked_designs import worked_design
-from gearlink.core.kinds import KINDS, SUMMARIES
+from gearlink.core.kinds import FILES, KINDS
 from gearlink.core.spec_paths import part_at
 
 if TYPE_CHECKING:
     from gearlink.cli.texts.spec_keys import SpecKey
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
@@ -52,7 +52,7 @@ def list_of_kinds() -> str:
     from gearlink.cli.render.lists import hanging, listed
 
     more = "`gearlink new KIND --out FILE.yaml` writes a design of that kind, ready to run and to change."
-    return f"{listed(SUMMARIES.items())}\n\n{hanging(more, '')}"
+    return f"{listed((kind.name, kind.summary) for kind in FILES.values())}\n\n{hanging(more, '')}"
 
 
 def template(kind: Kind, name: str = "") -> str:

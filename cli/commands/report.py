@@ -19,12 +19,12 @@ from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import FileDesigns
+from gearlink.core.kind import FileDesigns
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
     from gearlink.core.report import Report
 
     Part = tuple[Design, Report]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from gearlink.cli.options import Options
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
     from gearlink.core.report import Check
 
 _KEY_ORDER = ("kind", "name", "input_speed")

@@ -28,7 +28,7 @@ from gearlink.core.spec_paths import changed, value_at
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 _ROUNDS = 8
 _NONE_FOUND = "none found with which every check passes"

@@ -19,7 +19,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import FileDesigns
+from gearlink.core.kind import FileDesigns
 
 if TYPE_CHECKING:
     from gearlink.cli.page.server import Board

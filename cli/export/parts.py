@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.gears.tooth.teeth import rim_radius
+from gearlink.core.kind import load
+from gearlink.core.kinds import KINDS
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
@@ -23,18 +25,21 @@ def makers(design: Any) -> Makers:
     Raises
         MissingSection - where the design file lacks the sections that a profile needs
     """
-    made: Makers = _KINDS[design.kind](design)
-    if not made:
-        raise MissingSection(f"no profile to export: {_NEEDED[design.kind]}", key="")
+    made: Makers = load(KINDS[design.kind].profiles)(design)
     return made
 
 
 def kinds() -> tuple[str, ...]:
     """The kinds of design that have profiles."""
-    return tuple(_KINDS)
+    return tuple(kind.name for kind in KINDS.values() if kind.profiles)
 
 
-def _press(design: Any) -> Makers:
+def _lacking(what: str) -> Makers:
+    raise MissingSection(f"no profile to export: {what}", key="")
+
+
+def press(design: Any) -> Makers:
+    """Both cams and the gears of the input, as far as the file has their sections."""
     found: Makers = {}
     if design.spec.cam is not None:
         from gearlink.cli.export.cam_parts import disc_cam
@@ -42,13 +47,14 @@ def _press(design: Any) -> Makers:
         found["main_cam"] = lambda: disc_cam("main_cam", design.main_cam)
         found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
     if design.spec.input_gears is not None:
-        found |= _pair(design, "input_gears")
-    return found
+        found |= gear_pair(design, "input_gears")
+    return found or _lacking("the file has neither a section cam nor a section input_gears")
 
 
-def _gripper(design: Any) -> Makers:
+def gripper(design: Any) -> Makers:
+    """The cams."""
     if design.spec.cam is None:
-        return {}
+        return _lacking("the file has no section cam: center, sense, roller")
     from gearlink.cli.export.cam_parts import disc_cam
 
     found: Makers = {"main_cam": lambda: disc_cam("main_cam", design.main_cam)}
@@ -57,9 +63,10 @@ def _gripper(design: Any) -> Makers:
     return found
 
 
-def _wide_swing(design: Any) -> Makers:
+def wide_swing(design: Any) -> Makers:
+    """The profiles of the stroke, and the contours of the closed cams of a cycle."""
     if design.spec.cam is None:
-        return {}
+        return _lacking("the file has no section cam: center_distance, roller_radius")
     from gearlink.cli.export.cam_parts import closed_cam, swing_cam
 
     # A cam on the rocker of a crank-rocker serves both strokes, and that of a slider, turning back, the return.
@@ -70,7 +77,8 @@ def _wide_swing(design: Any) -> Makers:
     return found
 
 
-def _pair(design: Any, key: str = "") -> Makers:
+def gear_pair(design: Any, key: str = "") -> Makers:
+    """Both gears, or gear 1 and the rack."""
     data = design.gear_data if design.kind == "flatbed-press" else design.data
     widths, rim = data.face_width, data.rims[1]
     if rim is not None:
@@ -104,7 +112,7 @@ def train_hands(design: Any, label: str = "") -> tuple[str, str]:
     return hands[one], hands[other]
 
 
-def _three_gears(design: Any) -> Makers:
+def three_gears(design: Any) -> Makers:
     """Gears 1, 3 and 5; of a mesh with a ring the idler is the pinion."""
     titles = {"gear1": "gear 1, on the crank", "gear3": "gear 3, the idler", "gear5": "gear 5, the output"}
 
@@ -119,19 +127,21 @@ def _three_gears(design: Any) -> Makers:
     return {"gear1": first["gear1"], "gear3": idler["gear3"], "gear5": second["gear5"]}
 
 
-def _two_gears(design: Any) -> Makers:
+def two_gears(design: Any) -> Makers:
+    """The coupler's gear and the output."""
     titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
     rim = design.outer_rim()
     return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
-def _hypocycloid(design: Any) -> Makers:
+def hypocycloid(design: Any) -> Makers:
+    """Planet and ring."""
     titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
     rim = design.outer_rim()
     return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
-def _mutilated(design: Any) -> Makers:
+def mutilated(design: Any) -> Makers:
     """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
     hands = train_hands(design)
     titles = ("", "gear 2, driven")
@@ -147,7 +157,8 @@ def _mutilated(design: Any) -> Makers:
     return {"wheel": wheel, "gear2": made["gear2"]}
 
 
-def _five_bar(design: Any) -> Makers:
+def five_bar(design: Any) -> Makers:
+    """Both gears of every mesh."""
     found: Makers = {}
     for label, mesh in design.meshes.items():
         names = label.split("_") if label else _five_bar_gears(design, mesh)
@@ -166,7 +177,7 @@ def _five_bar_gears(design: Any, mesh: Any) -> list[str]:
     return ["output", "input"] if is_ring(mesh) and gears.input > gears.output else ["input", "output"]
 
 
-def _six_bar(design: Any) -> Makers:
+def six_bar(design: Any) -> Makers:
     """The gears of both trains by train and pin; one between two others from the mesh before it."""
     found: Makers = {}
     for i, (train, meshes) in enumerate(zip(design.spec.trains, design.train_meshes, strict=True)):
@@ -219,23 +230,3 @@ def _planet(mesh: Any) -> GearPair:
     teeth = (mesh.teeth[0], mesh.teeth[0])
     profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}
     return GearPair.from_shift(mesh.module, teeth, pressure_angle=mesh.pressure_angle, **profile)
-
-
-_KINDS: dict[str, Callable[[Any], Makers]] = {
-    "flatbed-press": _press,
-    "swing-gripper": _gripper,
-    "wide-swing-cam": _wide_swing,
-    "gear-pair": _pair,
-    "three-gear-four-bar": _three_gears,
-    "two-gear-four-bar": _two_gears,
-    "geared-rocker": _two_gears,
-    "geared-five-bar": _five_bar,
-    "geared-six-bar": _six_bar,
-    "hypocycloid-dwell": _hypocycloid,
-    "mutilated-gear-dwell": _mutilated,
-}
-_NEEDED = {
-    "flatbed-press": "the file has neither a section cam nor a section input_gears",
-    "swing-gripper": "the file has no section cam: center, sense, roller",
-    "wide-swing-cam": "the file has no section cam: center_distance, roller_radius",
-}

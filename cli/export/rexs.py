@@ -18,6 +18,8 @@ from gearlink.cli.export.parts import is_ring, pair_hands, train_hands
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.outline.mesh_phase import signed_pair
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.kinds import KINDS
 from gearlink.core.version import VERSION
 
 _VERSION = "1.7"
@@ -66,7 +68,8 @@ def as_rexs(design: Any) -> bytes:
     """
     meshes = list(_meshes(design))
     if not meshes:
-        raise NoSolution(f"a {design.kind} has no gear pair for REXS: kinds that have one: {', '.join(_KINDS)}")
+        having = ", ".join(kind.name for kind in KINDS.values() if kind.rexs is not None)
+        raise NoSolution(f"a {design.kind} has no gear pair for REXS: kinds that have one: {having}")
     model = Model()
     unit = model.component("gear_unit", design.spec.name, iter(()))
     known: dict[str, int] = {}
@@ -191,29 +194,20 @@ def _meshes(design: Any) -> Iterator[_Mesh]:
     """Every mesh of a design."""
     if getattr(design.spec, "rack", False):
         raise NoSolution("the data model of REXS 1.7 has no rack: take --as dxf, svg, csv or step", key="teeth[1]")
-    if design.kind in _PAIRS:
+    names = KINDS[design.kind].rexs
+    if names is None:
+        return
+    if not isinstance(design, Meshed):
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return
         data = design.data if design.kind == "gear-pair" else design.gear_data
-        yield _Mesh(("gear 1", "gear 2"), data.pair, data.face_width, pair_hands(design))
-    elif design.kind in _TRAINS:
-        names = _TRAINS[design.kind] or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
+        yield _Mesh((names[0], names[1]), data.pair, data.face_width, pair_hands(design))
+    else:
+        names = names or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
         for label, place in zip(design.mesh_names, design.teeth_train.places, strict=True):
             one, other = place.gears
             pair = signed_pair(design.meshes[label])
             yield _Mesh((names[one], names[other]), pair, design.widths_of(label), train_hands(design, label))
-
-
-_PAIRS = ("gear-pair", "flatbed-press")
-_TRAINS: dict[str, tuple[str, ...]] = {
-    "three-gear-four-bar": ("gear 1", "gear 3", "gear 5"),
-    "two-gear-four-bar": ("gear 2", "gear 5"),
-    "geared-rocker": ("gear 2", "gear 5"),
-    "hypocycloid-dwell": ("planet", "ring"),
-    "geared-five-bar": (),
-}
-"""Names of the gears of a train, in the order of the file's lists; empty: those of the file."""
-_KINDS = (*_PAIRS, *_TRAINS)
 
 
 def _text(value: Any) -> str:

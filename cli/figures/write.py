@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -14,6 +13,8 @@ from gearlink.cli.figures.loading import load_what_is_drawn
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
 from gearlink.cli.quiet import without_notes
+from gearlink.core.kind import load
+from gearlink.core.kinds import FILES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,12 +52,12 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 
 
 def panels(command: str, design: Design) -> Figure:
-    """The figure of a command on a design, from the module named after the kind, not placed yet; all kinds
-    share those of some commands."""
+    """The figure of a command on a design, as the kind draws it, not placed yet; all kinds share those of some
+    commands."""
     if command in _SHARED:
-        made: Figure = import_module(f"gearlink.cli.figures.{command}").draw(design)
+        made: Figure = load(f"cli.figures.{command}:draw")(design)
     else:
-        made = import_module("gearlink.cli.figures." + design.kind.replace("-", "_")).draw(command, design)
+        made = load(FILES[design.kind].picture)(command, design)
     return made
 
 

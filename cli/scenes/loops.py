@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from gearlink.core.kinds import KINDS
+from gearlink.core.kind import load
+from gearlink.core.kinds import FILES, KINDS
 
 if TYPE_CHECKING:
     from gearlink.cli.scenes.scene import Reals, Scene
@@ -26,18 +25,17 @@ def moving_kinds() -> tuple[str, ...]:
 
 def moves(kind: str) -> bool:
     """Whether a kind has a scene."""
-    return find_spec(_module(kind)) is not None
+    return bool(FILES[kind].scene)
 
 
 def build(design: Design, fraction: Reals) -> Scene:
     """The scene of a design over fractions of its loop; 0 and 1 look the same."""
-    scene: Scene = import_module(_module(design.kind)).build(design, fraction)
-    return scene
+    return builder(design.kind)(design, fraction)
 
 
 def builder(kind: str) -> Callable[[Design, Reals], Scene]:
     """What builds the scenes of a kind."""
-    found: Callable[[Design, Reals], Scene] = import_module(_module(kind)).build
+    found: Callable[[Design, Reals], Scene] = load(FILES[kind].scene)
     return found
 
 
@@ -51,7 +49,3 @@ def pictures_for(scene: Scene, fps: int) -> int:
     steps = [float(np.abs(np.diff(body.turn)).max()) * body.repeats / TURN * len(body.turn) for body in bodies]
     needed = max(steps, default=0.0) / _PITCH_A_PICTURE
     return math.ceil(min(max(_USUAL_SECONDS * fps, needed), _MOST_SECONDS * fps))
-
-
-def _module(kind: str) -> str:
-    return "gearlink.cli.scenes." + kind.replace("-", "_")

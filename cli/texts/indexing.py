@@ -10,7 +10,8 @@ from typing import Any
 from gearlink.cli.texts.known import Index
 from gearlink.cli.texts.model_schema import made_parts
 from gearlink.cli.texts.worked_designs import worked_design
-from gearlink.core.kinds import FILES, Kind
+from gearlink.core.kind import Kind
+from gearlink.core.kinds import FILES
 
 
 def index_text() -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 Node = dict[str, Any]
 _LISTS = ("anyOf", "oneOf", "allOf")

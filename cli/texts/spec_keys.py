@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.texts.schema import kind_schema
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 Node = dict[str, Any]
 _LOWER, _UPPER = (

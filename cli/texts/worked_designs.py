@@ -9,17 +9,8 @@ from typing import TYPE_CHECKING
 from gearlink import designs
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
-# Where several worked designs show a kind, the one to begin with.
-_PLAINEST = {
-    "slider-crank": "ty460_slider_crank",
-    "flatbed-press": "ty460",
-    "three-gear-four-bar": "standing_feed",
-    "two-gear-four-bar": "two_gear_drag_link",
-    "geared-rocker": "wide_lever",
-    "wide-swing-cam": "wide_swing_twin_cam",
-}
 _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 
 
@@ -30,4 +21,4 @@ def worked_design(kind: Kind) -> str:
     own = {stem: text for stem, text in files if (found := _KIND.search(text)) and found[1] == kind.name}
     if not own:
         raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
-    return own.get(_PLAINEST.get(kind.name, kind.name.replace("-", "_")), own[min(own)])
+    return own.get(kind.worked or kind.name.replace("-", "_"), own[min(own)])

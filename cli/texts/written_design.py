@@ -11,7 +11,7 @@ from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
 
 if TYPE_CHECKING:
-    from gearlink.core.kinds import Kind
+    from gearlink.core.kind import Kind
 
 _PLAIN = re.compile(r"[A-Za-z_][\w/.-]*( [\w/.-]+)*")
 _NOT_TEXT = {"true", "false", "null", "yes", "no", "on", "off", "y", "n"}

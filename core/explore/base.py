@@ -15,7 +15,8 @@ from pydantic import ValidationError
 from gearlink.core.codes import rules
 from gearlink.core.design import Design, in_unit
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS, Kind
+from gearlink.core.kind import Kind
+from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
 from gearlink.core.spec_paths import put
 

@@ -166,6 +166,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
         return {"": self.gear_data}
 
     input_speed: float = placed("motion.input_speed")
+    turn_time: float = placed("motion.turn_time")
     zone_length: float = placed("motion.zone_length")
     slider_crank: SliderCrank = placed("motion.slider_crank")
     bed: BedChain = placed("motion.bed")

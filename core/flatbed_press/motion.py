@@ -33,6 +33,11 @@ class PressMotion:
         """Angular velocity of the input [rad/s]: one turn a sheet."""
         return self.spec.speed / 3600.0 * 2.0 * math.pi
 
+    @property
+    def turn_time(self) -> float:
+        """Time of an input turn [ms]."""
+        return 2e3 * math.pi / self.input_speed
+
     @cached_property
     def slider_crank(self) -> SliderCrank:
         """D-E-F, whose slider makes half the bed's stroke."""

@@ -38,6 +38,11 @@ class Motion:
         """Angular velocity of the cylinder shaft [rad/s]: one turn a sheet."""
         return self.spec.speed / 3600.0 * 2.0 * math.pi
 
+    @property
+    def turn_time(self) -> float:
+        """Time of a turn of the cylinder shaft [ms]."""
+        return 2e3 * math.pi / self.shaft_speed
+
     @cached_property
     def law(self) -> SixPhaseLaw:
         """The six-phase law; its constant speed is R/l_EF."""

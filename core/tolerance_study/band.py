@@ -22,20 +22,6 @@ _ARRAY_SAMPLES, _SCALAR_SAMPLES = 16_384, 8 * REPLICATIONS
 _PLACES = 120
 _LEAST_TAIL = 5  # samples beyond a percentile, or it is none
 
-_OUTPUTS = {
-    "three-gear-four-bar": ("motion", ("output_angle",)),
-    "two-gear-four-bar": ("motion", ("output_angle",)),
-    "geared-rocker": ("motion", ("output_angle",)),
-    "geared-six-bar": ("motion", ("output_angle",)),
-    "slider-crank": ("motion", ("displacement",)),
-    "mutilated-gear-dwell": ("motion", ("rocker_angle",)),
-    "hypocycloid-dwell": ("motion", ("deviation",)),
-    "swing-gripper": ("motion", ("output_angle",)),
-    "flatbed-press": ("positions", ("bed_displacement", "cylinder_displacement")),
-    "wide-swing-cam": ("law", ("displacement",)),
-}
-_OF_FIVE_BAR = {"path": ("path", ("x", "y")), "function": ("function", ("output_angle",))}
-
 
 @dataclass(frozen=True)
 class Course:
@@ -93,8 +79,8 @@ def courses(made: Problem) -> list[Course]:
 
 def outputs_of(made: Problem) -> tuple[str, tuple[str, ...]] | None:
     """Table and columns of the outputs of a design."""
-    name = made.base.kind.name
-    return _OF_FIVE_BAR[made.nominal.spec.form] if name == "geared-five-bar" else _OUTPUTS.get(name)
+    shown = made.nominal.outline("analyze").tables
+    return next((each for each in made.base.kind.outputs.items() if each[0] in shown), None)
 
 
 def _reference(made: Problem) -> float | None:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -30,7 +29,6 @@ ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
 _STUDIES = ("tolerance", "register")
 _ABOUT = (*_STUDIES, "loads")  # commands about a design, and their sections: no sample is for them
-_AXES = {"three-gear-four-bar": "three_gear.as_made.samples:ThreeGearSamples"}
 
 
 @dataclass(frozen=True)
@@ -292,11 +290,8 @@ def problem(spec: Any) -> Problem:
     except (Refused, NoSolution) as error:
         missing = error.code == MissingSection.code and section.command is not None
         raise NoSolution(str(error), key="tolerance.command" if missing else error.key) from error
-    place = _AXES.get(kind.name)
-    axis = None
-    if place is not None:
-        module, _, name = place.partition(":")
-        axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
+    samples = kind.samples_maker()
+    axis = None if samples is None else samples(nominal)
     return Problem(base, nominal, section, axis, given, tuple(spec.commands()))
 
 

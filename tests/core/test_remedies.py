@@ -16,7 +16,8 @@ from oracles.random_designs import KINDS as DRAWN
 from oracles.random_designs import Data, draw
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS, FileDesigns
+from gearlink.core.kind import FileDesigns
+from gearlink.core.kinds import KINDS
 from gearlink.core.remedies.ways import down, left_out, shared, up
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.spec_paths import changed, numbers_at, step_of, value_at

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -24,13 +23,10 @@ _UNITS_OF_A_TURN = {
     "input turns": 1.0,
 }
 """How the x axes over the input are named, and what a turn is on them."""
-_SPEEDS = {"flatbed-press": "input_speed", "swing-gripper": "shaft_speed"}
 
 
 def turn_time(design: Any) -> float | None:
     """Time of an input turn of a design [ms]; None where its speed is not known."""
-    if (name := _SPEEDS.get(design.kind)) is not None:
-        return 2e3 * math.pi / float(getattr(design, name))
     found: float | None = getattr(design, "turn_time", None)
     return found
 

@@ -9,6 +9,8 @@ import numpy as np
 
 from gearlink.cli.figures.drawing import panels, style
 from gearlink.core.cams.disc_cam import DiscCam
+from gearlink.core.kind import load
+from gearlink.core.kinds import KINDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,11 +29,18 @@ _LARGEST_BORE = 130
 
 def discs(design: Any) -> tuple[DiscCam, ...]:
     """The closed disc cams of a design, none where it has no section cam."""
-    if design.kind == "flatbed-press" and design.spec.cam is not None:
-        return (design.main_cam, design.return_cam)
-    if design.kind == "swing-gripper" and design.spec.cam is not None:
-        return tuple(design.cams.discs)
-    return ()
+    place = KINDS[design.kind].sheets.get("drawing")
+    return load(place)(design) if place and design.spec.cam is not None else ()
+
+
+def press_discs(design: Any) -> tuple[DiscCam, ...]:
+    """The main and the return cam of a press."""
+    return design.main_cam, design.return_cam
+
+
+def gripper_discs(design: Any) -> tuple[DiscCam, ...]:
+    """The cams of a gripper, one or two."""
+    return tuple(design.cams.discs)
 
 
 def pressure(design: Any) -> Figure:
@@ -99,7 +108,7 @@ def drawing(design: Any, index: int) -> Figure:
 
 def _shaft(design: Any) -> float:
     """Radius of the shaft [mm]; 0 where the file does not name it."""
-    return float(design.cams.section.shaft_radius if design.kind == "flatbed-press" else design.spec.cam.shaft_radius)
+    return float(design.cams.section.shaft_radius)
 
 
 def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.figures.drawing import panels, style, time_axes
+from gearlink.core.kind import load
+from gearlink.core.kinds import KINDS
 from gearlink.core.numerics.extremes import extremes_over
 
 if TYPE_CHECKING:
@@ -94,11 +96,12 @@ def courses(design: Any) -> list[Course]:
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    make = _KINDS.get(design.kind)
-    return [] if make is None else make(design)
+    place = KINDS[design.kind].sheets.get("motion")
+    found: list[Course] = load(place)(design) if place else []
+    return found
 
 
-def _of_motion(design: Any) -> list[Course]:
+def of_motion(design: Any) -> list[Course]:
     """The outputs of its motion, over the whole period or range of the input."""
     motion, speed = design.moving, getattr(design, "angular_speed", None)
     given = motion.input
@@ -193,7 +196,8 @@ def _angles() -> Reals:
     return np.arange(721) * 0.5
 
 
-def _press(design: Any) -> list[Course]:
+def press(design: Any) -> list[Course]:
+    """Bed and cylinder."""
     over, speed, bed = "input angle [deg]", design.input_speed, design.bed
     zone = panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end))
 
@@ -214,7 +218,8 @@ def _press(design: Any) -> list[Course]:
     return [Course("Bed", over, x, of(moving.travel, moving.jerk), "mm", speed, phases or (zone,)), cylinder]
 
 
-def _gripper(design: Any) -> list[Course]:
+def gripper(design: Any) -> list[Course]:
+    """The gripper's arm."""
     from gearlink.core.swing_gripper.law import PHASES
 
     def rates(x: Reals) -> tuple[Reals, ...]:
@@ -226,11 +231,12 @@ def _gripper(design: Any) -> list[Course]:
     return [Course("Gripper arm", "cylinder angle [deg]", x, rates, "rad", design.shaft_speed, phases)]
 
 
-def _five_bar(design: Any) -> list[Course]:
-    return _of_motion(design) if design.is_path and design.period_turns == 1 else []
+def five_bar(design: Any) -> list[Course]:
+    """Both coordinates of a path that one turn closes."""
+    return of_motion(design) if design.is_path and design.period_turns == 1 else []
 
 
-def _wide_swing(design: Any) -> list[Course]:
+def wide_swing(design: Any) -> list[Course]:
     """The rocker over its working stroke, and the slider that it drives, both from where the stroke begins."""
     moving, angle = design.moving, design.motion.cycle_angle
     x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / design.motion.working_time
@@ -245,22 +251,3 @@ def _wide_swing(design: Any) -> list[Course]:
         Course(name, over, x, at(each.course), each.course.unit, speed)
         for name, each in zip(names, moving.outputs, strict=False)
     ]
-
-
-_KINDS: dict[str, Callable[[Any], list[Course]]] = {
-    "three-gear-four-bar": _of_motion,
-    "two-gear-four-bar": _of_motion,
-    "geared-rocker": _of_motion,
-    "slider-crank": _of_motion,
-    "flatbed-press": _press,
-    "swing-gripper": _gripper,
-    "hypocycloid-dwell": _of_motion,
-    "geared-five-bar": _five_bar,
-    "geared-six-bar": _of_motion,
-    "wide-swing-cam": _wide_swing,
-}
-
-
-def kinds() -> Sequence[str]:
-    """The kinds that have such a sheet."""
-    return tuple(_KINDS)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.kinds import KINDS
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -13,9 +15,7 @@ Makers = dict[str, Callable[[], "Figure"]]
 
 def kinds() -> tuple[str, ...]:
     """The kinds whose designs have sheets."""
-    from gearlink.cli.figures.sheets import motion_sheet, timing_sheet
-
-    return tuple(dict.fromkeys((*motion_sheet.kinds(), *timing_sheet.kinds())))
+    return tuple(kind.name for kind in KINDS.values() if kind.sheets)
 
 
 def sheets_of(design: Any) -> Makers:
@@ -29,7 +29,7 @@ def sheets_of(design: Any) -> Makers:
     found: Makers = {}
     if motion_sheet.courses(design):
         found["motion"] = lambda: motion_sheet.draw(design)
-    if design.kind in timing_sheet.kinds():
+    if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     cams = cam_sheets.discs(design)
     if cams:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gearlink.cli.figures.drawing import panels, style
 from gearlink.cli.scenes.colors import PHASE_TINTS
+from gearlink.core.kind import load
+from gearlink.core.kinds import KINDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,9 +29,13 @@ class Ring:
     stretches: tuple[panels.Phase, ...]
 
 
+Timing: TypeAlias = tuple[list[Ring], list[tuple[str, float]], str]
+"""Rings from outside, marks with their angles [deg], whose angle it is."""
+
+
 def draw(design: Any) -> Figure:
     """Rings about the machine's angle, 0 at the top, clockwise."""
-    rings, marks, over = _KINDS[design.kind](design)
+    rings, marks, over = load(KINDS[design.kind].sheets["timing"])(design)
     made = panels.page(f"{design.spec.name}: timing", 0.72)
     axes: Any = made.add_subplot(projection="polar")
     axes.set_theta_zero_location("N")
@@ -90,7 +96,8 @@ def _name(axes: Axes, phase: panels.Phase, angle: float, radius: float, *, stron
     axes.text(angle, radius, words, rotation=turned, **look)
 
 
-def _press(design: Any) -> tuple[list[Ring], list[tuple[str, float]], str]:
+def press(design: Any) -> Timing:
+    """Bed, printing and cams of a press over its input."""
     turn = np.radians(np.arange(3601) * 0.1)
     speed = design.bed.travel(turn, 1).first
     change = [float(np.degrees(turn[i])) for i in np.flatnonzero(np.diff(np.sign(speed)) != 0.0) if 0 < i < 3599]
@@ -112,7 +119,8 @@ def _at_input(design: Any, segment: Any) -> panels.Phase:
     return panels.Phase(segment.phase, start, end)
 
 
-def _gripper(design: Any) -> tuple[list[Ring], list[tuple[str, float]], str]:
+def gripper(design: Any) -> Timing:
+    """Arm and sheet of a gripper over its cylinder."""
     from gearlink.core.swing_gripper.law import PHASES
 
     starts = design.law.starts
@@ -122,11 +130,3 @@ def _gripper(design: Any) -> tuple[list[Ring], list[tuple[str, float]], str]:
         "sheet", (panels.Phase("contact", 0.0, design.spec.handover), panels.Phase("free", design.spec.handover, 360.0))
     )
     return [arm, held], [("bite", 0.0), ("handover", design.spec.handover)], "cylinder"
-
-
-_KINDS = {"flatbed-press": _press, "swing-gripper": _gripper}
-
-
-def kinds() -> tuple[str, ...]:
-    """The kinds that have such a sheet."""
-    return tuple(_KINDS)

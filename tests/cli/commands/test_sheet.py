@@ -138,7 +138,7 @@ def test_time_is_on_the_right_in_si() -> None:
 
 def test_timing_is_in_angles_of_the_input() -> None:
     made = design(worked("ty460"))
-    rings, marks, over = timing_sheet._press(made)
+    rings, marks, over = timing_sheet.press(made)
     assert over == "input"
     names = {ring.name: ring.stretches for ring in rings}
     cams = {phase.name: phase for phase in names["cams"]}

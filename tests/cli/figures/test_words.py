@@ -19,6 +19,8 @@ from gearlink.cli.figures.write import fonts_of
 from gearlink.cli.scenes import three_gear_four_bar
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.gears.outline.mesh_phase import signed_pair
+from gearlink.core.kind import load
+from gearlink.core.kinds import KINDS
 
 
 def test_extremes_of_a_slider_are_those_of_the_analysis() -> None:
@@ -66,14 +68,14 @@ def test_every_stretch_of_a_timing_diagram_has_its_name() -> None:
         for stretch in narrow:
             assert any(label.startswith(f"{stretch}, ") for label in labels(axes))
         named = [*words(figure), *labels(axes)]
-        for ring in timing_sheet._KINDS[made.kind](made)[0]:
+        for ring in load(KINDS[made.kind].sheets["timing"])(made)[0]:
             for phase in ring.stretches:
                 assert any(text.startswith(phase.name) for text in named)
 
 
 def test_the_zone_of_a_press_is_not_called_its_print() -> None:
     """The print may be shorter: sync.print_length."""
-    _, marks, _ = timing_sheet._press(design(worked("ty460")))
+    _, marks, _ = timing_sheet.press(design(worked("ty460")))
     assert [name for name, _ in marks] == ["zone begins", "zone ends"]
 
 
