@@ -90,6 +90,7 @@ KINDS: dict[str, Kind] = {
                 "register": "register:PressRegister",
                 "tolerance": "",
             },
+            motion="mechanism:motion",
             outputs={"positions": ("bed_displacement", "cylinder_displacement")},
             register_at="zone",
             picture="cli.figures.flatbed_press:draw",

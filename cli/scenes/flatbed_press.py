@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -33,11 +34,13 @@ from gearlink.cli.scenes.scene import (
     track,
     wheel,
 )
-from gearlink.core.flatbed_press.positions import bed_positions, cylinder_positions
+from gearlink.core.flatbed_press.mechanism import bare
 from gearlink.core.gears.outline.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
+    from gearlink.core.mechanism.links import Link
+    from gearlink.core.mechanism.motion import Motion
 
 LEVEL = -1j
 """Turns the bed chain's frame so that the bed moves level, printing to the right: AD points down, F stands left."""
@@ -61,10 +64,25 @@ class Machine:
         return TURN * self.fraction
 
     @cached_property
+    def links(self) -> Mapping[str, Link]:
+        """All links; without its cams the lower rack stands."""
+        return self._moving.at(self.phi, 0).links
+
+    @cached_property
+    def _moving(self) -> Motion:
+        return self.design.moving if self.cams else bare(self.design).moving
+
+    def velocity(self, link: str, pin: str) -> Points:
+        """Of a pin by the input angle [mm/rad], N towards +x from G."""
+        found = self._moving.at(self.phi, 1).links
+        side = np.sign(self.links["MN"].origin.value.real - self.links["gear1"].origin.value.real)
+        return found[link].at(pin).first * (side if link == "MN" else 1.0)
+
+    @cached_property
     def bed_joints(self) -> tuple[Points, ...]:
         """A to F with the slide level."""
-        at = bed_positions(self.design.bed, self.phi)
-        return tuple(LEVEL * track(point, self.fraction) for point in (at.a, at.b, at.c, at.d, at.e, at.f))
+        pins = (("gear2", "A"), ("gear2", "B"), ("CDE", "C"), ("CDE", "D"), ("CDE", "E"), ("carriage", "F"))
+        return tuple(LEVEL * self.links[link].at(pin).value for link, pin in pins)
 
     @cached_property
     def slide(self) -> float:
@@ -84,8 +102,9 @@ class Machine:
     @cached_property
     def cylinder_links(self) -> tuple[Points, ...]:
         """G, H, M, N with G in the origin and N above it."""
-        at = cylinder_positions(self.design.cylinder, self.phi)
-        return tuple(UPRIGHT * track(point, self.fraction) for point in (at.g, at.h, at.m, at.n))
+        center, pins = self.links["gear1"].origin.value, (("gear1", "G"), ("gear1", "H"), ("MN", "M"), ("MN", "N"))
+        side = np.sign((self.links["MN"].origin.value - center).real)
+        return tuple(UPRIGHT * side * (self.links[link].at(pin).value - center) for link, pin in pins)
 
     @property
     def cylinder_joints(self) -> tuple[Points, ...]:
@@ -95,24 +114,27 @@ class Machine:
     @cached_property
     def cam_angle(self) -> Reals:
         """Angle turned by the cams [rad]."""
-        return np.asarray(self.design.bed.cam_angle(self.phi).value)
+        return np.asarray(self.links["CDE"].turn.value - self.design.bed.cam_angle_start)
 
     @cached_property
     def lift(self) -> Reals:
         """Way of the lower rack [mm]; nothing without cams."""
-        if self.design.spec.cam is None or not self.cams:
-            return np.zeros_like(self.fraction)
-        return np.asarray(self.design.follower.evaluate(self.cam_angle, 0)[0].value)
+        rack = self.links.get("rack")
+        return np.zeros_like(self.fraction) if rack is None else rack.origin.value.imag
 
     @cached_property
     def bed_travel(self) -> Reals:
         """Way of the bed [mm], the compensation taken off."""
-        return np.asarray(self.design.bed.travel(self.phi).value) - self.lift
+        return self.links["bed"].origin.value.imag - self._bed_at_start
+
+    @property
+    def _bed_at_start(self) -> float:
+        return 2.0 * float(bare(self.design).moving.at(np.zeros(1), 0).links["carriage"].origin.value[0].imag)
 
     @cached_property
     def cylinder_travel(self) -> Reals:
         """Way of the cylinder's surface [mm]."""
-        return np.asarray(self.design.cylinder.travel(self.phi).value)
+        return self.design.cylinder.radius * self.links["cylinder"].turn.value
 
     @property
     def pinion(self) -> float:

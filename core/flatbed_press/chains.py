@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar.loop import rocker_and_rate, rocker_rate
 from gearlink.core.linkages.fourbar.position import FourBar
@@ -227,6 +228,33 @@ def difference(bed: BedChain, cylinder: CylinderChain, input_angle: Any, order: 
     if order == 1:
         return Travel(p.value - q.value, p.first - q.first)
     return Travel(p.value - q.value, p.first - q.first, p.second - q.second)
+
+
+def least_transmission_crank(linkage: FourBar) -> float:
+    """Crank angle at which the transmission angle of a full turn is least: 0 or pi [rad].
+
+    Raises
+        NoSolution - when the crank does not turn fully
+    Example
+        >>> least_transmission_crank(FourBar(116.0, 100.0, 100.0, 37.0)) == math.pi
+        False
+
+    Source
+        thesis 4.2 (transmission angle)
+    """
+    at_0, at_pi = map(acute, linkage.transmission_extremes())
+    return 0.0 if at_0 <= at_pi else math.pi
+
+
+def least_transmission_input(chain: BedChain | CylinderChain) -> float:
+    """Input angle in [0, 2 pi) at which the transmission angle of a chain is least [rad].
+
+    Source
+        own derivation: the crank lies along the frame there
+    """
+    crank = least_transmission_crank(chain.linkage)
+    turned = crank - chain.initial_crank_angle if isinstance(chain, BedChain) else chain.initial_angle - crank
+    return turned % (2.0 * math.pi)
 
 
 def _solver(angle: Any) -> Any:

@@ -122,7 +122,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
     @cached_property
     def bed_motion(self) -> BedMotion:
         """The bed, the lift of its cam taken off where the file has one."""
-        return BedMotion(self.motion, None if self.spec.cam is None else self.cams.follower)
+        return BedMotion(self)
 
     @property
     def bed_moves(self) -> bool:

@@ -47,15 +47,13 @@ def machine(axes: Axes, design: FlatbedPress) -> None:
 
 def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
     """The press in twelve positions, and last where a chain has its least transmission angle."""
-    from gearlink.core.flatbed_press.positions import least_transmission_input
+    from gearlink.core.flatbed_press.chains import least_transmission_input
 
     return Machine(design, np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN))
 
 
 def bed_positions(axes: Axes, design: FlatbedPress) -> None:
     """A-B-C-D-E-F in twelve positions; the speeds of the bed in lanes below the slide line."""
-    from gearlink.core.flatbed_press import positions
-
     panels.drawing(axes, f"Bed chain in {POSITIONS} positions, 30° apart, to scale")
     at, linkage = _at_positions(design, design.bed), design.bed.linkage
     a, b, _, d, _, f = (joint[:-1] for joint in at.bed_joints)
@@ -64,14 +62,12 @@ def bed_positions(axes: Axes, design: FlatbedPress) -> None:
     axes.axhline(at.slide, color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
     _overlay(axes, bed_chain(at.bed_joints), at, design.min_transmission_angle_bed)
     _numbers(axes, list(b), complex(a[0]), 0.16 * linkage.crank)
-    velocity = positions.bed_positions(design.bed, at.phi[:-1]).f_velocity * LEVEL
+    velocity = LEVEL * at.velocity("carriage", "F")[:-1]
     _lanes(axes, list(f), 2.0 * design.input_speed * velocity.real, at.slide - 0.22 * design.bed.slider_crank_length)
 
 
 def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
     """G-H-M-N in twelve positions, with the velocity of M."""
-    from gearlink.core.flatbed_press import positions
-
     panels.drawing(axes, "Cylinder chain")
     chain = design.cylinder
     at = _at_positions(design, chain)
@@ -79,7 +75,7 @@ def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
     for center, radius in ((g, chain.linkage.crank), (n, chain.linkage.rocker)):
         style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
     _overlay(axes, cylinder_chain(at.cylinder_links), at, design.min_transmission_angle_cylinder)
-    velocity = positions.cylinder_positions(chain, at.phi[:-1]).m_velocity * UPRIGHT * design.input_speed
+    velocity = UPRIGHT * at.velocity("MN", "M")[:-1] * design.input_speed
     tips = _arrows(axes, m, velocity, 0.75 * chain.linkage.rocker, "M", (0.86, 0.05))
     _numbers(axes, list(tips), complex(n[0]), 0.09 * chain.linkage.rocker)
     panels.legend_below(axes)

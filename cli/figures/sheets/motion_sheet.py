@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -103,7 +103,11 @@ def courses(design: Any) -> list[Course]:
 
 def of_motion(design: Any) -> list[Course]:
     """The outputs of its motion, over the whole period or range of the input."""
-    motion, speed = design.moving, getattr(design, "angular_speed", None)
+    return _courses(design, getattr(design, "angular_speed", None))
+
+
+def _courses(design: Any, speed: float | None) -> list[Course]:
+    motion = design.moving
     given = motion.input
     start, end = math.degrees(given.start), math.degrees(given.end)
     joints = np.array(given.joints)
@@ -197,25 +201,13 @@ def _angles() -> Reals:
 
 
 def press(design: Any) -> list[Course]:
-    """Bed and cylinder."""
-    over, speed, bed = "input angle [deg]", design.input_speed, design.bed
-    zone = panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end))
-
-    def of(travel: Callable[[Reals], Any], jerk: Callable[[Reals], Reals]) -> Callable[[Reals], tuple[Reals, ...]]:
-        return lambda x: (*travel(np.radians(x)), jerk(np.radians(x)))
-
-    surface = of(lambda phi: design.cylinder.travel(phi, 2), design.cylinder.jerk)
-    cylinder = Course("Cylinder surface", over, _angles(), surface, "mm", speed, (zone,))
+    """Bed and cylinder; of a bed whose cam cannot be, its chain alone."""
     if not design.bed_moves:
-        chain = of(lambda phi: bed.travel(phi, 2), bed.jerk)
-        return [Course("Bed, without its cam", over, _angles(), chain, "mm", speed, (zone,)), cylinder]
-    moving = design.bed_motion
-    lift = () if moving.follower is None else moving.follower.segments
-    ends = [(each, [math.degrees(bed.input_angle(angle)) for angle in (each.start, each.end)]) for each in lift]
-    phases = tuple(panels.Phase(each.phase, *angles) for each, angles in ends)
-    joints = np.degrees(moving.joints)
-    x = np.unique(np.concatenate([_angles(), joints, np.nextafter(joints, 0.0)])) if lift else _angles()
-    return [Course("Bed", over, x, of(moving.travel, moving.jerk), "mm", speed, phases or (zone,)), cylinder]
+        from gearlink.core.flatbed_press.mechanism import bare
+
+        bed, cylinder = _courses(bare(design), design.input_speed)
+        return [replace(bed, name="Bed, without its cam"), cylinder]
+    return _courses(design, design.input_speed)
 
 
 def gripper(design: Any) -> list[Course]:

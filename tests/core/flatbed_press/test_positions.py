@@ -9,29 +9,45 @@ Tolerances
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
-from gearlink.core.flatbed_press.positions import (
-    bed_positions,
-    cylinder_positions,
-    least_transmission_input,
-)
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, least_transmission_input
+from tests import factory
 
 PHI = np.radians(np.arange(0.0, 360.0, 7.5))
 
 
+MADE = factory.design("ty460")
+
+
 @pytest.fixture
 def bed() -> BedChain:
-    return BedChain(FourBar(116.0, 100.0, 100.0, 37.0), math.radians(177.0), 154.21159203908383, 520.0, 50.0)
+    return MADE.bed
 
 
 @pytest.fixture
 def cylinder() -> CylinderChain:
-    return CylinderChain(FourBar(100.0, 100.0, 95.0, 40.0, -1), math.radians(57.109), 140.0, 1.0)
+    return MADE.cylinder
+
+
+def bed_positions(_bed: BedChain, phi: Any) -> Any:
+    """Joints of A-B-C-D-E-F, and the velocity of F."""
+    links = MADE.moving.at(phi, 1).links
+    pins = {"a": "gear2", "b": "gear2", "c": "CDE", "d": "CDE", "e": "CDE", "f": "carriage"}
+    found = {pin: links[link].at(pin.upper()) for pin, link in pins.items()}
+    return SimpleNamespace(**{pin: at.value for pin, at in found.items()} | {"f_velocity": found["f"].first})
+
+
+def cylinder_positions(_cylinder: CylinderChain, phi: Any) -> Any:
+    """Joints of G-H-M-N, and the velocity of M."""
+    links = MADE.moving.at(phi, 1).links
+    pins = {"g": "gear1", "h": "gear1", "m": "MN", "n": "MN"}
+    found = {pin: links[link].at(pin.upper()) for pin, link in pins.items()}
+    return SimpleNamespace(**{pin: at.value for pin, at in found.items()} | {"m_velocity": found["m"].first})
 
 
 def test_links_of_the_bed_chain_keep_their_lengths(bed: BedChain) -> None:

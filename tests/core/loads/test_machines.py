@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 from gearlink.core.flatbed_press.chains import Travel
+from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.flatbed_press.loads import PressLoads
 from gearlink.core.loads import machine
 from gearlink.core.mechanism import friction
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.links import Link, Mechanism
 from gearlink.core.mechanism.motion import Motion
-from gearlink.core.mechanism.rates import Turn
 from gearlink.core.numerics.arrays import Reals
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
@@ -33,11 +33,11 @@ def press(monkeypatch: pytest.MonkeyPatch) -> Any:
     """The press with the reference's follower, whose roller stays on the main cam."""
     lift = PRESS["lift"]
 
-    def of_reference(press: PressLoads, _: Any, rocker: Turn) -> Travel:
-        t = rocker.value - press.design.bed.cam_angle_start
+    def of_reference(_press: Any, _phi: Any, cam: Travel, _order: int) -> Travel:
+        t = cam.value
         return Travel(lift * (1 - np.cos(t)) / 2, lift * np.sin(t) / 2, lift * np.cos(t) / 2)
 
-    monkeypatch.setattr(PressLoads, "lift", of_reference)
+    monkeypatch.setattr(Compensation, "lift_at", of_reference)
     monkeypatch.setattr(PressLoads, "own_joints", [])
     monkeypatch.setattr(Contact, "sided", lambda self, _: self)
     monkeypatch.setattr(friction, "_exchange", lambda *_: None)
