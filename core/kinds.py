@@ -119,6 +119,7 @@ KINDS: dict[str, Kind] = {
                 "register": "register:GripperRegister",
                 "tolerance": "",
             },
+            motion="mechanism:motion",
             outputs={"motion": ("output_angle",)},
             register_at="handover",
             picture="cli.figures.swing_gripper:draw",

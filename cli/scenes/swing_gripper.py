@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from gearlink.cli.scenes.scene import (
     Line,
     Mark,
     Part,
+    Points,
     Readout,
     Reals,
     Scene,
@@ -29,7 +30,7 @@ from gearlink.cli.scenes.scene import (
     track,
     wheel,
 )
-from gearlink.core.swing_gripper.positions import GripperPositions, positions
+from gearlink.core.swing_gripper.mechanism import without_cams
 
 if TYPE_CHECKING:
     from gearlink.core.swing_gripper.design import SwingGripper
@@ -41,10 +42,10 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     degrees = 360.0 * fraction
     at = _positions(design, degrees)
-    a, e = track(at.a, fraction), track(at.e, fraction)
+    a, e = at.a, at.e
     path = _positions(design, np.linspace(0.0, design.law.starts[3], 121)).f
     arms = at.d - at.e
-    turn, plate = np.unwrap(np.angle(arms)), np.array([0.0, 1.0, (at.f[0] - at.e) / arms[0], 0.0]) * abs(arms[0])
+    turn, plate = np.unwrap(np.angle(arms)), np.array([0.0, 1.0, (at.f[0] - e[0]) / arms[0], 0.0]) * abs(arms[0])
     parts: list[Part] = [
         Line(points=path, color=ORANGE, width=2.0, name="path of the sheet's edge"),
         *_drum(design, fraction),
@@ -64,9 +65,20 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
     )
 
 
-def _positions(design: SwingGripper, degrees: Reals) -> GripperPositions:
-    arm = design.spec.arm
-    return positions(design.linkage, arm.length, math.radians(arm.direction), degrees)
+class _Positions(NamedTuple):
+    """Joints of linkage and arm [mm]."""
+
+    a: Points
+    c: Points
+    d: Points
+    e: Points
+    f: Points
+
+
+def _positions(design: SwingGripper, degrees: Reals) -> _Positions:
+    links = without_cams(design).at(np.radians(degrees), 0).links
+    pins = (("input", "A"), ("input", "C"), ("output", "D"), ("output", "E"), ("output", "F"))
+    return _Positions(*(links[link].at(pin).value for link, pin in pins))
 
 
 def drum_center(design: SwingGripper) -> complex:

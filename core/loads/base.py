@@ -62,10 +62,6 @@ class LoadsBase(Design):
     @cached_property
     def moving(self) -> Motion:
         """The motion of the geometry."""
-        if hasattr(self, "kinematics"):
-            from gearlink.core.mechanism.motion import Motion
-
-            return Motion(lambda phi, order, _side: self.kinematics(phi, order), highest=getattr(self, "highest", 3))
         found: Motion = self.design.moving
         return found
 

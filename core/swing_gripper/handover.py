@@ -48,7 +48,7 @@ class Handover:
     @cached_property
     def center(self) -> complex:
         """Axis of a cylinder whose pitch circle the tip meets on the line of centres at the handover [mm]."""
-        from gearlink.core.swing_gripper.positions import drum_center
+        from gearlink.core.swing_gripper.handover_geometry import drum_center
 
         return drum_center(complex(*self.spec.pivots.output), self.tip, self.spec.cylinder.radius)
 

@@ -141,3 +141,22 @@ def misplacement(pivot: complex, tip: complex, center: complex, radius: float) -
     contact = center - radius * line / abs(line)
     turn = cmath.phase(line / (tip - pivot))
     return Misplacement(abs(tip - contact), turn, abs(line) - abs(tip - pivot) - radius)
+
+
+def drum_center(pivot: complex, tip: complex, radius: float) -> complex:
+    """Centre of the drum whose rim the gripper tip touches on the line of centres.
+
+    O_t = E + (l + R) (F - E)/l
+
+    Parameters
+        pivot, tip : complex [mm] - E, and F at the handover
+        radius : float [mm] - R of the drum
+    Example
+        >>> drum_center(0j, 30.0 + 40.0j, 10.0)
+        (36+48j)
+
+    Source
+        swing-gripper paper 2 (handover on the line of centres)
+    """
+    arm = tip - pivot
+    return pivot + arm * (1.0 + radius / abs(arm))

@@ -14,6 +14,7 @@ from gearlink.core.loads.cams.design import CONTACT, CamLoadsDesign
 from gearlink.core.loads.design import loads_outline
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.design import SwingGripper
+from gearlink.core.swing_gripper.mechanism import roller_on
 from gearlink.core.swing_gripper.motion import require
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.loads.cams.contact import RollerOnCam
     from gearlink.core.loads.machine import Machine
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
-    from gearlink.core.mechanism.joints import Connection
     from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.loads_spec import GripperLoads as Section
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
@@ -106,16 +107,10 @@ class GripperLoads(CamLoadsDesign):
             found.append(Torque("return_rocker", torque))
         return found
 
-    @cached_property
+    @property
     def own_joints(self) -> list[float]:
         """Cylinder angles at which the law of the swing changes, its pieces among them [rad]."""
-        law, lengths = self.design.law, self.spec.phases.lengths()
-        starts = law.starts
-        found = list(starts[1:])
-        for k, joints in ((0, law.accelerate.joints), (2, law.decelerate.joints), (4, law.return_.joints)):
-            # The law of the second runs backwards.
-            found += [starts[k] + lengths[k] * (1.0 - x if k == 2 else x) for x in joints]
-        return [math.radians(degrees) for degrees in found]
+        return list(self.moving.input.joints)
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
@@ -135,11 +130,7 @@ class GripperLoads(CamLoadsDesign):
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller from the cam axis; the cam turns as far as the cylinder."""
-        from gearlink.core.loads.cams.contact import RollerOnCam
-
-        cam = self._cam(name)
-        path = cam.path(phi, 2)
-        return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
+        return roller_on(self._cam(name), phi)
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Out of the reactions."""
@@ -171,49 +162,12 @@ class GripperLoads(CamLoadsDesign):
             return "give spring: {torque: N m}"
         return f"raise spring.{'torque' if spring.torque is not None else 'preload'}"
 
-    def kinematics(self, phi: Reals, order: int = 2) -> Mechanism:
-        """The links at cylinder angles, in the machine's frame."""
-        import numpy as np
-
-        from gearlink.core.mechanism.joints import Contact, Pin
-        from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-        from gearlink.core.mechanism.rates import Turn, fixed, steady
-
+    @property
+    def moving(self) -> Motion:
+        """The motion of the links, which needs the cams."""
         if self.spec.cam is None:
             raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")
-        motion, pivots = self.design.linkage.motion(np.degrees(phi), order), self.spec.pivots
-        parts = ("angle", "velocity", "acceleration", "jerk")[: order + 1]
-        names = ("input", "coupler", "output")
-        turns = {name: Turn(*(getattr(motion, f"{name}_{part}") for part in parts)) for name in names}
-        a, e = (fixed(complex(*point), phi, order=order) for point in (pivots.input, pivots.output))
-        rocker = Link(a, turns["input"])
-        c = rocker.at(self.spec.links.input)
-        sense = self.spec.cam.sense
-        axis = fixed(self.design.cam_center, phi, order=order)
-        links = {
-            "input": rocker,
-            "coupler": Link(c, turns["coupler"]),
-            "output": Link(e, turns["output"]),
-            "cam": Link(axis, steady(phi, sense, order=order)),
-        }
-        connections: list[Connection] = [
-            Pin("A", FRAME, "input", a.value),
-            Pin("C", "input", "coupler", c.value),
-            Pin("D", "coupler", "output", links["output"].at(self.spec.links.output).value),
-            Pin("E", FRAME, "output", e.value),
-            Pin("O", FRAME, "cam", axis.value),
-        ]
-        if "return" in self.own_rollers:
-            links["return_rocker"] = Link(a, turns["input"])
-            connections.append(Pin("A_return", FRAME, "return_rocker", a.value))
-        rollers = {name: self.roller_at(name, phi) for name in self.own_rollers}
-        for name, roller in rollers.items():
-            arm = "input" if name == "main" else "return_rocker"
-            connections.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
-        made = Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center)
-        for name, roller in rollers.items():
-            made.once(f"roller {name}", lambda roller=roller: roller)  # type: ignore[misc]
-        return made
+        return self.design.moving
 
     def raw(self, name: str) -> Any:
         """Lists of one roller are what they are; a refused cam says where it could stand."""

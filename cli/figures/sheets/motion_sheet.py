@@ -103,23 +103,25 @@ def courses(design: Any) -> list[Course]:
 
 def of_motion(design: Any) -> list[Course]:
     """The outputs of its motion, over the whole period or range of the input."""
-    return _courses(design, getattr(design, "angular_speed", None))
+    return _courses(design.moving, getattr(design, "angular_speed", None))
 
 
-def _courses(design: Any, speed: float | None) -> list[Course]:
-    motion = design.moving
+def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Course]:
+    """The same of a motion, with so many steps a degree."""
     given = motion.input
     start, end = math.degrees(given.start), math.degrees(given.end)
     joints = np.array(given.joints)
     after = np.degrees(joints)
     before = after - _BEFORE * np.spacing(after)
-    x = np.unique(np.concatenate([np.linspace(start, end, math.ceil(2.0 * (end - start)) + 1), after, before]))
+    x = np.unique(np.concatenate([np.linspace(start, end, math.ceil(steps * (end - start)) + 1), after, before]))
 
     def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
         def rates(x: Reals) -> tuple[Reals, ...]:
             q = np.radians(x)
             for joint, degrees in zip(joints, after, strict=True):
                 q[x == degrees] = joint
+            # At the very end the law is the last one, not that with which a new turn begins.
+            q[q == given.end] -= _BEFORE * np.spacing(given.end)
             return tuple(course.rates(motion, q, 3))
 
         return rates
@@ -205,22 +207,17 @@ def press(design: Any) -> list[Course]:
     if not design.bed_moves:
         from gearlink.core.flatbed_press.mechanism import bare
 
-        bed, cylinder = _courses(bare(design), design.input_speed)
+        bed, cylinder = _courses(bare(design).moving, design.input_speed)
         return [replace(bed, name="Bed, without its cam"), cylinder]
-    return _courses(design, design.input_speed)
+    return _courses(design.moving, design.input_speed)
 
 
 def gripper(design: Any) -> list[Course]:
     """The gripper's arm."""
-    from gearlink.core.swing_gripper.law import PHASES
+    from gearlink.core.swing_gripper.mechanism import without_cams
 
-    def rates(x: Reals) -> tuple[Reals, ...]:
-        return tuple(np.asarray(rate) for rate in design.law.evaluate(np.minimum(x, 360.0 - 1e-9), 3))
-
-    starts = design.law.starts
-    phases = tuple(panels.Phase(*each) for each in zip(PHASES, starts, starts[1:], strict=False))
-    x = np.unique(np.concatenate([np.arange(1441) * 0.25, np.nextafter(starts[1:], 0.0)]))
-    return [Course("Gripper arm", "cylinder angle [deg]", x, rates, "rad", design.shaft_speed, phases)]
+    found = _courses(without_cams(design), design.shaft_speed, 4.0)
+    return [replace(each, over="cylinder angle [deg]") for each in found]
 
 
 def five_bar(design: Any) -> list[Course]:

@@ -5,14 +5,11 @@ Tolerance: velocities from central differences over 1e-4 deg have an error of ab
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import factory
 import numpy as np
 import pytest
-
-from gearlink.core.swing_gripper.positions import positions
 
 STEP = 1e-4
 
@@ -36,7 +33,7 @@ def coaxial(swing_sense: int, cam_sense: int, off: complex = 0j, **keys: Any) ->
 def velocities(made: Any) -> tuple[complex, complex]:
     """Of tip and drum surface by the cylinder angle at the handover [mm/deg], the drum turning with the cam."""
     degrees = made.spec.handover + STEP * np.array([-1.0, 0.0, 1.0])
-    tip = positions(made.linkage, made.spec.arm.length, math.radians(made.spec.arm.direction), degrees).f
+    tip = made.moving.at(np.radians(degrees), 0).links["output"].at("F").value
     drum = made.handover_center
     turn = np.exp(1j * made.spec.cam.sense * np.radians([-STEP, STEP]))
     surface = drum + (tip[1] - drum) * turn

@@ -6,17 +6,27 @@ Tolerances: 1e-9 mm, for lengths of some 500 mm come back from coordinates withi
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from gearlink.core.cams.laws import law
+from gearlink.core.swing_gripper.handover_geometry import drum_center
 from gearlink.core.swing_gripper.law import SixPhaseLaw
 from gearlink.core.swing_gripper.linkage import GripperLinkage
-from gearlink.core.swing_gripper.positions import drum_center, positions
+from gearlink.core.swing_gripper.mechanism import links_of
 
 DEGREES = np.arange(0.0, 360.0, 7.5)
 ARM = 300.0, math.radians(125.0)
+
+
+def positions(linkage: GripperLinkage, length: float, direction: float, degrees: Any) -> Any:
+    """Joints of A-C-D-E and the tip F."""
+    links = links_of(linkage, np.radians(degrees), 0, length * np.exp(1j * direction))
+    pins = {"a": "input", "c": "input", "d": "output", "e": "output", "f": "output"}
+    return SimpleNamespace(**{pin: links[link].at(pin.upper()).value for pin, link in pins.items()})
 
 
 @pytest.fixture
