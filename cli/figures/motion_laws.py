@@ -35,12 +35,12 @@ _SHOWN = (
 _POINTS = 2001
 
 
-def draw(command: str, design: MotionLaws) -> Figure:
+def draw(design: MotionLaws) -> Figure:
     """Four panels below each other for every kind of law."""
     groups = design.groups
     if not design.spec.laws:
         groups["rest_to_speed"] = [law for law in groups["rest_to_speed"] if law.name in _SHOWN]
-    figure = panels.page(f"Motion {command}")
+    figure = panels.page("Motion laws")
     grid = figure.subplots(len(_AXES), len(groups), sharex=True, squeeze=False)
     for column, (name, laws) in enumerate(groups.items()):
         _column([row[column] for row in grid], _HEADINGS[name], laws)

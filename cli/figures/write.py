@@ -29,7 +29,8 @@ _FIXED_METADATA: dict[str, dict[str, Any]] = {
 }
 
 
-_SHARED = ("loads", "tolerance", "register")
+_SHARED = {"laws": "motion_laws", "loads": "loads", "register": "register", "tolerance": "tolerance"}
+"""Modules of the commands that are drawn alike whatever the kind."""
 # One part in a hundred longer than at the usual 6, in two thirds of the time.
 _PACKING: dict[str, Any] = {"png": {"pil_kwargs": {"compress_level": 3}}}
 _FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "none", "pdf.fonttype": 42}
@@ -55,7 +56,7 @@ def panels(command: str, design: Design) -> Figure:
     """The figure of a command on a design, as the kind draws it, not placed yet; all kinds share those of some
     commands."""
     if command in _SHARED:
-        made: Figure = load(f"cli.figures.{command}:draw")(design)
+        made: Figure = load(f"cli.figures.{_SHARED[command]}:draw")(design)
     else:
         made = load(FILES[design.kind].picture)(command, design)
     return made

@@ -120,7 +120,7 @@ def test_plotted_curves_are_the_laws(monkeypatch: pytest.MonkeyPatch) -> None:
     from gearlink.core.cams.law_tables import LawChoice
 
     chosen = (law("cycloidal"), law("half-modified-sine"))
-    figure = draw("laws", MotionLaws(LawChoice(chosen)))
+    figure = draw(MotionLaws(LawChoice(chosen)))
     assert len(figure.axes) == 8
     for column, each in enumerate(chosen):
         for order in range(4):
