@@ -110,30 +110,15 @@ class Design:
     kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself
     warnings = True
     checks_need_search: ClassVar[bool] = False
-    guided: ClassVar[bool] = False  # whether remedies are sought first on ways that lead to the limit: trials are few
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec
 
     @property
-    def trials(self) -> int:
-        """How many changes are tried for a check that fails: as many as take a tenth of a second or so."""
-        return 150
-
-    @property
-    def effort(self) -> int:
-        """What was computed of this design so far, in trials, where that differs much from one to the next."""
-        return 0
-
-    @property
-    def weight(self) -> int:
-        """How many times as long it takes to judge this design as one of a turn."""
-        return 1
-
-    @property
-    def costly(self) -> bool:
-        """Whether to compute this design takes as long as tens of trials of others."""
-        return False
+    def cost(self) -> float:
+        """What judging the design takes, as far as that is known, that of most being 1 (0.7 ms): by what there is to
+        compute, not by a clock. As many changes are tried for a finding as take a tenth of a second or so."""
+        return 1.0
 
     @cached_property
     def moving(self) -> Motion:

@@ -84,10 +84,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
         return hypocycloid(self)
 
-    @property
-    def trials(self) -> int:
-        """A rod that is sought takes some ms."""
-        return 20
+    cost = 7.0  # a rod that is sought
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """A rod of another rule, or what the slider does over the dwell that is wanted; a curve with a cusp less."""

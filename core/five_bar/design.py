@@ -37,7 +37,7 @@ _POSITION_TOLERANCE = math.degrees(1e-9)
 
 
 _FEW_TURNS = 3
-_FIT, _BESIDES = 60, 10
+_FIT, _TOO_LONG = 100.0, 1e6
 """Trials of designs without a target that one fit takes as long as, and how many are tried with one."""
 _TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
 _FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
@@ -153,28 +153,22 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         "gear-collision": (up("links.frame"), *_FEWER, *_TEETH, *modules("gears.module")),
         **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
     }
-    guided = True
 
     @property
-    def trials(self) -> int:
+    def cost(self) -> float:
         """A path of few turns takes a millisecond; links found for points or positions a tenth of a second each time,
         those for a function, for points with times, or within a budget, more than remedies may take."""
         target = self.spec.target
         if target is not None and self._fits:
             takes_long = target.function, target.input_angles, target.budget
-            return _FIT + _BESIDES if all(each is None for each in takes_long) else 0
-        return (400 if self.period_turns <= _FEW_TURNS else 300) if self.is_path else 60
+            return _FIT if all(each is None for each in takes_long) else _TOO_LONG
+        return (0.4 if self.period_turns <= _FEW_TURNS else 0.5) if self.is_path else 2.5
 
     @property
     def _fits(self) -> bool:
         """Whether the links are found for a target."""
         target = self.spec.target
         return target is not None and not (target.function is not None and target.function.links == "given")
-
-    @property
-    def effort(self) -> int:
-        """What finding the links took."""
-        return _FIT if self._fits and not {"fit", "function_bar"}.isdisjoint(self.__dict__) else 0
 
     @property
     def point_along(self) -> float | None:

@@ -91,8 +91,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
     motion_extremes: dict[str, float] = placed("motion.extremes")
     extra_tables = ("chains", "drawing", "candidates")
     requirements = Design.requirements | {"sync.print_length"}
-    trials = 30
-    guided = True
+    cost = 5.0
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
     def completion(self) -> Iterator[Found]:

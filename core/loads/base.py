@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 RPM = 2.0 * math.pi / 60.0
 _SLOWEST = 1e-6
+_TURN_COST = 15.0
 _OF_TORQUE = frozenset(
     (
         "input_torque_mean", "input_torque_max", "input_torque_max_at", "input_torque_min", "input_torque_min_at",
@@ -122,11 +123,10 @@ class LoadsBase(Design):
         return self.turns
 
     @property
-    def effort(self) -> int:
+    def cost(self) -> float:
         """Loads are computed over every turn of the period; with friction they take some twenty times as long."""
-        if "machine" not in self.__dict__:
-            return 0
-        return (self.turns - 1) * (20 if self.machine.friction is not None else 1)
+        rubs = "machine" in self.__dict__ and self.machine.friction is not None
+        return _TURN_COST * (1 + (self.turns - 1) * (20 if rubs else 1))
 
     @property
     def shaft_inertia(self) -> float:

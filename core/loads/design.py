@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.design import Outline, placed
+from gearlink.core.design import Outline
 from gearlink.core.errors import GearlinkError, MissingSection
 from gearlink.core.loads import checks, tables, vibration_checks
 from gearlink.core.loads.balance import BalancedLoads
@@ -92,7 +92,6 @@ class LoadsDesign(BalancedLoads):
     """The loads of a design file that has the section; a subclass per machine says how its links move."""
 
     extra_tables: ClassVar[tuple[str, ...]] = TABLES[1:]
-    weight: int = placed("turns")  # every turn of the period is computed
 
     def raw(self, name: str) -> Any:
         """Quantities of a joint stand under its name."""

@@ -42,7 +42,7 @@ _TEETH = (up("gears.coupler", step=1), up("gears.output", step=1), up("gears.cou
 _FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
 _LINKS = either("links.crank", "links.frame", "links.coupler")
 _OF_TEETH = train_ways(2, *_TEETH)
-_CRANK = 10
+_CRANK = 11.0
 """Trials of a crank that is given, which one that is sought takes as long as."""
 
 
@@ -89,12 +89,10 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
         "backlash": (*_OF_TEETH["backlash"], *either("links.rocker", step=0.01)),
     }
 
-    guided = True
-
     @property
-    def effort(self) -> int:
+    def cost(self) -> float:
         """A crank that is sought for a swing takes ten milliseconds."""
-        return _CRANK if self.spec.target is not None and "crank_length" in self.__dict__ else 0
+        return _CRANK if self.spec.target is not None and "crank_length" in self.__dict__ else 1.5
 
     def completion(self) -> Iterator[Found]:
         """The crank in place of the target."""

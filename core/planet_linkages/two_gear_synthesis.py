@@ -70,17 +70,11 @@ class Synthesis(TwoGearFourBar):
         known = tuple(name for name in found if name in self.quantity_names())
         return table(self, Sought(command, keys, rows, known))
 
-    guided = True
-
     @property
-    def trials(self) -> int:
-        """A frame that is sought for a back-step takes nearly a tenth of a second each time."""
-        return 10
-
-    @property
-    def effort(self) -> int:
-        """A search over the whole range of frames takes as long as some others."""
-        return 2 if self.__dict__.get("always") else 0
+    def cost(self) -> float:
+        """A frame that is sought for a back-step takes some hundredths of a second each time, a search over the whole
+        range of frames three times as long."""
+        return 40.0 if self.__dict__.get("always") else 13.5
 
     @cached_property
     def family(self) -> Family:

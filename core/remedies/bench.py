@@ -16,8 +16,22 @@ from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.standing import FAILS, HOLDS, PASSES, Standing, left_of, own_grade, steps_to_limit, warned
-from gearlink.core.remedies.ways import REFUSAL, Way, can_be_built, counts, greatest_length, refusal_ways
+from gearlink.core.remedies.ways import (
+    FAILS,
+    HOLDS,
+    PASSES,
+    REFUSAL,
+    Standing,
+    Way,
+    can_be_built,
+    counts,
+    greatest_length,
+    left_of,
+    own_grade,
+    refusal_ways,
+    steps_to_limit,
+    warned,
+)
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import changed, number_at
@@ -25,12 +39,14 @@ from gearlink.core.spec_paths import changed, number_at
 if TYPE_CHECKING:
     from gearlink.core.design import Design
 
-_COSTLY = 4
-"""Trials that are costly, of a design that is not."""
+BUDGET = 150.0
+"""What the trials for one finding may cost, that of most designs being 1: a tenth of a second or so."""
 _FINDINGS, _REST = 5, 10
-"""Trials of all findings together are as many as so many findings have; then each has its share of a tenth."""
-_ELSEWHERE, _OF_WAY = 3, 3
-"""Trials of commands that another class serves, for all findings together; values of one way that are worth one."""
+"""All findings together may cost as much as so many; then each has its share of a tenth."""
+_ELSEWHERE = 50.0
+"""What judging commands that another class serves may cost, for all findings together."""
+_MUCH, _OF_WAY = 2.0, 3
+"""A trial that costs so many times as much as the design is dear; values of one way that are worth one."""
 
 
 def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
@@ -65,12 +81,10 @@ class Bench:
         self._patient = patient
         self._commands = commands_of(design, command)
         self._before = Standing(design)
-        self._left = 0
-        self._of_all = _FINDINGS * design.trials
+        self._left = 0.0
         self._elsewhere_left = _ELSEWHERE * (_FINDINGS if patient else 1)
-        self._costly = 0
-        self._seen: set[Remedy] = set()
-        self._weighed: set[Remedy] = set()
+        self._paid: dict[Remedy, float] = {}
+        self._spent: dict[Remedy, float] = {}
         self._trials: dict[Remedy, Standing | None] = {}
         self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
         self._grades: dict[tuple[Remedy, str, int], int] = {}
@@ -123,17 +137,28 @@ class Bench:
     def _whole(self, remedies: Iterable[Remedy], good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
         """Those that are good and with which nothing fails, before those that repair one of several findings."""
         for remedy in remedies:
-            if self._left <= 0 and self._design.effort and remedy not in self._seen:
+            if not self._is_paid(remedy, -BUDGET):
                 return
             if not self.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
                 yield remedy
 
     def _begin(self) -> None:
-        """Trials for one finding, those counted that are known from another: what it gets does not depend on others."""
-        most = self._design.trials if self._of_all > 0 else self._design.trials // _REST
-        self._left = most - self._design.effort
-        self._seen.clear()
-        self._weighed.clear()
+        """What trials for one finding may cost, those counted that are known from another: what it gets does not
+        depend on others, until all have cost too much."""
+        whole = sum(self._spent.values()) < _FINDINGS * BUDGET
+        self._left = (BUDGET if whole else BUDGET / _REST) - self._before.cost
+        self._paid = {}
+
+    def _pay(self, remedy: Remedy) -> None:
+        """Take from what is left for the finding what a trial costs by now, once."""
+        trial = self._trials[remedy]
+        cost = 0.0 if trial is None else trial.cost
+        self._left -= cost - self._paid.get(remedy, 0.0)
+        self._paid[remedy] = self._spent[remedy] = cost
+
+    def _is_paid(self, remedy: Remedy, down_to: float = 0.0) -> bool:
+        """Whether a trial is paid already for this finding, or can be; closed forms are few, and may overdraw."""
+        return self._left > down_to or remedy in self._paid
 
     def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
         """The checks that warn after a remedy: its own, and those that passed before."""
@@ -176,8 +201,8 @@ class Bench:
         """The remedies of a finding that are good, the best first."""
         for less in (False, True):
             for remedy in self._closed(name):
-                if self._left <= 0 and self._design.effort and remedy not in self._seen:
-                    break  # the few of a closed form count where each takes as long as many
+                if not self._is_paid(remedy, -BUDGET):
+                    break
                 if self.asks_less(key for key, _ in remedy) is less and good(remedy):
                     yield remedy
             ways = (way for way in self._design.ways_of(name) if self.asks_less(way.keys) is less)
@@ -197,12 +222,12 @@ class Bench:
         for way in ways:
             old = self._numbers(way)
             step = way.remedy(old, 1) if old else ()
-            known = (step in self._seen or self._left > 0) and not good(step)
+            known = self._is_paid(step) and not good(step)
             trial = self._trials.get(step)
             steps = steps_to_limit(self._before, trial, name, index) if known and trial is not None else 1.0
             if not old or steps == math.inf:
                 continue
-            if steps is None or not self._design.guided:
+            if steps is None or self._before.cost <= 1.0:
                 yield way, 1
             elif 0.0 <= steps <= way.most(old):
                 yield way, max(1, int(0.5 * steps))
@@ -238,7 +263,7 @@ class Bench:
         nearest: Remedy = ()
         for count in counts(way.most(old), first):
             remedy = way.remedy(old, count)
-            if self._left <= 0 and remedy not in self._seen:
+            if not self._is_paid(remedy):
                 return
             if not good(remedy):
                 bad = bad if nearest else count
@@ -249,8 +274,8 @@ class Bench:
                 yield remedy
 
     def _back(self, way: Way, old: list[float], bad: int, found: int, good: Callable[[Remedy], bool]) -> Remedy:
-        """The nearest that is good, by halving between one that is not and one that is, for half as many trials."""
-        while found - bad > 1 and 2 * self._left > -self._design.trials:
+        """The nearest that is good, by halving between one that is not and one that is; it may overdraw by a half."""
+        while found - bad > 1 and 2.0 * self._left > -BUDGET:
             middle = (bad + found) // 2
             bad, found = (bad, middle) if good(way.remedy(old, middle)) else (middle, found)
         return way.remedy(old, found)
@@ -265,26 +290,20 @@ class Bench:
                 spec = changed(given, remedy)
             if spec is not None:
                 with suppress(NoSolution):
-                    trial = self._affordable(self._design.varied(spec))
-            if trial is not None:
-                self._of_all -= 1
-                trial.advises = False
-            self._trials[remedy] = None if trial is None else Standing(trial)
-        if remedy not in self._seen:
-            self._seen.add(remedy)
-            self._left -= self._trials[remedy] is not None
+                    trial = self._affordable(Standing(self._design.varied(spec)))
+            self._trials[remedy] = trial
+        self._pay(remedy)
         return self._trials[remedy]
 
     @cached_property
     def _greatest(self) -> float:
         return greatest_length(self._design.given)
 
-    def _affordable(self, trial: Design) -> Design | None:
-        """The trial; None where it costs much more than the design, and as much was spent already."""
-        if trial.costly and not self._design.costly:
-            self._costly += 1
-            return trial if self._costly <= _COSTLY else None
-        return trial
+    def _affordable(self, trial: Standing) -> Standing | None:
+        """The trial; None where it is dear, and would take more than half of what is left."""
+        assert trial.design is not None
+        trial.design.advises = False
+        return None if trial.cost > max(_MUCH * self._before.cost, 0.5 * self._left) else trial
 
     def _stands(self, remedy: Remedy) -> bool:
         trial = self._trial(remedy)
@@ -300,12 +319,8 @@ class Bench:
         if trial is None:
             return 0
         if key not in self._grades:
-            before = trial.effort
             self._grades[key] = self._graded(trial, name, index)
-            self._of_all -= trial.effort - before
-        if remedy not in self._weighed:
-            self._weighed.add(remedy)
-            self._left -= trial.effort
+        self._pay(remedy)
         return self._grades[key]
 
     def _graded(self, trial: Standing, name: str, index: int) -> int:
@@ -327,10 +342,8 @@ class Bench:
     def _is_affordable_elsewhere(self, remedy: Remedy) -> bool:
         """Whether the commands of the file that another class serves may be judged once more."""
         new = [command for command in self._elsewhere if (remedy, command) not in self._others]
-        with suppress(NoSolution):  # it costs nothing then
-            designs = [self._other(remedy, command).design for command in new]
-            self._elsewhere_left -= max((design.weight for design in designs if design is not None), default=0)
-        return self._elsewhere_left >= 0
+        self._elsewhere_left -= max((self._other(remedy, command).cost for command in new), default=0.0)
+        return self._elsewhere_left >= 0.0
 
     def _grade_elsewhere(self, remedy: Remedy) -> int:
         """What a remedy leaves of them: none becomes worse, none is refused that was not."""

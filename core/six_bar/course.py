@@ -70,7 +70,7 @@ class Course:
         return self._followed[1]
 
     @property
-    def effort(self) -> int:
+    def followed(self) -> int:
         """How many places were followed so far."""
         return len(self._walk.places) if "_walk" in self.__dict__ else 0
 

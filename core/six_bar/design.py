@@ -94,16 +94,14 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS, *_CARRIERS),
         **_gear_ways(),
     }
-    guided = True
-    trials = 300
 
     @property
-    def effort(self) -> int:
+    def cost(self) -> float:
         """A motion of many turns, or near its dead centres, is followed over many places, and then searched."""
         if "course" not in self.__dict__:
-            return 0
+            return 0.5
         searched = ("layouts" in self.__dict__) + 2 * ("acceleration_turnings" in self.__dict__)
-        return (1 + searched) * self.course.effort // 25
+        return 0.5 * (1 + (1 + searched) * self.course.followed // 25)
 
     # Gears and links
 

@@ -56,8 +56,7 @@ class SwingGripper(WithExtremes, OnDiscCams):
 
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
-    trials = 20
-    guided = True
+    cost = 7.0
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
     # Parts

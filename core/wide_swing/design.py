@@ -297,13 +297,12 @@ class WideSwingDesign(Design):
     check_profile_planes, check_body_clearance = cycle_checks.profile_planes, bodies.body_clearance
 
     ways = remedies.WAYS
-    guided = True
     requirements = Design.requirements | {"swing", "operating_speed_min"}
 
     @property
-    def trials(self) -> int:
+    def cost(self) -> float:
         """A slider's cam takes a tenth of a second to judge, a contour of a whole turn half of it, others less."""
-        return 5 if self.spec.slider is not None else 20 if self.spec.cycle is not None else 40
+        return 25.0 if self.spec.slider is not None else 7.0 if self.spec.cycle is not None else 3.5
 
     candidates, varied = remedies.candidates, remedies.varied
 

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.always_stepping import AlwaysStepping
 
 _ROUNDING = 1e-9
-_EFFORT = 7  # of a search over the whole range of frames, in trials
 _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
 
 _DWELL = (
@@ -106,23 +105,18 @@ class DwellSynthesis(DwellTask):
         return ratios is not None and ratios[0] * self.spec.gears.output > LEAST_IDLER
 
     @property
-    def trials(self) -> int:
-        """A dwell within a tolerance is sought anew for each of them: some milliseconds with an idler that is given,
-        some hundredths of a second without."""
+    def cost(self) -> float:
+        """A dwell within a tolerance is sought anew for each design: milliseconds with an idler that is given, some
+        hundredths of a second without, tenths for unequal gears, of which each idler is a search of its own. Where no
+        idler serves, all were tried; a search over the whole range of frames takes as long as several.
+        """
         if self._request.angle is not None and not self.general:
-            return 150
-        return 8 if self.spec.gears.idler is None else 40
-
-    @property
-    def effort(self) -> int:
-        """Where no idler serves, all of them were tried, which takes as long as two other trials; a search over the
-        whole range of frames takes as long as several."""
-        return (0 if self._no_idler is None else 1) + (_EFFORT if self._searched else 0)
-
-    @property
-    def costly(self) -> bool:
-        """Unequal gears, of which each idler that is tried is a search of its own: some tenths of a second."""
-        return self.general and self.spec.gears.idler is None
+            plain = 1.0
+        elif self.spec.gears.idler is not None:
+            plain = 3.5
+        else:
+            plain = 50.0 if self.general else 16.5
+        return plain * (1 + (self._no_idler is not None) + 7 * self._searched)
 
     # What is reached
 

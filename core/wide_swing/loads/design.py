@@ -88,12 +88,10 @@ class WideSwingLoads(LoadsDesign):
         """Whether the file gives the whole turn."""
         return self.spec.cycle is not None or self.spec.drive is not None
 
-    weight: int = placed("halves")
-
     @property
-    def halves(self) -> int:
-        """Strokes with their rests: each takes as long to judge as a whole turn of other machines."""
-        return 2 if self.spec.cycle is not None else 1
+    def cost(self) -> float:
+        """Each stroke with its rests takes as long to judge as a whole turn of other machines."""
+        return (2 if self.spec.cycle is not None else 1) * super().cost
 
     @cached_property
     def strokes(self) -> tuple[SwingStroke, ...]:

@@ -15,8 +15,7 @@ from oracles.random_designs import draw
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import timed_fit
 from gearlink.core.flatbed_press import zone
-from gearlink.core.remedies.standing import Standing, steps_to_limit
-from gearlink.core.remedies.ways import modules
+from gearlink.core.remedies.ways import Standing, modules, steps_to_limit
 from gearlink.core.report import Check, Remedy
 
 

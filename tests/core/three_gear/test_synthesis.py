@@ -508,12 +508,12 @@ def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
     monkeypatch.setattr(synthesis, "smallest_idler", refused)
     machine = factory.design("standing_feed", command="synth dwell")
     machine.advises = False
-    assert machine.effort == 0
+    cost = machine.cost
     for _ in range(3):
         with pytest.raises(NoSolution, match=r"^no idler serves$"):
             _ = machine.idler_teeth
     assert len(tried) == 1
-    assert machine.effort == 1
+    assert machine.cost == 2.0 * cost
 
 
 def test_few_trials_seek_the_idler_of_unequal_gears():
@@ -521,13 +521,12 @@ def test_few_trials_seek_the_idler_of_unequal_gears():
     from gearlink.core.remedies.bench import Bench
 
     equal = factory.design("standing_feed", command="synth dwell")
-    assert not equal.costly
-    assert not factory.design("standing_feed", command="synth dwell", gears__output=41, gears__idler=45).costly
+    given = factory.design("standing_feed", command="synth dwell", gears__output=41, gears__idler=45)
     bench = Bench(equal, "synth dwell")
+    bench._begin()
     tried = [bench._trial((("gears.output", teeth),)) for teeth in range(41, 49)]
-    assert [trial is not None for trial in tried] == [True] * 4 + [False] * 4
-    unequal = [trial.design for trial in tried if trial is not None]
-    assert all(trial.costly for trial in unequal)
+    assert [trial is not None for trial in tried] == [True] + [False] * 7
+    assert given.cost < equal.cost < tried[0].cost
     assert bench._trial((("gears.crank", 41), ("gears.output", 41))) is not None
-    own = Bench(unequal[0], "synth dwell")
+    own = Bench(tried[0].design, "synth dwell")
     assert all(own._trial((("gears.output", teeth),)) is not None for teeth in range(42, 50))
