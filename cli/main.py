@@ -48,7 +48,6 @@ def _prepare_process() -> None:
     matrices here are too small for threads, and those of OpenBLAS wait for ever where the memory of the process is
     limited. A size of the terminal that is no size counts as none.
     """
-    process.runs_the_command_alone = True
     process.collect_rarely()
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

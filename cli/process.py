@@ -1,7 +1,4 @@
-"""Whose the process is, and how Ctrl-C ends it.
-
-What saves time at the cost of others in the process is done only where there are none.
-"""
+"""How a process of the command ends, and how often it collects garbage."""
 
 import gc
 import os
@@ -10,9 +7,6 @@ import sys
 TYPE_CHECKING = False  # as typing has it
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-runs_the_command_alone = False
-"""Set by the command's entry point; False where Python code or a notebook has imported gearlink."""
 
 output_is_read = True
 """False once the reader of a pipe on standard output has gone: what is written there from then on is lost."""

@@ -16,6 +16,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
+from gearlink.cli.quiet import without_notes
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
@@ -63,10 +64,10 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
 
     Where one is refused they are made again one after another, so that the first to refuse in the file's order says so.
     """
-    from gearlink.cli.figures.loading import load_what_is_drawn
     from gearlink.cli.page.side_by_side import side_by_side
 
-    load_what_is_drawn("svg")  # once, not in every process
+    with without_notes("matplotlib"):
+        import matplotlib.backends.backend_svg  # noqa: F401 - once, not in every process
     commands = (*spec.commands(), *_budgets(kind, spec))
     designs = FileDesigns(kind, spec)
 

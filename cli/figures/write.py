@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.figures.drawing.placing import Places, settled
-from gearlink.cli.figures.loading import load_what_is_drawn
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
 from gearlink.cli.quiet import without_notes
@@ -83,7 +82,6 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 
     The same figure gives the same bytes; `dpi` counts for png alone.
     """
-    load_what_is_drawn(ending)
     with fonts_of(name):
         made = make()
         resolution = dpi if ending == "png" else DPI  # else that of its first canvas, whatever the figure's own

@@ -365,7 +365,6 @@ def test_a_size_of_the_terminal_that_is_none_counts_as_none(monkeypatch: pytest.
     monkeypatch.setenv("COLUMNS", size)
     monkeypatch.setenv("LINES", "24")
     monkeypatch.setattr(main.process, "collect_rarely", lambda: None)
-    monkeypatch.setattr(main.process, "runs_the_command_alone", main.process.runs_the_command_alone)
     for name in ("PYDANTIC_DISABLE_PLUGINS", "OPENBLAS_NUM_THREADS"):
         monkeypatch.setenv(name, "1")
     main._prepare_process()

@@ -20,31 +20,18 @@ ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
 import io, json, shlex, sys
 from contextlib import redirect_stdout, redirect_stderr
-from gearlink.cli import process
 from gearlink.cli.main import run
-process.runs_the_command_alone = True
 found = []
 for line in sys.argv[1:]:
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         status = run(shlex.split(line))
     found.append([int(status), sorted(sys.modules)])
-if "matplotlib.figure" in sys.modules:
-    from matplotlib.artist import kwdoc
-    from matplotlib.lines import Line2D
-    assert "antialiased" not in Line2D.set.__doc__, "its help was made, which takes a fifth of the import"
-    assert "antialiased" in kwdoc(Line2D), "matplotlib is not left as it is"
-    assert not any(name.startswith("mpl_toolkits.mplot3d") for name in sys.modules), "solid axes were loaded"
-    from mpl_toolkits.mplot3d import Axes3D
 print(json.dumps(found))
 """
 
 
 def modules_after(*lines: str) -> list[set[str]]:
-    """Modules loaded after each of several command lines in a process of their own.
-
-    A process that loaded matplotlib for its pictures did so without the help of its artists and without solid axes,
-    and left it as it is.
-    """
+    """Modules loaded after each of several command lines in a process of their own."""
     done = subprocess.run([sys.executable, "-c", _PROBE, *lines], capture_output=True, text=True, cwd=ROOT, check=True)
     found = json.loads(done.stdout)
     assert [status for status, _ in found if status not in (0, 1)] == [], lines

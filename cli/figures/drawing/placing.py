@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
@@ -12,8 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Box: TypeAlias = tuple[float, float, float, float]
-Room: TypeAlias = list[Any]
-"""What a panel's words need beside it [pixel], as an array, or None; empty until it is measured."""
 
 
 class Places(NamedTuple):
@@ -35,11 +34,9 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
 
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     labels = _labels(made)
-    layout: Any = None
     if known is not None and known.likeness == _likeness(made):
         boxes, distances = known.boxes, known.distances
     else:
-        layout = made.get_layout_engine()
         distances = _laid_out(made, labels)
         boxes = _boxes(made)
     made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
@@ -47,18 +44,10 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     for label, distance in zip(labels, distances, strict=True):
         label.keep(distance)
     for axes, (x, y), box in zip(made.axes, limits, boxes, strict=True):
-        if layout is not None and _titles_stand(axes):
-            axes._autotitlepos = False  # type: ignore[attr-defined]
         axes.set_position(box)
         axes.set_xlim(x, auto=None)
         axes.set_ylim(y, auto=None)
     return made
-
-
-def _titles_stand(axes: Axes) -> bool:
-    """Whether nothing above a panel has raised its titles in the layout: then the drawing need not measure all numbers
-    of the panel anew to find that."""
-    return all(title.get_position()[1] == 1.0 for title in (axes.title, axes._left_title, axes._right_title))  # type: ignore[attr-defined]
 
 
 def places(made: Figure) -> Places:
@@ -82,59 +71,37 @@ def _laid_out(made: Figure, labels: Sequence[_Label]) -> tuple[float, ...]:
     layout: Any = made.get_layout_engine()
     if layout is None:
         return tuple(label.distance for label in labels)
+    from gearlink.cli.figures.drawing.sheet import Panel
+
+    panels = {axes: [label for label in labels if label.of(axes)] for axes in made.axes if isinstance(axes, Panel)}
     far: dict[_Label, float] = {}
-    rooms = [_measured_once(axes, [label for label in labels if label.of(axes)], far) for axes in made.axes]
+    for axes, own in panels.items():
+        axes.on_measuring = partial(_note, far, own)
+        for each in (axes, *axes.child_axes):
+            for axis in (each.xaxis, each.yaxis):
+                if not axis.get_label_text():
+                    axis.set_label_coords(0.0, 0.0)  # else the numbers beside it are measured for its place
     layout.execute(made)
     distances = _in_line(labels, far)
-    if _moved_outwards(made, zip(labels, distances, strict=True), far, rooms):
+    out = {label: distance - far.get(label, distance) for label, distance in zip(labels, distances, strict=True)}
+    moved = [
+        axes.widen(made.dpi * max(out[label] for label in left))
+        for axes, own in panels.items()
+        if (left := [label for label in own if label.side == "left" and out[label] > 0.0])
+    ]
+    if any(moved):
         layout.execute(made)
-    for axes in made.axes:
-        del axes.get_tightbbox  # the method of the class again
+    for axes in panels:
+        axes.on_measuring = None
     return distances
 
 
-def _moved_outwards(
-    made: Figure, labels: Iterable[tuple[_Label, float]], far: Mapping[_Label, float], rooms: Sequence[Room]
-) -> bool:
-    """Whether words that are brought in line with others need more room to the left of their panel; that is added."""
-    found = False
-    for label, distance in labels:
-        out = distance - far.get(label, distance)
-        for axes, room in zip(made.axes, rooms, strict=True):
-            if label.side == "left" and out > 0.0 and room and label.of(axes):
-                room[0][0] -= out * made.dpi
-                found = True
-    return found
+def _note(far: dict[_Label, float], labels: Sequence[_Label]) -> None:
+    """Keep how far from its panel each label stands where the layout has put it."""
+    far.update({label: label.distance for label in labels})
 
 
-def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float]) -> Room:
-    """Let the room that a panel's words need beside it be measured once; it is there from the first layout on.
-
-    The layout measures all words twice, for numbers along an axis may change with its length; those of these sheets
-    hardly do, and measuring takes a third of the time of a sheet.
-    """
-    from matplotlib.transforms import Bbox
-
-    measure = axes.get_tightbbox
-    known: Room = []
-    for each in (axes, *axes.child_axes):
-        for axis in (each.xaxis, each.yaxis):
-            if not axis.get_label_text():
-                axis.set_label_coords(0.0, 0.0)  # else the numbers beside it are measured for its place
-
-    def measured(*given: Any, **named: Any) -> Any:
-        box: Any = axes.get_position(original=True).transformed(axes.figure.transSubfigure)
-        if not known:
-            tight = measure(*given, **named)
-            known.append(None if tight is None else tight.extents - box.extents)
-            far.update({label: label.distance for label in labels})
-        return None if known[0] is None else Bbox.from_extents(*(box.extents + known[0]))
-
-    axes.get_tightbbox = measured  # type: ignore[method-assign]
-    return known
-
-
-def _in_line(labels: Sequence[_Label], far: dict[_Label, float]) -> tuple[float, ...]:
+def _in_line(labels: Sequence[_Label], far: Mapping[_Label, float]) -> tuple[float, ...]:
     """The distances of words, those to the left of panels one above another in a line."""
     columns: dict[float, float] = defaultdict(float)
     for label in labels:

@@ -39,9 +39,10 @@ CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
 def figure(width: float, height: float, title: str) -> Figure:
     """An empty figure in inches with a title; needs no display and no pyplot."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    made = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    from gearlink.cli.figures.drawing.sheet import Sheet
+
+    made = Sheet(figsize=(width, height), dpi=DPI, layout="constrained")
     FigureCanvasAgg(made)  # the layout's measures of words serve the drawing as well
     made.suptitle(title, fontsize=_TITLE, fontweight="bold")
     return made

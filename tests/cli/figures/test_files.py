@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
-from gearlink.cli import process
 from gearlink.cli.figures import design_charts, write
-from gearlink.cli.figures.loading import load_what_is_drawn
 from gearlink.cli.files import CannotWrite
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
@@ -89,34 +85,6 @@ def test_every_panel_is_drawn_once(
     plot = ("--plot", "--plot-format", ending, "--out", tmp_path)
     assert gearlink("crank", designs / "ty460_slider_crank.yaml", *plot).status == 0
     assert len(drawn) == 1
-
-
-def test_python_code_loads_matplotlib_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The command's own process, which leaves out its help, stands in test_laziness.py."""
-    monkeypatch.delitem(sys.modules, "matplotlib.figure")
-    assert not process.runs_the_command_alone
-    load_what_is_drawn("png")
-    assert "matplotlib.figure" not in sys.modules
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("alone", [True, False])
-def test_the_command_loads_matplotlib_without_its_help_and_python_code_with_it(designs: Path, alone: bool) -> None:
-    """In a notebook `help` of matplotlib is whole, whatever is called; a command leaves `kwdoc` as it was."""
-    code = f"""
-import io
-import gearlink
-from gearlink.cli import process
-from gearlink.cli.figures.write import draw, save
-process.runs_the_command_alone = process.runs_the_command_alone or {alone}
-crank = gearlink.load({str(designs / "ty460_slider_crank.yaml")!r})
-save(lambda: draw("crank", crank), "crank", io.BytesIO(), "svg")
-from matplotlib.artist import kwdoc
-from matplotlib.lines import Line2D
-assert ("antialiased" in Line2D.set.__doc__) is not {alone}
-assert "antialiased" in kwdoc(Line2D)
-"""
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 LINES = [
