@@ -1,4 +1,4 @@
-"""Position, velocity and acceleration of a four-bar, by closed form, textbook form, Newton and refinement."""
+"""Position, velocity and acceleration of a four-bar, by closed form, textbook form and Newton."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
 from gearlink.core.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar import refine as fourbar_refine
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
 
@@ -62,10 +61,7 @@ def _methods(size: int) -> list[Method]:
             name = f"Newton with predictor to 1e-{digits}"
             methods.append(Method(name, size, _bound(march, np.sort(phi), tolerance)))
     if size <= 100_000:
-        methods += [
-            Method("Newton sweep", size, lambda: _with_rates(phi, fourbar_newton.solve(LINKAGE, phi))),
-            Method("double-double refinement", size, lambda: refined(phi)),
-        ]
+        methods.append(Method("Newton sweep", size, lambda: _with_rates(phi, fourbar_newton.solve(LINKAGE, phi))))
         methods += _scipy(phi)
     return [Method(m.name, m.size, m.run, error_of(m.run, m.name, phi)) for m in methods]
 
@@ -121,13 +117,6 @@ def march(phi: Array, tolerance: float) -> tuple[Array, Array, Array]:
         rows.append((q, w_q, e_q))
     rocker, velocity, acceleration = np.array(rows).T
     return rocker, velocity, acceleration
-
-
-def refined(phi: Array) -> tuple[Array, Array, Array]:
-    """Closed form, two refinements with a 106-bit residual, rates from the refined angles."""
-    sweep = fourbar_sweep.solve(LINKAGE, phi)
-    coupler, rocker = fourbar_refine.refine(LINKAGE, phi, sweep.coupler_angle, sweep.rocker_angle)
-    return _by_cramer(LINKAGE, phi, coupler, rocker)
 
 
 def _with_rates(phi: Array, found: Any) -> tuple[Array, Array, Array]:

@@ -95,7 +95,7 @@ def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
     import numpy as np
 
     from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-    from gearlink.core.linkages.fourbar.refine import dead_point_distance
+    from gearlink.core.linkages.fourbar.sweep import dead_point_distance
 
     return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
 

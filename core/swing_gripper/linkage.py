@@ -16,8 +16,7 @@ import numpy as np
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.position import solve_inverse as solve_one_inverse
-from gearlink.core.linkages.fourbar.refine import dead_point_distance
-from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, solve_inverse
+from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, dead_point_distance, solve_inverse
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last

@@ -65,13 +65,16 @@ def newton(design: SwingGripper, samples: int | None = None) -> Table:
     """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
     import numpy as np
 
+    from gearlink.core.swing_gripper.loop import closed_form_error
+
     degrees, loop = design.motion.loop_at(samples)
+    _, motion = design.motion.rows(samples)
     columns = {
         "theta": (degrees, "deg"),
         "deviation": (np.degrees(loop.deviation), "deg"),
         "iterations": (loop.iterations, "1"),
         "residual": (loop.residual, "mm"),
-        "error": (np.degrees(loop.error), "deg"),
+        "error": (np.degrees(closed_form_error(design.linkage, motion)), "deg"),
     }
     return Table.of("newton", columns)
 

@@ -12,7 +12,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.fourbar.refine import dead_point_distance
+from gearlink.core.linkages.fourbar.sweep import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear.motion import GearTrain
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.linkages.fourbar.refine import dead_point_distance
+from gearlink.core.linkages.fourbar.sweep import dead_point_distance
 from gearlink.core.numerics.arrays import Points, Reals
 
 

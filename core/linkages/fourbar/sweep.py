@@ -158,6 +158,17 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
     return _sweep(linkage.reading, crank_angle, order, _write_vectors, out)
 
 
+def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
+    """Distance of the transmission angle from a dead point, min(gamma, pi - gamma) [rad].
+
+    Example
+        >>> dead_point_distance(np.radians([30.0, 170.0])).round(6).tolist()
+        [0.523599, 0.174533]
+    """
+    gamma = np.asarray(transmission_angle, dtype=np.float64)
+    return np.minimum(gamma, np.pi - gamma)
+
+
 def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
     """Rows whose derivatives with respect to the driving angle became time derivatives for the driver's motion."""
     motion = (velocity, acceleration, jerk)

@@ -15,7 +15,7 @@ import numpy as np
 from gearlink.core.design_axis import Findings
 from gearlink.core.linkages.checks import EDGE, WINDOW_FIT
 from gearlink.core.linkages.codes import DWELL_EDGE
-from gearlink.core.linkages.fourbar.refine import dead_point_distance
+from gearlink.core.linkages.fourbar.sweep import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP
 from gearlink.core.three_gear.many import symmetric as many

@@ -14,16 +14,18 @@ import cmath
 import math
 from dataclasses import replace
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles.gripper import CASES, TABLE, machine, mirrored, turned
+from oracles.vector_loop import exact_angles
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.swing_gripper.loop import two_ways
+from gearlink.core.swing_gripper.loop import closed_form_error, two_ways
 from gearlink.core.swing_gripper.swing import DEAD_POINT, clear_turn, require_swing
 
 EPS = 2.0**-52
@@ -111,12 +113,27 @@ def test_the_cam_rocker_drives_the_gripper_back() -> None:
 
 
 def test_both_ways_agree_on_the_example() -> None:
-    ways = two_ways(LINKAGE, LINKAGE.motion(DEGREES, 0))
+    motion = LINKAGE.motion(DEGREES, 0)
+    ways = two_ways(LINKAGE, motion)
     assert ways.deviation.max() <= 16 * EPS
-    assert ways.error.max() <= 8 * EPS
+    assert closed_form_error(LINKAGE, motion).max() <= 8 * EPS
     assert ways.iterations.min() >= 1
     assert ways.iterations.max() <= 4
     assert ways.residual.max() <= 16 * EPS * 780.0
+
+
+def test_error_of_the_closed_form_is_its_distance_from_60_digits() -> None:
+    motion, links = LINKAGE.motion(DEGREES[::23], 0), LINKAGE.four_bar.inverse()
+    found = closed_form_error(LINKAGE, motion)
+    assert found.max() > EPS / 2
+    turned = LINKAGE.frame_direction
+    for i, error in enumerate(found):
+        exact = exact_angles(links, float((motion.output_angle - turned + math.pi)[i]))
+        closed = (motion.coupler_angle - turned)[i], (motion.input_angle - turned - math.pi)[i]
+        with mp.workdps(60):
+            turns = [(mp.mpf(float(x)) - y) / (2 * mp.pi) for x, y in zip(closed, exact, strict=True)]
+            off = max(float(abs(x - mp.nint(x)) * 2 * mp.pi) for x in turns)
+        assert error == pytest.approx(off, abs=EPS / 1000)
 
 
 def test_a_direction_of_another_turn_is_the_same_direction() -> None:
@@ -155,7 +172,7 @@ def test_both_ways_agree_near_dead_points(direction: float) -> None:
     at_c = linkage.transmission(linkage.local_output(motion.beta))[1]
     ways = two_ways(linkage, motion)
     assert (ways.deviation * np.sin(at_c)).max() <= 64 * EPS
-    assert (ways.error * np.sin(at_c)).max() <= 8 * EPS * math.pi
+    assert (closed_form_error(linkage, motion) * np.sin(at_c)).max() <= 8 * EPS * math.pi
 
 
 @given(

@@ -1,50 +1,30 @@
-"""The vector loop of a four-bar in unit vectors: its opening, its Newton step and its rates.
+"""The vector loop of a four-bar: its angles in 60 digits, and its rates by the differentiated loop in unit vectors.
 
-    r = a e(phi) + b e(theta_b) - d - c e(theta_c),    e(x) = exp(i x)
-
-The functions of unit vectors serve complex numbers and complex arrays alike.
+r = a e(phi) + b e(theta_b) - d - c e(theta_c),    e(x) = exp(i x)
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+import mpmath as mp
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Reals
 
 
-def unit_vector(angle: Reals) -> NDArray[np.complex128]:
-    """Direction of an angle as a complex number, cosine and sine each to an ulp.
-
-    Example
-        >>> unit_vector(np.array([0.0])).tolist()
-        [(1+0j)]
-    """
-    return np.asarray(np.cos(angle) + 1j * np.sin(angle))
-
-
-def loop_opening(linkage: FourBar, e_a: Any, e_b: Any, e_c: Any) -> Any:
-    """Opening r of the loop [mm], a complex number or array."""
-    return linkage.crank * e_a + linkage.coupler * e_b - linkage.frame - linkage.rocker * e_c
-
-
-def loop_step(linkage: FourBar, e_a: Any, e_b: Any, e_c: Any) -> tuple[Any, Any, Any, Any]:
-    """Newton-Raphson steps, |r| and sin(theta_b - theta_c) from unit vectors, complex numbers or arrays of them.
-
-    d_b = Re(r conj(e_c)) / (b sin(theta_b - theta_c)),   d_c = Re(r conj(e_b)) / (c sin(theta_b - theta_c))
-
-    Source
-        swing-gripper paper (4), there called Newton-Simpson, with the sign of l3 cos theta3 corrected
-    """
-    r = loop_opening(linkage, e_a, e_b, e_c)
-    sine = (e_b * e_c.conjugate()).imag
-    d_b = (r * e_c.conjugate()).real / (linkage.coupler * sine)
-    d_c = (r * e_b.conjugate()).real / (linkage.rocker * sine)
-    return d_b, d_c, abs(r), sine
+def exact_angles(linkage: FourBar, phi: float) -> tuple[mp.mpf, mp.mpf]:
+    """Coupler and rocker angle by the law of cosines, 60 digits."""
+    with mp.workdps(60):
+        a, b, c, d = (mp.mpf(x) for x in (linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
+        pivot = d - a * mp.expj(mp.mpf(phi))
+        n, nu = abs(pivot), mp.arg(pivot)
+        at_b = mp.acos((n * n + b * b - c * c) / (2 * b * n))
+        at_d = mp.acos((n * n + c * c - b * b) / (2 * c * n))
+        return nu + linkage.assembly * at_b, nu + linkage.assembly * (mp.pi - at_d)
 
 
 def loop_rates(
@@ -85,7 +65,7 @@ def loop_rates(
         derivation
     """
     angles = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
-    e_a, e_b, e_c = (unit_vector(x) for x in angles)
+    e_a, e_b, e_c = (np.exp(1j * x) for x in angles)
     if not np.all((e_c * e_b.conjugate()).imag):
         raise NoSolution("coupler and rocker align: their rates are not determined; move the crank off the dead point")
     motion = (np.asarray(x, dtype=np.float64) for x in (velocity, acceleration, jerk))
