@@ -197,7 +197,8 @@ class Contact:
     """A roller on a cam: one force along the normal at the roller's centre.
 
     Where it is negative a second roller carries it, if `back` gives that one's place and normal; the normal counts
-    against its own force, so that the sign tells which roller carries.
+    against its own force, so that the sign tells which roller carries. `curvature` is that of the pitch curve [1/mm],
+    convex positive, where a motion away from the place that is meant asks for it.
     """
 
     name: str
@@ -206,6 +207,7 @@ class Contact:
     at: Points
     normal: Points
     back: tuple[Points, Points] | None = None
+    curvature: Reals | float = 0.0
 
     def sided(self, force: Reals) -> Contact:
         """The contact of the roller that carries at each row."""
@@ -247,6 +249,7 @@ class SharedContact:
 
     Fields
         shares : by cam - (N,) array, 1 where it guides the roller, else 0
+        curvature : (N,) array [1/mm] - of the pitch curve there, convex positive
     """
 
     name: str
@@ -255,6 +258,7 @@ class SharedContact:
     normal: Points
     shares: Mapping[str, Reals]
     first: str = FRAME
+    curvature: Reals | float = 0.0
 
     def columns(self) -> list[Column]:
         """N n_out on the roller, the opposite on the cam that guides it."""
@@ -262,7 +266,40 @@ class SharedContact:
         return [Column(FRAME, self.second, self.normal, self.at, 0.0, cams)]
 
 
-Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | SharedContact
+@dataclass(frozen=True)
+class Flank:
+    """A mesh that touches on one flank: a force along the normal there, given by its tangential part.
+
+    Fields
+        teeth : Mesh, Rack or ToothDrive
+        side : (N,) array - sign of the tangential force
+    """
+
+    teeth: Mesh | Rack | ToothDrive
+    side: Reals
+
+    @property
+    def name(self) -> str:
+        """That of the mesh."""
+        return self.teeth.name
+
+    @property
+    def first(self) -> str:
+        """The first link."""
+        return self.teeth.first
+
+    @property
+    def second(self) -> str:
+        """The second link."""
+        return self.teeth.second
+
+    def columns(self) -> list[Column]:
+        """The tangential force and the separating one with it."""
+        (column,), radial = self.teeth.columns(), self.teeth.radial()
+        return [column._replace(force=np.asarray(column.force + self.side * radial.force))]
+
+
+Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | SharedContact | Flank
 Toothed = (Mesh, Rack, ToothDrive)
 
 
