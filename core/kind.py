@@ -30,10 +30,10 @@ class Kind(NamedTuple):
         samples : str - array form of the designs as made, for `tolerance`; "": each is computed alone
         outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
         register_at : str - where `register` looks where the file does not say
-        picture, scene : str - what draws the pictures of its own commands; what builds its film; "": it has none
+        picture, scene : str - what draws its own commands, what builds its film; "": what any motion has
         profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
         rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
-        sheets : dict - what gives the content of a sheet, by its name
+        sheets : dict - what gives the content of a sheet, by its name; "": it has not the one that any motion has
         worked : str - stem of the worked design to begin with, where it is not called as the kind
     """
 
@@ -55,6 +55,12 @@ class Kind(NamedTuple):
     rexs: tuple[str, ...] | None = None
     sheets: Mapping[str, str] = {}
     worked: str = ""
+
+    @property
+    def all_sheets(self) -> dict[str, str]:
+        """What gives the content of each sheet: that of the motion stands for itself."""
+        of_motion = {"motion": "cli.figures.sheets.motion_sheet:of_motion"} if self.motion else {}
+        return {name: place for name, place in {**of_motion, **self.sheets}.items() if place}
 
     def spec_model(self) -> Any:
         """The pydantic model of the kind's design file."""

@@ -33,7 +33,6 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:three_gears",
             parts=("gear1", "gear3", "gear5"),
             rexs=("gear 1", "gear 3", "gear 5"),
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
             worked="standing_feed",
         ),
         Kind(
@@ -52,6 +51,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.figures.gear_pair:draw",
             scene="cli.scenes.gear_pair:build",
             profiles="cli.export.parts:gear_pair",
+            sheets={"motion": ""},
             parts=("gear1", "gear2", "rack", "blocking_contour"),
             rexs=("gear 1", "gear 2"),
         ),
@@ -72,7 +72,6 @@ KINDS: dict[str, Kind] = {
             outputs={"motion": ("displacement",)},
             picture="cli.figures.slider_crank:draw",
             scene="cli.scenes.slider_crank:build",
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
             worked="ty460_slider_crank",
         ),
         Kind(
@@ -202,7 +201,6 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:two_gears",
             parts=("gear2", "gear5"),
             rexs=("gear 2", "gear 5"),
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
             worked="two_gear_drag_link",
         ),
         Kind(
@@ -223,7 +221,6 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:two_gears",
             parts=("gear2", "gear5"),
             rexs=("gear 2", "gear 5"),
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
             worked="wide_lever",
         ),
         Kind(
@@ -263,7 +260,6 @@ KINDS: dict[str, Kind] = {
             picture="cli.figures.geared_six_bar:draw",
             scene="cli.scenes.geared_six_bar:build",
             profiles="cli.export.parts:six_bar",
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
         ),
         Kind(
             "hypocycloid-dwell",
@@ -283,7 +279,6 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:hypocycloid",
             parts=("planet", "ring"),
             rexs=("planet", "ring"),
-            sheets={"motion": "cli.figures.sheets.motion_sheet:of_motion"},
         ),
     )
 }

@@ -57,7 +57,7 @@ def panels(command: str, design: Design) -> Figure:
     if command in _SHARED:
         made: Figure = load(f"cli.figures.{_SHARED[command]}:draw")(design)
     else:
-        made = load(FILES[design.kind].picture)(command, design)
+        made = load(FILES[design.kind].picture or "cli.figures.of_motion:draw")(command, design)
     return made
 
 

@@ -24,8 +24,8 @@ def moving_kinds() -> tuple[str, ...]:
 
 
 def moves(kind: str) -> bool:
-    """Whether a kind has a scene."""
-    return bool(FILES[kind].scene)
+    """Whether a kind has a scene: its own, or that of its motion."""
+    return bool(FILES[kind].scene or FILES[kind].motion)
 
 
 def build(design: Design, fraction: Reals) -> Scene:
@@ -35,7 +35,7 @@ def build(design: Design, fraction: Reals) -> Scene:
 
 def builder(kind: str) -> Callable[[Design, Reals], Scene]:
     """What builds the scenes of a kind."""
-    found: Callable[[Design, Reals], Scene] = load(FILES[kind].scene)
+    found: Callable[[Design, Reals], Scene] = load(FILES[kind].scene or "cli.scenes.of_motion:build")
     return found
 
 

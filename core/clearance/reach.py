@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.fourbar.position import FourBar
+
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.motion import Motion
+    from gearlink.core.numerics.arrays import Points, Reals
 
 _TURN = 2.0 * math.pi
 
@@ -76,3 +82,44 @@ def coupler_joint(linkage: FourBar) -> Reach:
     """
     near, far = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
     return Reach(near.distance, far.distance, near.crank_angle, far.crank_angle)
+
+
+def reaches(
+    motion: Motion, axes: Mapping[str, tuple[str, complex | str]], pairs: Iterable[str] = (), *, samples: int = 2048
+) -> dict[str, Reach]:
+    """Reaches of axes over all inputs of a motion, searched together.
+
+    Parameters
+        motion : Motion
+        axes : by letter - the link that an axis stands on, "frame" among them, and the point of it [mm]
+        pairs : two letters each; without them every two axes
+        samples : int - places over the inputs that are looked at first
+    Returns
+        reaches : by pair - the places within the period or range of the input
+    Raises
+        NoSolution - where the mechanism does not close
+    """
+    import numpy as np
+
+    from gearlink.core.numerics.extremes import extremes_over
+    from gearlink.core.numerics.together import kept_last
+
+    def places(phi: Reals) -> dict[str, Points]:
+        links = motion.at(phi, 0).links
+        return {
+            name: np.full(phi.shape, at, dtype=np.complex128) if link == "frame" else links[link].at(at).value
+            for name, (link, at) in axes.items()
+        }
+
+    placed, asked = kept_last(places), [*pairs] or ["".join(pair) for pair in combinations(axes, 2)]
+
+    def distance(one: str, other: str) -> Callable[[Reals], Reals]:
+        return lambda phi: np.asarray(np.abs(placed(phi)[one] - placed(phi)[other]))
+
+    given = motion.input
+    wanted = [
+        (each, greatest) for one, other in asked for each in (distance(one, other),) for greatest in (False, True)
+    ]
+    found = iter(extremes_over(wanted, given.start, given.end, joints=given.joints, samples=samples))
+    near_far = {pair: (next(found), next(found)) for pair in asked}
+    return {pair: Reach(near.value, far.value, near.place, far.place) for pair, (near, far) in near_far.items()}

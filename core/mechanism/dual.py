@@ -59,11 +59,11 @@ class Dual:
     Raises
         NoSolution - where two links stand in line
     Example
-        >>> from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
+        >>> from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
         >>> from gearlink.core.linkages.fourbar.position import FourBar, solve
         >>> bar = FourBar(18.0, 50.0, 100.0, 121.4)
         >>> links = four_bar(bar, np.array([1.0]))
-        >>> made = Mechanism(links, four_bar_pins(links, bar), "crank")
+        >>> made = Mechanism(links, four_bar_pins(links), "crank")
         >>> dual = Dual(made, lambda made: made.links["rocker"].turn)
         >>> longer = solve(replace(bar, coupler=50.0 + 1e-6), 1.0).rocker_angle - solve(bar, 1.0).rocker_angle
         >>> bool(abs(dual.gain(Shift("coupler", ("C",)))[0] - longer / 1e-6) < 1e-8)

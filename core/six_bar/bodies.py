@@ -5,22 +5,16 @@ Trains that share a pin lie in planes of their own; all others are taken to lie 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from itertools import chain, combinations
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from gearlink.core.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
-from gearlink.core.clearance.reach import Reach, constant
+from gearlink.core.clearance.reach import Reach, constant, reaches
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.numerics.extremes import extremes_over
-from gearlink.core.numerics.together import kept_last
-from gearlink.core.six_bar.mechanism import pins
-from gearlink.core.six_bar.spec import PINS
+from gearlink.core.six_bar.spec import LINKS, PINS
 
 if TYPE_CHECKING:
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.six_bar.design import GearedSixBar
 
 
@@ -64,29 +58,17 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
 def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
     """Least and greatest distances of the pins with gears, and of A and F, over the course."""
     axes = sorted({gear.axis for gear in gears} | {"A", "F"})
-    found, moving = {}, []
+    found: dict[str, Reach] = {}
+    moving: list[str] = []
     for pair in combinations(axes, 2):
         i, j = (PINS.index(pin) for pin in pair)
         if j - i in (1, 5):  # a link, the frame among them
             found["".join(pair)] = constant(design.bar.lengths[j if j - i == 1 else 0])
         else:
-            moving.append(("".join(pair), i, j))
-    return found | _sought(design, moving)
-
-
-def _sought(design: GearedSixBar, moving: Sequence[tuple[str, int, int]]) -> dict[str, Reach]:
-    """Reaches of pins that are not on one link, searched together."""
-    placed = kept_last(lambda phi: pins(design, phi))
-
-    def distance(i: int, j: int) -> Callable[[Reals], Reals]:
-        return lambda phi: np.asarray(np.abs(placed(phi)[i] - placed(phi)[j]))
-
-    distances = [distance(i, j) for _, i, j in moving]
-    wanted = [(each, greatest) for each in distances for greatest in (False, True)]
-    course = design.course
-    found = iter(extremes_over(wanted, course.start, course.end, samples=course.samples))
-    reaches = {}
-    for name, _, _ in moving:
-        near, far = next(found), next(found)
-        reaches[name] = Reach(near.value, far.value, near.place, far.place)
-    return reaches
+            moving.append("".join(pair))
+    if not moving:
+        return found
+    held = dict(zip("ABCDEF", (*LINKS[1:5], "output", "output"), strict=True))
+    return found | reaches(
+        design.moving, {pin: (held[pin], pin) for pin in axes}, moving, samples=design.course.samples
+    )

@@ -96,7 +96,7 @@ def courses(design: Any) -> list[Course]:
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    place = KINDS[design.kind].sheets.get("motion")
+    place = KINDS[design.kind].all_sheets.get("motion")
     found: list[Course] = load(place)(design) if place else []
     return found
 

@@ -15,7 +15,7 @@ Makers = dict[str, Callable[[], "Figure"]]
 
 def kinds() -> tuple[str, ...]:
     """The kinds whose designs have sheets."""
-    return tuple(kind.name for kind in KINDS.values() if kind.sheets)
+    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets)
 
 
 def sheets_of(design: Any) -> Makers:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
+from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.mechanism.chain import Chain
 from gearlink.core.mechanism.dual import Dual, Shift, gradient
@@ -31,7 +31,7 @@ SIZES = {
 
 def _made(bar: FourBar, angles: Reals) -> Mechanism:
     links = four_bar(bar, angles, 1)
-    return Mechanism(links, four_bar_pins(links, bar), "crank")
+    return Mechanism(links, four_bar_pins(links), "crank")
 
 
 def _turn(mechanism: Mechanism) -> list[Reals]:

@@ -1,0 +1,109 @@
+"""A new kind is a folder and a record: everything generic comes with them, without another line elsewhere."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gearlink.core
+from gearlink.core.kind import Kind
+from gearlink.core.kinds import FILES, KINDS
+
+TOYS = Path(__file__).parents[1] / "toy_kinds"
+RECORD = Kind(
+    "push-rod",
+    "crank that pushes a slider",
+    "push_rod",
+    "spec:PushRodSpec",
+    {"analyze": "design:PushRod", "loads": "design:PushRodLoadsDesign", "tolerance": ""},
+    motion="mechanism:motion",
+    codes="",
+    outputs={"motion": ("displacement",)},
+)
+TEXT = """kind: push-rod
+name: push-rod
+crank: 40
+rod: 150
+input_speed: 120
+loads:
+  speed: 120
+  links:
+    crank: {mass: 1, inertia: 0.001}
+    slider: {mass: 3}
+  forces:
+    - {on: slider, force: -20}
+tolerance:
+  seed: 1
+  samples: 256
+  sources:
+    crank: {plus_minus: 0.05}
+    rod: {plus_minus: 0.1}
+"""
+STUDY = """kind: study
+name: rods
+of: push-rod.yaml
+command: analyze
+variables:
+  rod: {from: 120, to: 200, step: 20}
+minimize: {stroke: 0.001 mm}
+"""
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
+    """The program, which knows the kind, in a folder with a design of it."""
+    from gearlink.cli.app import app
+
+    monkeypatch.setattr(gearlink.core, "__path__", [*gearlink.core.__path__, str(TOYS)])
+    for known in (KINDS, FILES):
+        monkeypatch.setitem(known, RECORD.name, RECORD)
+    (tmp_path / "push-rod.yaml").write_text(TEXT)
+    (tmp_path / "rods.yaml").write_text(STUDY)
+    monkeypatch.chdir(tmp_path)
+
+    def call(*words: str) -> Any:
+        done = CliRunner().invoke(app, words)
+        assert done.exit_code == 0, (words, done.output, done.exception)
+        return done.stdout
+
+    return call
+
+
+def _quantities(text: str) -> dict[str, Any]:
+    return {name: each["value"] for name, each in json.loads(text)["quantities"].items()}
+
+
+def test_quantities_and_tables(run: Any) -> None:
+    found = json.loads(run("analyze", "push-rod.yaml", "--format", "json", "--samples", "8"))
+    assert _quantities(json.dumps(found))["stroke"] == pytest.approx(80.0, abs=1e-9)
+    table = found["tables"]["motion"]
+    assert [*table["columns"]] == ["crank_angle", "displacement", "velocity", "time", "slider_velocity"]
+    angle = np.radians(np.array([row[0] for row in table["rows"]]))
+    wanted = 40.0 * np.cos(angle) + np.sqrt(150.0**2 - (40.0 * np.sin(angle)) ** 2)
+    assert np.array([row[1] for row in table["rows"]]) == pytest.approx(wanted, rel=1e-14)
+
+
+def test_loads(run: Any) -> None:
+    found = _quantities(run("loads", "push-rod.yaml", "--format", "json"))
+    assert found["power_identity"] < 1e-12
+    assert found["pin_A.peak"] > 0.0
+
+
+def test_sheet_film_report_and_picture(run: Any, tmp_path: Path) -> None:
+    run("sheet", "push-rod.yaml", "motion", "--out", "sheets")
+    run("animate", "push-rod.yaml", "--out", "film")
+    run("report", "push-rod.yaml", "--out", "page")
+    run("analyze", "push-rod.yaml", "--plot", "--out", "plots")
+    made = {path.suffix for folder in ("sheets", "film", "page", "plots") for path in (tmp_path / folder).iterdir()}
+    assert {".png", ".html"} <= made
+
+
+def test_tolerance_and_explore(run: Any) -> None:
+    band = json.loads(run("tolerance", "push-rod.yaml", "--format", "json", "--table", "band"))
+    assert band["tables"]["band"]["rows"]
+    assert json.loads(run("explore", "rods.yaml", "--format", "json", "--jobs", "1"))["tables"]["front"]["rows"]
