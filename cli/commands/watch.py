@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import partial
 from html import escape
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,12 +27,204 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.kind import FileDesigns
 
 if TYPE_CHECKING:
-    from gearlink.cli.page.server import Board
     from gearlink.cli.page.sheets import Remembered
     from gearlink.core.design import Design
     from gearlink.core.report import Check, Report
 
     Stamp = tuple[int, int, int] | None
+
+
+# A page on the loopback address whose pieces are replaced while it is open (server-sent events)
+
+LOOPBACK = "127.0.0.1"
+_NAMES = (LOOPBACK, "localhost", "[::1]")
+_HTTP = 80
+"""The port that an address does not name."""
+_HEARTBEAT = 10.0
+"""After so many seconds without news a comment tells whether the reader is still there."""
+_PATIENCE = 20.0
+"""A reader who neither asks nor takes what is sent for so many seconds is let go [s]."""
+_MOST_READERS = 64
+"""Each has a thread; a browser opens six at most."""
+_FULL = b"HTTP/1.0 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
+
+
+class Board:
+    """What the page shows: its pieces by name with the version they are of, and what is wrong."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._version = 0
+        self._pieces: dict[str, tuple[int, str]] = {}
+        self._order: list[str] = []
+        self._title = self._problem = ""
+        self._stale: list[str] = []
+        self.closed = False
+
+    def begin(self, title: str, order: list[str]) -> None:
+        """A new state of the file: these pieces in this order; those that are there are of the state before."""
+        with self._changed:
+            self._title, self._order, self._problem = title, order, ""
+            self._pieces = {name: piece for name, piece in self._pieces.items() if name in order}
+            self._stale = list(self._pieces)
+            self._announce()
+
+    def put(self, name: str, html: str) -> None:
+        """A piece."""
+        with self._changed:
+            self._stale = [other for other in self._stale if other != name]
+            self._pieces[name] = (self._version + 1, html)
+            self._announce()
+
+    def fail(self, html: str) -> None:
+        """What is wrong with the file; the pieces stay."""
+        with self._changed:
+            self._problem, self._stale = html, list(self._pieces)
+            self._announce()
+
+    def close(self) -> None:
+        """End all who wait."""
+        with self._changed:
+            self.closed = True
+            self._changed.notify_all()
+
+    def _announce(self) -> None:
+        self._version += 1
+        self._changed.notify_all()
+
+    def news(self, since: int, seconds: float) -> tuple[int, dict[str, Any]] | None:
+        """The version now and what has changed since one; None where nothing has within some seconds."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._version > since or self.closed, seconds)
+            if self._version <= since or self.closed:
+                return None
+            fresh = {name: html for name, (version, html) in self._pieces.items() if version > since}
+            said = {"title": self._title, "order": self._order, "stale": self._stale, "problem": self._problem}
+            return self._version, {**said, "pieces": fresh}
+
+
+@contextmanager
+def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
+    """Serve a board in the background; gives the address of the page.
+
+    Parameters
+        shell : the page without its pieces
+        port : int - 0 takes one that is free
+    Raises
+        CannotWrite - where the port is taken
+    """
+    try:
+        server = _Server((LOOPBACK, port), _handler(board, shell))
+    except OSError as error:
+        raise CannotWrite(
+            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}; choose another --port"
+        ) from error
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
+    thread.start()
+    try:
+        yield f"http://{LOOPBACK}:{server.server_address[1]}/"
+    finally:
+        board.close()
+        server.shutdown()
+        server.server_close()
+
+
+class _Server(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def __init__(self, *given: Any) -> None:
+        self._room = threading.BoundedSemaphore(_MOST_READERS)
+        super().__init__(*given)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """A thread for each reader; there are so many and no more."""
+        if not self._room.acquire(blocking=False):
+            with suppress(OSError):
+                request.send(_FULL)
+            self.shutdown_request(request)
+            return
+        try:
+            super().process_request(request, client_address)
+        except BaseException:  # no thread was to be had
+            self._room.release()
+            raise
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """What the thread of a reader does."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._room.release()
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """A reader who goes away in the middle, of a request or of an answer, is no error."""
+        if not isinstance(sys.exception(), ConnectionError | TimeoutError):
+            super().handle_error(request, client_address)
+
+
+def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHandler]:
+    class Handler(BaseHTTPRequestHandler):
+        timeout = _PATIENCE
+
+        def do_GET(self) -> None:
+            """The page, or its events; nothing else, and to nobody who came by another name of this machine."""
+            if not self._local():
+                self.send_error(HTTPStatus.FORBIDDEN)
+            elif self.path == "/":
+                self._answer(shell().encode(), "text/html; charset=utf-8")
+            elif self.path == "/events":
+                self._events()
+            elif self.path == "/favicon.ico":  # every browser asks for one
+                self.send_response(HTTPStatus.NO_CONTENT)
+                self.end_headers()
+            else:
+                self.send_error(HTTPStatus.NOT_FOUND)
+
+        def _local(self) -> bool:
+            """Whether the page is asked for by a name of the loopback address, once, and not by another page.
+
+            A page of elsewhere whose own name was made to mean this machine sends that name.
+            """
+            port = self.server.server_address[1]  # type: ignore[index]
+            own = {f"{name}:{port}" for name in _NAMES} | (set(_NAMES) if port == _HTTP else set())
+            hosts, origins = (self.headers.get_all(name, []) for name in ("Host", "Origin"))
+            return (
+                len(hosts) == 1
+                and hosts[0].strip().lower() in own
+                and all(origin.strip().lower().removeprefix("http://") in own for origin in origins)
+            )
+
+        def _answer(self, data: bytes, kind: str) -> None:
+            self.send_response(HTTPStatus.OK)
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(data)))
+            self.send_header("Cache-Control", "no-store")
+            self.send_header("X-Content-Type-Options", "nosniff")
+            self.send_header("Content-Security-Policy", "frame-ancestors 'none'")  # what the page itself cannot say
+            self.end_headers()
+            self.wfile.write(data)
+
+        def _events(self) -> None:
+            self.send_response(HTTPStatus.OK)
+            self.send_header("Content-Type", "text/event-stream; charset=utf-8")
+            self.send_header("Cache-Control", "no-store")
+            self.end_headers()
+            version = 0
+            while not board.closed:
+                found = board.news(version, _HEARTBEAT)
+                if found is None:
+                    self.wfile.write(b":\n\n")
+                else:
+                    version, said = found
+                    data = json.dumps(said, ensure_ascii=False, separators=(",", ":"))
+                    self.wfile.write(f"id: {version}\ndata: {data}\n\n".encode())
+                self.wfile.flush()
+
+        def log_message(self, *_: Any) -> None:
+            """Requests are no news."""
+
+    return Handler
+
 
 _EVERY = 0.05
 """Between two looks at the file [s]."""
@@ -45,7 +242,6 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         show : bool - open the page in the browser
     """
     from gearlink.cli.page.sections import watch_script, whole_page
-    from gearlink.cli.page.server import Board, served
     from gearlink.cli.page.sheets import Remembered
 
     if source == "-":

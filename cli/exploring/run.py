@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import glob
+import re
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from time import perf_counter
+from typing import IO, Any
+
+import yaml
 
 from gearlink.cli.evaluate import exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.exploring.store import (
     CannotStore,
     Kept,
     Memory,
+    Result,
     chunks_of,
     is_store,
     of_another_program,
@@ -23,15 +32,19 @@ from gearlink.cli.exploring.store import (
     problem_in,
     ready,
 )
-from gearlink.cli.files import CannotWrite, require_folder
+from gearlink.cli.files import CannotWrite, require_folder, safe_stem, write_atomically
 from gearlink.cli.options import Format
+from gearlink.cli.parallel.calm import calm
+from gearlink.cli.parallel.processors import processors
+from gearlink.cli.parallel.workers import workers
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
+from gearlink.cli.process import WhileMuchIsComputed
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors, show_refusal
-from gearlink.core.explore.chunks import together
+from gearlink.core.explore.chunks import computed, designs_of, together
 from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.preparing import problem
@@ -39,6 +52,266 @@ from gearlink.core.explore.problem import Problem
 from gearlink.core.report import Report
 from gearlink.core.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.wording import amount
+
+# Computing the chunks of a study: here, in processes, or on a cluster; what is finished is kept at once
+
+_IN_FLIGHT = 4
+_WORTH_SECONDS = 1.0
+_LOST_TWICE = 2
+
+Opened = Callable[[], AbstractContextManager[Kept]]
+"""Opens where chunks are kept; opened anew for each set of workers, which must not inherit it."""
+Advance = Callable[[int], None]
+
+
+@dataclass(frozen=True)
+class Means:
+    """By what chunks are computed.
+
+    Parameters
+        jobs : int - processes; 0: chosen by the work to be done
+        executor : makes the executor of a cluster, in place of processes; None: none
+        workers : int - of that executor
+    """
+
+    jobs: int = 0
+    executor: Callable[[], Executor] | None = None
+    workers: int = 8
+
+
+def compute(problem: Problem, todo: Sequence[int], keep: Opened, means: Means, advance: Advance) -> bool:
+    """Compute some chunks and keep them; False where the user interrupted, and then what was begun is kept too.
+
+    Raises
+        BrokenPromise - where a design ends the process that computes it
+    """
+    left = list(todo)
+    with calm() as asked:
+        if means.executor is None and means.jobs != 1:
+            left, seconds = _first(problem, left, keep, advance)
+            jobs = means.jobs or (processors() if seconds * len(left) > _WORTH_SECONDS else 1)
+        else:
+            jobs = 1
+        jobs = min(jobs, max(1, len(left)))
+        if means.executor is None and jobs == 1:
+            _here(problem, left, keep, advance, asked)
+        else:
+            _elsewhere(problem, left, keep, means, jobs, advance, asked)
+    return not asked()
+
+
+def _first(problem: Problem, left: list[int], keep: Opened, advance: Advance) -> tuple[list[int], float]:
+    """Compute the first chunk here; what is left, and how long one takes."""
+    if not left:
+        return left, 0.0
+    start = perf_counter()
+    _here(problem, left[:1], keep, advance, lambda: False)
+    return left[1:], perf_counter() - start
+
+
+def _here(problem: Problem, todo: Sequence[int], keep: Opened, advance: Advance, asked: Callable[[], bool]) -> None:
+    with keep() as kept, WhileMuchIsComputed():
+        for number in todo:
+            if asked():
+                return
+            kept.add([(number, *computed(problem.canonical_text, number))])
+            advance(1)
+
+
+def _elsewhere(
+    problem: Problem,
+    left: list[int],
+    keep: Opened,
+    means: Means,
+    jobs: int,
+    advance: Advance,
+    asked: Callable[[], bool],
+) -> None:
+    """Chunks by an executor. One whose workers die is replaced; a chunk that was lost twice is computed alone."""
+    lost: dict[int, int] = {}
+    count = jobs if means.executor is None else means.workers
+    while left and not asked():
+        suspects = [number for number in left if lost.get(number, 0) >= _LOST_TWICE]
+        for number in suspects:
+            with keep() as kept:
+                kept.add([_alone(problem, number)])
+            advance(1)
+        left = [number for number in left if number not in suspects]
+        with _executor(means, jobs) as pool, keep() as kept:
+            done, begun = _given(problem, left, pool, kept, count * _IN_FLIGHT, advance, asked)
+        left = [number for number in left if number not in done]
+        for number in begun:
+            lost[number] = lost.get(number, 0) + 1
+
+
+@contextmanager
+def _executor(means: Means, jobs: int) -> Iterator[Executor]:
+    """An executor whose processes have started."""
+    with workers(jobs) if means.executor is None else means.executor() as pool:
+        pool.submit(int).result()
+        yield pool
+
+
+def _given(
+    problem: Problem,
+    todo: Sequence[int],
+    pool: Executor,
+    kept: Kept,
+    most: int,
+    advance: Advance,
+    asked: Callable[[], bool],
+) -> tuple[set[int], list[int]]:
+    """Give chunks to an executor, in order, a few at a time: which were finished, and which were lost with it."""
+    waiting: dict[Future[tuple[str, bytes]], int] = {}
+    done: set[int] = set()
+    rest = iter(todo)
+    broken = False
+    while True:
+        try:
+            while len(waiting) < most and not broken and not asked() and (number := next(rest, None)) is not None:
+                waiting[pool.submit(computed, problem.canonical_text, number)] = number
+        except BrokenExecutor:
+            return done, [number for number in (*waiting.values(), number) if number is not None]
+        if not waiting:
+            return done, []
+        finished, _ = wait(waiting, return_when=FIRST_COMPLETED, timeout=0.5)
+        good = [future for future in finished if not _lost(future)]
+        results: list[Result] = [(waiting[future], *future.result()) for future in good]
+        if results:
+            kept.add(results)
+            done |= {number for number, _, _ in results}
+            advance(len(results))
+        broken = broken or len(good) < len(finished)
+        for future in good:
+            del waiting[future]
+        if broken:
+            return done, list(waiting.values())
+
+
+def _lost(future: Future[Any]) -> bool:
+    """Whether a worker died over a chunk; what the chunk itself raised is no loss, and is raised by its result."""
+    error = future.exception()
+    return isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
+
+
+def _alone(problem: Problem, number: int) -> Result:
+    """A chunk in a process of its own.
+
+    Raises
+        BrokenPromise - naming the design that ends it
+    """
+    try:
+        with workers(1) as pool:
+            return (number, *pool.submit(computed, problem.canonical_text, number).result())
+    except BrokenExecutor:
+        index = _culprit(problem, number)
+    raise BrokenPromise(f"design {index} ends the process that computes it: {dict(problem.changes_of(index))}")
+
+
+def _culprit(problem: Problem, number: int) -> int:
+    """The design of a chunk that ends its process, by halves."""
+    first = number * problem.chunk_size
+    last = min(first + problem.chunk_size, problem.order.count)
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (middle, last) if _survives(problem, first, middle) else (first, middle)
+    return first
+
+
+def _survives(problem: Problem, first: int, last: int) -> bool:
+    try:
+        with workers(1) as pool:
+            pool.submit(designs_of, problem.canonical_text, first, last).result()
+    except BrokenExecutor:
+        return False
+    return True
+
+
+def kept_in(memory: Kept) -> Opened:
+    """Chunks kept in memory, "opened" as a store is."""
+    return lambda: nullcontext(memory)
+
+
+# Designs of a study as complete files, which every command takes
+
+_NAME = 180
+"""Letters of the study's name in the names of its designs, which have their number beside it."""
+_MISS = re.compile(r"m([0-9]{1,6})")
+
+
+def show(made: Problem, found: Found | None, asked: str) -> int:
+    """Print a design's file: by its index, or mK for the nearest miss of row K of the table why."""
+    print(text_of(made, found, _index(made, found, asked)), end="")
+    return ExitCode.OK
+
+
+def _index(made: Problem, found: Found | None, asked: str) -> int:
+    if asked.isascii() and asked.isdecimal() and len(asked) < 18:
+        last = made.order.count - 1 + (len(found.extra.rows) if found is not None else 0)
+        if int(asked) <= last:
+            return int(asked)
+        raise _wrong(f"design {asked}: the last one is {last}", asked)
+    row = _MISS.fullmatch(asked)
+    if row is None or found is None:
+        raise _wrong(f"{asked!r} is neither the index of a design nor mK for row K of the table why", asked)
+    rows = found.why
+    number = int(row[1])
+    if not 1 <= number <= len(rows):
+        raise _wrong(f"the table why has {amount(len(rows), 'row')}, not {number}", asked)
+    name, _, miss = rows[number - 1]
+    if miss.index is None:
+        raise _wrong(f"no design fails row {number} ({name})", asked)
+    return miss.index
+
+
+def _wrong(message: str, asked: str) -> DesignFileError:
+    return DesignFileError([Diagnostic("GL115", message, file="<--show>", key=asked)])
+
+
+def text_of(made: Problem, found: Found | None, index: int) -> str:
+    """The file of a design."""
+    changes = found.changes(index) if found is not None else made.changes_of(index)
+    data: dict[str, Any] = made.base.changed(changes)
+    data["name"] = f"{made.spec.name[:_NAME]}-{index}"
+    head = f"# Design {index} of the study {visible(made.spec.name)}; try: gearlink {made.base.command} FILE\n"
+    return head + yaml.dump(
+        data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120
+    )
+
+
+class _Dumper(yaml.SafeDumper):
+    """Words whose lines could open commands in the log of a CI stand in quotes."""
+
+
+def _quoted(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = '"' if "\n" in text or "::" in text else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_Dumper.add_representer(str, _quoted)
+
+
+def _put(text: str, stream: IO[bytes]) -> None:
+    stream.write(text.encode())
+
+
+def write(found: Found, folder: Path) -> tuple[int, int]:
+    """Write the kept designs as NAME-INDEX.yaml: each is called by its index in the table, as it is for --show.
+
+    Returns
+        count, others : int - how many were written; how many files of such names stand there besides
+
+    Raises
+        CannotWrite
+    """
+    stem, written = safe_stem(found.problem.spec.name), set()
+    for row in found.rows:
+        path = folder / f"{stem}-{row.index}.yaml"
+        write_atomically(path, partial(_put, text_of(found.problem, found, row.index)))
+        written.add(path.name)
+    there = (path for path in folder.glob(f"{glob.escape(stem)}-*.yaml") if path.name not in written)
+    others = sum(path.stem.removeprefix(f"{stem}-").isdecimal() for path in there)
+    return len(found.rows), others
 
 
 def run_explore(asked: Exploring) -> int:
@@ -65,8 +338,6 @@ def _run(asked: Exploring) -> int:
         return _shown(Path(source), asked)
     made = _read(source, asked)
     if asked.show and not asked.show.startswith("m"):
-        from gearlink.cli.exploring.designs import show
-
         return show(made, None, asked.show)
     return _computed(made, asked)
 
@@ -159,8 +430,6 @@ def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
     with patience("putting the designs together", quiet=asked.options.quiet):
         found = Found.of(made, together(made, chunks_of(kept, made)))
     if asked.show:
-        from gearlink.cli.exploring.designs import show
-
         return show(made, found, asked.show)
     return _print(Exploration(made.spec, found), asked)
 
@@ -183,8 +452,6 @@ def _print(study: Exploration, asked: Exploring) -> int:
 def _write(study: Exploration, report: Report, asked: Exploring) -> None:
     """Write the files that are asked for besides."""
     if asked.write is not None:
-        from gearlink.cli.exploring.designs import write
-
         count, others = write(study.found, asked.write)
         earlier = f", beside {others} of an earlier run" if others else ""
         _tell(f"wrote {amount(count, 'design')} to {visible(str(asked.write))}{earlier}", asked)

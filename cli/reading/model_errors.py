@@ -2,34 +2,247 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import islice
 from typing import TYPE_CHECKING, Any
+from unicodedata import normalize
 
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
 from gearlink.cli.reading.model_shapes import allowed_range, fields_at, list_at, meaning_at, takes_truth_value, unit_at
-from gearlink.cli.reading.value_words import (
-    WANTED,
-    bound,
-    choices,
-    list_remedy,
-    number_remedy,
-    shown,
-    text_remedy,
-    truth_remedy,
-    whole_number_remedy,
-)
-from gearlink.cli.reading.yaml_reader import format_path
+from gearlink.cli.reading.yaml_reader import format_path, plain_value
+from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
 from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
 
     Unions = tuple[tuple[KeyPath, str], ...]
+
+
+# Words for values that a design file gives and for those that it should give
+
+# Units that people write behind the numbers of a design file, and how much each is in the unit of the key
+
+_EQUAL = 1.0
+_DEGREES = math.degrees(1.0)
+_FACTORS: dict[str, dict[str, float]] = {
+    "mm": {"mm": 1, "cm": 10, "dm": 100, "m": 1000, "µm": 1e-3, "um": 1e-3, "in": 25.4, "inch": 25.4, '"': 25.4},
+    "deg": {"deg": 1, "degree": 1, "degrees": 1, "°": 1, "rad": _DEGREES, "mrad": 1e-3 * _DEGREES, "'": 1 / 60},
+    "1/min": {"1/min": 1, "rpm": 1, "rev/min": 1, "r/min": 1, "min^-1": 1, "1/s": 60, "Hz": 60, "rad/s": 30 / math.pi}
+    | dict.fromkeys(("sheets/h", "sheet/h", "1/h", "/h"), 1 / 60),
+    "sheets/h": {
+        "sheets/h": 1,
+        "rpm": 60,
+        "rev/min": 60,
+        "r/min": 60,
+        "1/min": 60,
+        "1/h": 1,
+        "/h": 1,
+        "sheets/min": 60,
+    },
+    "N": {"N": 1, "kN": 1000},
+    "N m": {"Nm": 1, "kNm": 1000, "Nmm": 1e-3},
+    "N/mm": {"N/mm": 1, "kN/m": 1, "N/m": 1e-3},
+    "N/mm^2": {"N/mm^2": 1, "N/mm²": 1, "MPa": 1, "GPa": 1000},
+    "kg": {"kg": 1, "g": 1e-3, "t": 1000},
+    "kg m^2": {"kgm^2": 1, "kgm²": 1, "kgcm^2": 1e-4, "kgcm²": 1e-4, "kgmm^2": 1e-6, "kgmm²": 1e-6},
+    "kW": {"kW": 1, "W": 1e-3},
+    "Hz": {"Hz": 1, "1/s": 1, "kHz": 1000},
+    "m/s^2": {"m/s^2": 1, "m/s²": 1, "mm/s^2": 1e-3},
+    "h": {"h": 1, "min": 1 / 60},
+    "s": {"s": 1, "ms": 1e-3},
+    "ms": {"ms": 1, "s": 1000},
+    "1": {"%": 0.01},
+}
+
+
+def without_unit(number: str, written: str, unit: str) -> str:
+    """What to write in place of a number with a unit.
+
+    Parameters
+        number, written : str - as they stand in the file
+        unit : str - of the key; empty where it is not known
+    Example
+        >>> without_unit("5", "cm", "mm"), without_unit("5", "deg", "mm")
+        ('keys carry no unit, this one is in mm: write 50', 'keys carry no unit, this one is in mm')
+        >>> without_unit("8000", "sheets/h", "1/min")
+        'keys carry no unit, this one is in 1/min: write 133.3333333 (one sheet each turn)'
+    """
+    factors = _FACTORS.get(unit, {}) if unit else _own()
+    factor = factors.get(written.replace(" ", ""))
+    if factor == _EQUAL:
+        return f"keys carry no unit: write {number}"
+    where = "" if unit in ("", "1") else f", this one is in {unit}"
+    if factor is None:
+        return f"keys carry no unit{where}"
+    turns = written in ("rpm", "rev/min", "r/min", "1/min") if unit == "sheets/h" else written.endswith("/h")
+    each = " (one sheet each turn)" if turns and unit in ("1/min", "sheets/h") else ""
+    return f"keys carry no unit{where}: write {float(number) * factor:.10g}{each}"
+
+
+def _own() -> dict[str, float]:
+    """The units that some key has."""
+    return {name: factor for names in _FACTORS.values() for name, factor in names.items() if factor == _EQUAL}
+
+
+WANTED = {
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "decimal_type": "a number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list such as [1, 2]",
+    "tuple_type": "a list such as [1, 2]",
+    "set_type": "a list such as [1, 2]",
+    "dict_type": "a section of keys",
+    "mapping_type": "a section of keys",
+    "model_type": "a section of keys",
+    "model_attributes_type": "a section of keys",
+    "none_required": "empty",
+}
+_BOUNDS = {
+    "greater_than": ("gt", "greater than {}"),
+    "greater_than_equal": ("ge", "at least {}"),
+    "less_than": ("lt", "less than {}"),
+    "less_than_equal": ("le", "at most {}"),
+    "multiple_of": ("multiple_of", "a multiple of {}"),
+}
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1?/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)", re.ASCII)
+DASHES = ("\u2212", "\u2013", "\u2014")
+_LOOKALIKES = str.maketrans("OolI", "0011")
+_SHOWN_CHARACTERS = 40
+_LONG = 1e6
+_INCH = 25.4
+
+
+def shown(value: Any) -> str:
+    """A value as a message names it."""
+    if value is None:
+        return "empty"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return repr(value if len(value) <= _SHOWN_CHARACTERS else value[: _SHOWN_CHARACTERS - 3] + "...")
+    if isinstance(value, list):
+        return "a list"
+    if isinstance(value, float) and abs(value) >= _LONG and float(f"{value:g}") == value:
+        return f"{value:g}"  # 1e+11, as it was written
+    return "a section" if isinstance(value, dict) else repr(value)
+
+
+def bound(kind: str, context: dict[str, Any]) -> str:
+    """The limit that a number broke, or nothing where the error is another one."""
+    if kind not in _BOUNDS:
+        return ""
+    name, words = _BOUNDS[kind]
+    limit = context.get(name)
+    return words.format(f"{limit:.15g}" if isinstance(limit, float) else limit)
+
+
+def choices(context: dict[str, Any]) -> list[str]:
+    """The values of a literal, as a design file writes them.
+
+    Example
+        >>> choices({"expected": "'arc', 'parabola' or 'quartic'"}), choices({"expected": "True"})
+        (["'arc'", "'parabola'", "'quartic'"], ['true'])
+    """
+    words = re.findall(r"'[^']*'|[^\s,']+", str(context.get("expected", "")))
+    return [{"True": "true", "False": "false"}.get(word, word) for word in words if word != "or"]
+
+
+def whole_number_remedy(value: float) -> str:
+    """What to write in place of a float where teeth or the like are counted."""
+    if not math.isfinite(value) or abs(value) >= 2.0**53:
+        return ""
+    return f"write {int(value)}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
+
+
+def number_remedy(text: str, unit: str = "") -> str:
+    """What to write in place of a text that was meant as a number; nothing where that is not plain.
+
+    Parameters
+        unit : str - of the key, where it has one
+    Example
+        >>> number_remedy("38,8"), number_remedy("5 cm", "mm")
+        ('write a decimal point: 38.8', 'keys carry no unit, this one is in mm: write 50')
+        >>> number_remedy("25.4/12", "mm"), number_remedy("DP12", "mm")
+        ('write 2.116666667', 'a diametral pitch counts teeth in an inch: write 2.116666667 (mm)')
+    """
+    text = text[:200].strip(" ")
+    if isinstance(plain_value(text), (int, float)):
+        return "leave the quotation marks out"
+    if re.fullmatch(r"[-+]?[1-9][0-9]{0,2},[0-9]{3}", text):
+        return f"write {text.replace(',', '.')}, or {text.replace(',', '')} where the comma parts thousands"
+    if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", text):
+        return f"write a decimal point: {text.replace(',', '.')}"
+    if re.fullmatch(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?", text):
+        return "write decimals, not minutes and seconds"
+    if re.fullmatch(r"[-+]?[0-9]{1,3}([_ '][0-9]{3})+(\.[0-9]+)?", text):
+        return f"write {re.sub('[_ ]', '', text.replace(chr(39), ''))}"
+    if odd := ODD.search(text):
+        plain = normalize("NFKC", text).replace("\u2212", "-").strip()
+        if re.fullmatch(_NUMBER, plain):
+            return f"it holds {odd_character(odd[0])}: write {plain}"
+        return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
+    if text[:1] in DASHES:
+        return f"it holds {odd_character(text[0])}: write -"
+    if re.fullmatch(rf"{_NUMBER}(\s+{_NUMBER})+", text):
+        return f"commas part the elements of a list: {', '.join(text.split())}"
+    digits = text.translate(_LOOKALIKES)
+    if re.fullmatch(_NUMBER, digits):
+        return f"a letter stands for a digit: write {digits}"
+    if re.fullmatch(r"[-+]?0[xXbBoO]\w*", text, re.ASCII):
+        return "write it in decimals"
+    if re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9_]*", text):
+        return "write the exponent as in 1e3"
+    if quotient := re.fullmatch(rf"({_NUMBER})\s*/\s*({_NUMBER})", text):
+        return _quotient(float(quotient[1]), float(quotient[2]))
+    if unit == "mm" and (pitch := re.fullmatch(rf"DP\s*({_NUMBER})|({_NUMBER})\s*DP", text, re.IGNORECASE)):
+        return f"a diametral pitch counts teeth in an inch: {_quotient(_INCH, float(pitch[1] or pitch[2]))} (mm)"
+    found = _WITH_UNIT.fullmatch(text)
+    return without_unit(found[1], found[2], unit) if found else ""
+
+
+def _quotient(value: float, divisor: float) -> str:
+    """A quotient in decimals; nothing where there is none."""
+    return f"write {value / divisor:.10g}" if divisor and math.isfinite(value / divisor) else "write it in decimals"
+
+
+def list_remedy(text: str) -> str:
+    """How numbers in a row are written as a list; nothing for other text.
+
+    Example
+        >>> list_remedy("20, 30"), list_remedy("20 30"), list_remedy("x")
+        ('write it in brackets: [20, 30]', 'write it in brackets: [20, 30]', '')
+    """
+    numbers = re.split(r"\s*,\s*|\s+", text[:200].strip())
+    if len(numbers) < 2 or not all(re.fullmatch(_NUMBER, number) for number in numbers):
+        return ""
+    return f"write it in brackets: [{', '.join(numbers)}]"
+
+
+def text_remedy(value: Any) -> str:
+    """How a number or a truth value is written where text is wanted."""
+    if value is None or isinstance(value, (list, dict)):
+        return ""
+    return f'put it in quotes: "{shown(value)}"'
+
+
+def truth_remedy(text: str) -> str:
+    """What to write for the yes and no of YAML 1.1."""
+    word = {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(text.lower())
+    return f"write {word}" if word else ""
+
 
 _MOST_ERRORS = 500
 _MOST_READINGS = 64

@@ -4,11 +4,299 @@ from __future__ import annotations
 
 from functools import cache
 
-from gearlink.cli.texts.files import FILES
-from gearlink.cli.texts.studies import STUDIES
-from gearlink.cli.texts.tolerances import TOLERANCES
 from gearlink.core.codes import rules
 from gearlink.core.report import Rule
+
+# The codes GL1xx: what can be wrong with a design file or a command line
+
+FILES: tuple[Rule, ...] = (
+    Rule(
+        "GL101",
+        "file cannot be read",
+        "There is no such file or folder, it may not be read, or a folder holds no design file (.yaml, .yml).",
+        "Nothing can be computed without it; a folder given where one file is wanted is not guessed at.",
+        "Check the path. `gearlink batch` and `gearlink check` take folders, all other commands one file, or - for "
+        "standard input.",
+    ),
+    Rule(
+        "GL102",
+        "not plain UTF-8 text",
+        "The file has another encoding, or holds control characters.",
+        "In another encoding a sign may read as another one, and a hidden character changes a key without being seen.",
+        "Save the file as UTF-8 without formatting; delete the character at the line and column of the message.",
+    ),
+    Rule(
+        "GL103",
+        "not a YAML design",
+        "The text breaks the rules of YAML, or is not made of `key: value` lines.",
+        "Usual causes: tabs in the indentation, a missing space after a colon, a bracket or quotation mark that is "
+        "never closed, signs that only look like the plain ones, a second document, tags or directives.",
+        "The caret stands where reading failed; the cause often lies at the end of the line above. `gearlink new KIND` "
+        "prints a file that works.",
+    ),
+    Rule(
+        "GL104",
+        "key given twice",
+        "The same key stands twice in one section.",
+        "Most readers silently keep the last one; which of the two was meant cannot be known.",
+        "Delete one of the two.",
+    ),
+    Rule(
+        "GL105",
+        "unknown key",
+        "The section has no such key.",
+        "A misspelt key would otherwise be ignored, and the default used in its place.",
+        "Take the nearest key of the message; `gearlink schema KIND` lists all of them with units and defaults.",
+    ),
+    Rule(
+        "GL106",
+        "key missing",
+        "A key that has no default is missing, or none of several alternatives is given.",
+        "Without it the design is not determined.",
+        "Add the key; the message says what it means. `gearlink new KIND` prints a complete file.",
+    ),
+    Rule(
+        "GL107",
+        "wrong type of value",
+        "A number, a text, a list or a section stands where another of these is wanted, or a list has a wrong length.",
+        "Numbers in quotation marks are text, 40:20 and no are text in YAML 1.2, and true is no number.",
+        "Write the value as the message asks: numbers plain, without unit and without quotation marks.",
+    ),
+    Rule(
+        "GL108",
+        "value out of range",
+        "A number lies outside its range or is not finite, or a word is none of the choices.",
+        "The ranges keep out what no machine has: lengths below zero, angles beyond a turn, pressure angles of 45 deg, "
+        "and any number above 1e12 or, but for 0, below 1e-30 in size.",
+        "Take a value from the allowed range or list of the message. Units are mm, deg, 1/min, sheets/h, N, kg, "
+        "kg m^2 and N m.",
+    ),
+    Rule(
+        "GL109",
+        "unknown kind of design",
+        "The key `kind` names no kind that gearlink knows.",
+        "The kind decides which keys the file has and which commands apply.",
+        "Take one of the kinds in the message; `gearlink explain KIND` says what each is.",
+    ),
+    Rule(
+        "GL110",
+        "too large, or too much",
+        "The file is too large, nested too deeply or has too many values; or more errors were found than are shown.",
+        "No design needs it; the caps keep a wrong or hostile file from filling the memory.",
+        "Check that it is the right file. Repair the errors that are shown first, the others often follow from them.",
+    ),
+    Rule(
+        "GL111",
+        "keys contradict each other",
+        "Each value is right by itself, but together they are not: two alternatives are given, or a sum does not hold.",
+        "Only one of the two could be used, and nobody would know which.",
+        "Leave out one of them, or change it by the amount that the message names.",
+    ),
+    Rule(
+        "GL112",
+        "no such mechanism",
+        "The file is in order, but no mechanism exists for its numbers: a linkage does not close or cannot turn, a "
+        "stroke is too long, a law has no solution.",
+        "A result in its place would belong to another mechanism.",
+        "The message names the value, its limit and the key to change; change that key, or those it depends on.",
+        source="the equation that has no solution is named by `gearlink explain` of the quantity",
+    ),
+    Rule(
+        "GL113",
+        "command and file do not fit",
+        "The command does not apply to this kind of design, or needs a section that the file does not have.",
+        "A file holds what its own commands need; the other sections are optional.",
+        "Add the section that the message names (`gearlink schema KIND` shows its keys), or take one of the commands "
+        "that apply.",
+    ),
+    Rule(
+        "GL114",
+        "--set cannot be used",
+        "The argument of --set is not of the form PATH=VALUE, or its path leads through something that is no section.",
+        "An override that went nowhere would leave the design as it was, without a word.",
+        "Write the path as in the messages: gears.crank=42, teeth[1]=20, limits.gear_gap=0.5. Values are YAML.",
+    ),
+    Rule(
+        "GL115",
+        "command line wrong",
+        "An argument or option is unknown, missing or has a wrong value, or names a quantity, table, kind or code that "
+        "does not exist.",
+        "Nothing was computed.",
+        "Take the nearest name of the message; `gearlink COMMAND --help` lists the options.",
+    ),
+    Rule(
+        "GL116",
+        "file cannot be written",
+        "The folder does not exist and cannot be made, may not be written to, the disk is full, or the file is there "
+        "already.",
+        "Files are written whole or not at all: nothing half-written was left behind.",
+        "Give another folder or file with --out; `gearlink new --force` overwrites.",
+    ),
+    Rule(
+        "GL117",
+        "cannot be compared",
+        "`gearlink diff` was given two files of different sorts, designs of different kinds, or a JSON file that holds "
+        "no result.",
+        "Quantities of different kinds share names, but not meanings.",
+        "Give two design files of one kind, or two files written with --format json.",
+    ),
+    Rule(
+        "GL199",
+        "fault of the program",
+        "gearlink itself failed on this design; the other designs of a batch were computed.",
+        "This is not the design's fault.",
+        "Please report it with the design file; GEARLINK_TRACEBACK=1 shows where it arose.",
+    ),
+)
+
+
+# The codes GL150 to GL160: what can be wrong with a study file, or with the store of what was computed
+
+STUDIES: tuple[Rule, ...] = (
+    Rule(
+        "GL150",
+        "base design missing or given twice",
+        "A study has one base design: the file that `of` names, or the one that stands in it under `design`.",
+        "Every design of a study is the base with other values at the paths of its variables.",
+        "Give `of` or `design`, exactly one.",
+    ),
+    Rule(
+        "GL151",
+        "variable leads nowhere",
+        "A variable, one of its `also`, or what its `times` names is no key of the base design's kind, or no variable "
+        "above it.",
+        "A variable that changed nothing would multiply the designs without a word.",
+        "Take the nearest path of the message; `gearlink schema KIND` lists all of them.",
+    ),
+    Rule(
+        "GL152",
+        "quantity or check unknown, or not to be compared",
+        "An objective, a definition or a condition names a quantity that the kind does not have, a list without an "
+        "index or a word where a number is needed, or cannot be read; or a check has no such code.",
+        "What cannot be computed cannot be sought.",
+        "Take the nearest name of the message. Expressions have numbers, quantities, [i] (from 0), + - * /, min, max, "
+        "abs, sqrt and brackets.",
+    ),
+    Rule(
+        "GL153",
+        "unit differs",
+        "A resolution or a limit is given in another unit than its quantity has.",
+        "Nothing is converted: a wrong unit would be a wrong limit.",
+        "Give it in the quantity's own unit, or leave the unit out.",
+    ),
+    Rule(
+        "GL154",
+        "resolution missing",
+        "An objective has no resolution above 0.",
+        "The resolution is the difference that you would not pay for; without it a front has as many rows as designs.",
+        "Give one, such as `envelope: 10 mm`.",
+    ),
+    Rule(
+        "GL155",
+        "more designs than the budget",
+        "The grid of all variables holds more designs than `sampling.budget`, or a variable has no grid, and the "
+        "method `grid` is asked for.",
+        "A grid is computed whole or not at all.",
+        "Coarsen the variable of the message, raise the budget, or take the method auto, which samples then.",
+    ),
+    Rule(
+        "GL156",
+        "base design or value refused",
+        "The base design is wrong or cannot be computed, or its model refuses a value of a variable.",
+        "A study varies a design that exists; each value is tried alone before any design is computed.",
+        "Repair the base, or narrow the variable's range to what its key takes.",
+    ),
+    Rule(
+        "GL157",
+        "store of another study",
+        "The store was made for a study that differs from this one in the key of the message.",
+        "Its results belong to other designs.",
+        "Give another --store, or put the study back as it was.",
+    ),
+    Rule(
+        "GL158",
+        "store or worker of another program",
+        "The store was made, or a worker runs, with another gearlink (its version or its code), Python, numpy or "
+        "scipy, or on another type of processor.",
+        "Last bits of numbers would differ within one result. A finished store is shown nevertheless, with a note.",
+        "Continue where it was begun, or begin a new store.",
+    ),
+    Rule(
+        "GL159",
+        "store exists or is damaged",
+        "The store is there already, and --resume was not given; or it is no store, or in use; or its content is not "
+        "what was written, as its checksums tell.",
+        "Results are never overwritten, and what a disk or a copy has changed is not believed.",
+        "Add --resume to continue it, or give another --store. Put back a copy of a damaged one, or compute it again.",
+    ),
+    Rule(
+        "GL160",
+        "two ways, two results",
+        "A design of the front has other figures by its own class than in the search.",
+        "This is a fault of the program, not of the study.",
+        "Please report it with the study; the message has the design and both figures.",
+    ),
+)
+
+
+# The codes GL170 to GL176: what can be wrong with the section `tolerance`
+
+TOLERANCES: tuple[Rule, ...] = (
+    Rule(
+        "GL170",
+        "source is no size of this design",
+        "A source names no key with a real number, no centre distance, pin or gear of this kind of design, or a whole "
+        "number, which does not scatter.",
+        "A tolerance on something that the design does not have would change nothing without a word.",
+        "Take a key of the file, such as links.crank, or centers.MESH, pins.PIN, bearings.PIN, gears.GEAR with grade.",
+    ),
+    Rule(
+        "GL171",
+        "limits of a source wrong",
+        "A source has no limits, two forms of them, limits in the wrong order or of no width, or a form that does not "
+        "belong to what it names.",
+        "Without width nothing scatters, and two forms could contradict each other.",
+        "Give one of plus_minus, lower with upper, limits, sigma, class, fit with size, group with bore, clearance, "
+        "grade with width, eccentricity, measured.",
+    ),
+    Rule(
+        "GL172",
+        "process capability wrong",
+        "C_pk is above C_p, or below it without saying towards which limit the process lies.",
+        "C_pk = C_p (1 - offset/half width): it is at most C_p.",
+        "Give cpk at most cp, and shift: up or down.",
+    ),
+    Rule(
+        "GL173",
+        "not in the tables of ISO 286 or ISO 5753",
+        "The tolerance class, fit, grade or clearance group does not exist, or not for this size (ISO 286: to 500 mm; "
+        "bearings: bores to 100 mm).",
+        "Nothing is extrapolated from tables.",
+        "Take another class, or give the limits themselves.",
+    ),
+    Rule(
+        "GL174",
+        "not in the range of ISO 1328-1",
+        "The grade, module, diameter or face width lies outside of ISO 1328-1:2013 (grades 1 to 11, modules 0.5 to 70 "
+        "mm, diameters 5 to 15000 mm, widths 4 to 1200 mm).",
+        "Nothing is extrapolated.",
+        "Give the eccentricity itself.",
+    ),
+    Rule(
+        "GL175",
+        "too many sources",
+        "The sources take more random numbers than 64 (32 with Sobol' indices); a pin takes two.",
+        "Scrambled Sobol' points lose their balance in so many dimensions.",
+        "Leave out the sources that contribute least.",
+    ),
+    Rule(
+        "GL176",
+        "correlations contradict each other",
+        "The correlations of the file make no positive matrix, lie outside -1 to 1, or name what is no source.",
+        "Three parts cannot all scatter against each other.",
+        "Correlate what one machine makes in one setting; make rho smaller.",
+    ),
+)
 
 
 @cache

@@ -117,9 +117,8 @@ def reaches(
         return lambda phi: np.asarray(np.abs(placed(phi)[one] - placed(phi)[other]))
 
     given = motion.input
-    wanted = [
-        (each, greatest) for one, other in asked for each in (distance(one, other),) for greatest in (False, True)
-    ]
+    distances = [distance(pair[0], pair[1]) for pair in asked]
+    wanted = [(each, greatest) for each in distances for greatest in (False, True)]
     found = iter(extremes_over(wanted, given.start, given.end, joints=given.joints, samples=samples))
     near_far = {pair: (next(found), next(found)) for pair in asked}
     return {pair: Reach(near.value, far.value, near.place, far.place) for pair, (near, far) in near_far.items()}

@@ -6,28 +6,446 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.cams.disc_cams import DiscCams
 from gearlink.core.cams.machine import OnDiscCams
 from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.flatbed_press import bodies, checks, remedies, tables
-from gearlink.core.flatbed_press.bed_motion import BedMotion
-from gearlink.core.flatbed_press.cams import PressCams
-from gearlink.core.flatbed_press.motion import PressMotion
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
+from gearlink.core.flatbed_press.compensation import Compensation
+from gearlink.core.flatbed_press.refusals import turns_back
+from gearlink.core.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
+from gearlink.core.linkages.dyad import acute
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.slider_crank.design import SLIDER_QUANTITIES, SliderCrankQuantities
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Table, safely_above
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
-    from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
+    from gearlink.core.cams.profile import RollerPath
+    from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel
     from gearlink.core.flatbed_press.compensation import Compensation
-    from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
     from gearlink.core.gears.data import GearData
     from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.linkages.slider_crank.position import SliderCrank
+    from gearlink.core.mechanism.motion import Course
+    from gearlink.core.numerics.arrays import Reals
+
+
+# The motion of a flatbed press: input, both chains, and the zone in which they run together
+
+
+class PressMotion:
+    """Chains and synchronous zone of a design file; one that is to advise says in a refusal what would help."""
+
+    def __init__(self, spec: FlatbedPressSpec, *, advise: bool = True) -> None:
+        self.spec = spec
+        self.advise = advise
+
+    @cached_property
+    def input_speed(self) -> float:
+        """Angular velocity of the input [rad/s]: one turn a sheet."""
+        return self.spec.speed / 3600.0 * 2.0 * math.pi
+
+    @property
+    def turn_time(self) -> float:
+        """Time of an input turn [ms]."""
+        return 2e3 * math.pi / self.input_speed
+
+    @cached_property
+    def slider_crank(self) -> SliderCrank:
+        """D-E-F, whose slider makes half the bed's stroke."""
+        bed = self.spec.bed
+        with at_key("bed.stroke"):
+            return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
+
+    @cached_property
+    def bed(self) -> BedChain:
+        """Drag link ABCD and slider-crank DEF."""
+        bed, crank = self.spec.bed, self.slider_crank.crank_length
+        return BedChain(_four_bar(bed.double_crank), math.radians(bed.crank_offset_angle), crank, bed.rod, bed.offset)
+
+    @cached_property
+    def cylinder(self) -> CylinderChain:
+        """Drag link GHMN and the cylinder's gears."""
+        cylinder = self.spec.cylinder
+        angle = math.radians(cylinder.initial_crank_angle)
+        return CylinderChain(_four_bar(cylinder.double_crank), angle, cylinder.radius, cylinder.gear_ratio)
+
+    @cached_property
+    def min_transmission_angle_bed(self) -> float:
+        """Least transmission angle of ABCD over the turn [rad]."""
+        return self.bed.linkage.min_transmission_angle()
+
+    @cached_property
+    def min_transmission_angle_cylinder(self) -> float:
+        """Least transmission angle of GHMN over the turn [rad]."""
+        return self.cylinder.linkage.min_transmission_angle()
+
+    @cached_property
+    def min_rod_angle(self) -> float:
+        """Least angle between the rod EF and the normal of the slide line over the turn [rad]."""
+        return math.acos((self.slider_crank.crank_length + abs(self.spec.bed.offset)) / self.spec.bed.rod)
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of velocity and acceleration of the cylinder [mm/s, mm/s^2], and their places and those of the least
+        transmission angles [rad]."""
+        from gearlink.core.motion_extremes import extremes
+
+        speed, cylinder = self.input_speed, self.cylinder
+        curves = {
+            "cylinder_velocity": lambda phi: cylinder.travel(phi, 1).first * speed,
+            "cylinder_acceleration": lambda phi: cylinder.travel(phi, 2).second * speed**2,
+        }
+        return extremes(curves, 0.0, _TURN) | self._transmission_places()
+
+    def _transmission_places(self) -> dict[str, float]:
+        """Input angles of the least transmission angles: the driving crank then lies in the line of the frame."""
+        bed, cylinder = (_crank_of_least(chain.linkage) for chain in (self.bed, self.cylinder))
+        return {
+            "min_transmission_angle_bed_at": (bed - self.bed.initial_crank_angle) % _TURN,
+            "min_transmission_angle_cylinder_at": (self.cylinder.initial_angle - cylinder) % _TURN,
+        }
+
+    # The synchronous zone
+
+    @cached_property
+    def sync_start(self) -> float:
+        """Input angle at the start of the zone [rad]."""
+        given = self.spec.sync.start
+        if given is not None:
+            return math.radians(given)
+        return equal_speed_angle(self.bed, self.cylinder, advise=self.advise)
+
+    @cached_property
+    def sync_end(self) -> float:
+        """Input angle at the end of the zone [rad]."""
+        given = self.spec.sync.end
+        if given is None:
+            return zone_end(self.cylinder, self.sync_start, self.spec.sync.length)
+        if math.radians(given) <= self.sync_start:
+            start = math.degrees(self.sync_start)
+            raise NoSolution(
+                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg: set sync.end above "
+                f"{safely_above(start, 6)} deg, or leave it out and give sync.length",
+                key="sync.end",
+            )
+        return math.radians(given)
+
+    @cached_property
+    def bed_turns_back(self) -> float | None:
+        """First input angle within the zone at which the bed turns back [rad]; None where it never does."""
+        return turning_within(self.bed, self.sync_start, self.sync_end)
+
+    @cached_property
+    def zone_length(self) -> float:
+        """Cylinder travel in the zone [mm]: as asked for, unless the file says where the zone ends."""
+        if self.spec.sync.end is None:
+            return self.spec.sync.length
+        return float(self.cylinder.travel(self.sync_end).value - self.cylinder.travel(self.sync_start).value)
+
+    @cached_property
+    def compensation(self) -> float:
+        """Bed travel that the cam makes good in the zone [mm]."""
+        gap = [float(difference(self.bed, self.cylinder, phi).value) for phi in (self.sync_start, self.sync_end)]
+        return gap[1] - gap[0]
+
+    @cached_property
+    def cam_sync_start(self) -> float:
+        """Cam angle at the start of the zone [rad]."""
+        return float(self.bed.cam_angle(self.sync_start).value)
+
+    @cached_property
+    def cam_sync_end(self) -> float:
+        """Cam angle at the end of the zone [rad]."""
+        return float(self.bed.cam_angle(self.sync_end).value)
+
+
+def _crank_of_least(linkage: FourBar) -> float:
+    """Crank angle of the least transmission angle [rad], 0 or pi."""
+    folded, stretched = map(acute, linkage.transmission_extremes())
+    return 0.0 if folded <= stretched else math.pi
+
+
+def _four_bar(links: DoubleCrank) -> FourBar:
+    return FourBar(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
+
+
+# The compensation cam pair of a flatbed press: its follower, its size, main and return cam
+
+# By so much of its limits a chosen radius keeps to the safe side: its cams are checked in other roundings.
+_HAIR = 1e-9
+_KEPT = 8192
+_OF_SIZE = ("cam.base_radius", "cam")
+"""Keys that say how large the cams are: the radius, or the section where `size` chooses it."""
+
+
+class PressCams(DiscCams):
+    """The follower of the rack and the two cams that drive it both ways."""
+
+    def __init__(self, spec: FlatbedPressSpec, motion: PressMotion) -> None:
+        self.spec, self.motion = spec, motion
+
+    @property
+    def section(self) -> PressCam:
+        """The section `cam` of the design file."""
+        if self.spec.cam is None:
+            raise MissingSection("`cam` needs the section cam: base_radius, roller_radius, ...", key="cam")
+        return self.spec.cam
+
+    @cached_property
+    def follower(self) -> Compensation:
+        """The lift of the compensation cam's follower."""
+        from gearlink.core.cams.laws import law
+
+        cam, motion = self.section, self.motion
+        with at_key("cam.return_law"):
+            return_law = law(cam.return_law)
+            if return_law.kind != "rest-to-rest":
+                raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} goes from rest to speed")
+        return Compensation(
+            motion.bed,
+            motion.cylinder,
+            motion.sync_start,
+            motion.sync_end,
+            cam.transition,
+            math.radians(cam.lead_in),
+            self.transition_end,
+            math.radians(cam.return_angle),
+            return_law,
+            self.spec.sync.end is not None,
+        )
+
+    @property
+    def transition_end(self) -> float:
+        """Cam angle at which the lift is greatest [rad]: given, or counted from the end of the zone."""
+        cam = self.section
+        if cam.transition_angle is not None:
+            return self.motion.cam_sync_end + math.radians(cam.transition_angle)
+        return math.radians(cam.transition_end or 0.0)
+
+    @property
+    def follower_stroke(self) -> float:
+        """Greatest less least lift [mm]."""
+        low, high = self.follower.lift_range
+        return high - low
+
+    # Size
+
+    @property
+    def is_sized(self) -> bool:
+        """Whether the file gives the base radius, or says how it is chosen."""
+        return self.spec.cam is not None and (self.spec.cam.base_radius is not None or self.spec.size is not None)
+
+    @cached_property
+    def base_radius(self) -> float:
+        """Cam axis to roller centre at zero lift [mm], given or the least with which both cams pass their checks."""
+        if self.section.base_radius is not None:
+            return self.section.base_radius
+        if self.spec.size is None:
+            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
+            raise MissingSection(text, key="cam.base_radius")
+        return self.base_radius_for(math.radians(self.spec.size.pressure_angle))
+
+    def base_radius_for(self, pressure_angle: float) -> float:
+        """Least base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
+        from gearlink.core.cams.checks import HUB
+
+        hub = HUB * self.section.shaft_radius * (1.0 + _HAIR) + self.section.roller_radius - self.follower.lift_range[0]
+        return self.base_radius_for_roller(max(self.base_radius_for_pressure(pressure_angle), hub))
+
+    def base_radius_for_pressure(self, pressure_angle: float) -> float:
+        """Least base radius [mm] with which both cams keep a pressure angle [rad].
+
+        r_b + s >= |s'|/tan(alpha)  and  r_b + s_max + s_min - s >= |s'|/tan(alpha)
+        """
+        import numpy as np
+
+        from gearlink.core.numerics.extremes import maximum_over
+
+        both = sum(self.follower.lift_range)
+
+        def needed(theta: Reals) -> Reals:
+            lift = self.follower.lift(theta, 1)
+            nearer: Reals = np.minimum(lift.value, both - lift.value)
+            radius: Reals = np.abs(lift.first) / math.tan(pressure_angle * (1.0 - 1e-3 * _HAIR)) - nearer
+            return radius
+
+        joints = tuple(segment.start % (2.0 * math.pi) for segment in self.follower.segments)
+        return maximum_over(needed, joints=joints, samples=512).value
+
+    def base_radius_for_roller(self, least: float) -> float:
+        """Base radius [mm], from `least` on, whose pitch curves bend no sharper than the roller allows.
+
+        rho_min(r_b) = r_g/0.8 of the sharper cam
+
+        Raises
+            NoSolution - where no cam of a thousand rollers' size is large enough
+        Notes
+            Within a step of doubling the curvature is taken to grow with the radius; the radius that is found is
+            checked by its own cams.
+        """
+        from gearlink.core.cams.checks import ROLLER_SHARE
+        from gearlink.core.numerics.roots import bracketed_root
+
+        roller = self.section.roller_radius
+        wanted = roller / ROLLER_SHARE * (1.0 + _HAIR)
+
+        def room(radius: float) -> float:
+            return min(cam.min_curvature_radius.value for cam in self._pair(radius)) - wanted
+
+        low = high = max(least, roller)
+        while room(high) < 0.0:
+            low, high = high, 2.0 * high
+            if high > 1000.0 * (roller + self.follower_stroke):
+                raise NoSolution(
+                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm: raise "
+                    "cam.return_angle, or take a smaller roller",
+                    key="cam.roller_radius",
+                )
+        return high if high == low else bracketed_root(room, low, high)
+
+    @cached_property
+    def roller_center_distance(self) -> float:
+        """Distance of the two rollers [mm] that gives both cams the same largest radius."""
+        return self._distance(self.base_radius)
+
+    def _distance(self, base_radius: float) -> float:
+        """L = 2 r_b + s_max + s_min; with s_min = 0 it is the report's 2 r_b + h
+
+        Source
+            TY-460 report 3.6
+        """
+        low, high = self.follower.lift_range
+        return 2.0 * base_radius + high + low
+
+    # The cams
+
+    @property
+    def max_radius(self) -> float:
+        """Largest radius of either profile [mm]: where the lift is greatest, the normal is radial."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[1]
+
+    @property
+    def min_radius(self) -> float:
+        """Smallest radius of either profile [mm]."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[0]
+
+    @property
+    def main_cam(self) -> DiscCam:
+        """The cam of roller 1: pitch radius r_b + s."""
+        return self.discs[0]
+
+    @property
+    def return_cam(self) -> DiscCam:
+        """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
+        return self.discs[1]
+
+    @cached_property
+    def discs(self) -> tuple[DiscCam, DiscCam]:
+        """Main and return cam."""
+        return self._pair(self.base_radius)
+
+    def _pair(self, base_radius: float) -> tuple[DiscCam, DiscCam]:
+        back = base_radius - self._distance(base_radius)
+        return self._disc_cam("main cam", base_radius), self._disc_cam("return cam", back)
+
+    def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
+        from gearlink.core.cams.disc_cam import DiscCam
+        from gearlink.core.cams.profile import translating
+
+        def path(theta: Reals, order: int) -> RollerPath:
+            lift = self._lift(theta, order)
+            return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
+
+        joints = tuple(segment.start for segment in self.follower.segments)
+        key = _OF_SIZE[self.section.base_radius is None]
+        return DiscCam(name, path, 1, self.section.roller_radius, joints, key)
+
+    def _lift(self, theta: Reals, order: int) -> Travel:
+        """The follower's lift; that of the last angles is kept, for both cams are looked at in the same places."""
+        if theta.size > _KEPT:  # for the memory's sake
+            return self.follower.lift(theta, order)
+        places = theta.tobytes()
+        if self._last.get(order, (b"",))[0] != places:
+            self._last[order] = places, self.follower.lift(theta, order)
+        return self._last[order][1]
+
+    @cached_property
+    def _last(self) -> dict[int, tuple[bytes, Travel]]:
+        return {}
+
+    def explained(self, refusal: NoSolution) -> NoSolution:
+        """Where the bed turns back within the zone no size of the cams helps."""
+        turned = turns_back(self.follower) if refusal.key in ("", *_OF_SIZE) and self.follows else None
+        return turned or refusal
+
+    def require_motion(self) -> None:
+        """Compute chains and zone."""
+        _ = self.motion.cam_sync_end
+
+    @property
+    def follows(self) -> bool:
+        """Whether the follower's lift exists over the turn."""
+        try:
+            return bool(self.follower.segments)
+        except NoSolution:
+            return False
+
+
+# The motion of the bed itself: its chain's travel less the lift of the lower rack, where the press has its cam
+
+_TURN = 2.0 * math.pi
+
+
+class BedMotion:
+    """Travel of the bed over arrays of the input angle."""
+
+    def __init__(self, design: FlatbedPress) -> None:
+        self.design = design
+
+    @cached_property
+    def _course(self) -> Course:
+        from gearlink.core.flatbed_press.mechanism import bed
+
+        return bed(self.design)
+
+    def travel(self, input_angle: Reals) -> Travel:
+        """Travel of the bed [mm] and its first two derivatives by the input angle."""
+        return Travel(*self._course.rates(self.design.moving, input_angle, 2))
+
+    def jerk(self, input_angle: Reals) -> Reals:
+        """Third derivative of the bed's travel by the input angle [mm/rad^3]."""
+        return self._course.rates(self.design.moving, input_angle, 3)[3]
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Input angles in [0, 2 pi) at which the law of the lift changes [rad]."""
+        return self.design.moving.input.joints
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of velocity and acceleration of the bed [mm/s, mm/s^2] and their places [rad].
+
+        Notes
+            Where the lift's acceleration jumps both sides count.
+        """
+        from gearlink.core.motion_extremes import extremes
+
+        speed = self.design.input_speed
+        curves = {
+            "bed_velocity": lambda phi: self.travel(phi).first * speed,
+            "bed_acceleration": lambda phi: self.travel(phi).second * speed**2,
+        }
+        return extremes(curves, 0.0, _TURN, joints=self.joints)
+
 
 _SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")
 _CHAINS = ("min_transmission_angle_bed", "min_transmission_angle_cylinder")

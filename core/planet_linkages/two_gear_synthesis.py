@@ -14,11 +14,32 @@ from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, 
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
-from gearlink.core.planet_linkages.two_gear_always import always_stepping
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
-from gearlink.core.planet_linkages.two_gear_frames import Family, beyond_reach, momentary_frame
+from gearlink.core.planet_linkages.two_gear_frames import Family, beyond_reach, momentary_frame, stationary_frames
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
+
+# Two-gear four-bars of a ring gear whose output steps back with every frame: they have no momentary dwell
+
+
+def always_stepping(family: Family) -> AlwaysStepping | None:
+    """The frames of a family whose output steps back with each of them; None of one with a momentary dwell, or without
+    any standstill.
+
+    Raises
+        NoSolution - where no frame makes a linkage that turns
+    Example
+        >>> found = always_stepping(Family(25.0, 45.28, 72.727, 44 / 69))
+        >>> round(found.step(87.613), 6), round(found.window(87.613, 0.0035), 6)
+        (0.006966, 1.071927)
+    """
+    if not family.ring or stationary_frames(family):
+        return None
+    low, high = sorted((kernel.steep_end(family), kernel.quiet_end(family)))
+    if kernel.back_step(family.drive(0.5 * (low + high))) is None:  # as many standstills as with every other frame
+        return None
+    return AlwaysStepping(lambda frame: kernel.valley(family.drive(frame)), low, high)
+
 
 _MARGIN = 0.01
 _FIT = 1e-6  # deg, what a back-step of the printed frame may miss

@@ -11,7 +11,7 @@ import pytest
 from sweeps import ALL
 
 from gearlink.cli.parallel import shares
-from gearlink.cli.parallel.watch import Watch
+from gearlink.cli.parallel.shares import Watch
 
 DESIGN = """\
 kind: three-gear-four-bar

@@ -17,8 +17,7 @@ import pytest
 from gearlink.cli import completing
 from gearlink.cli.verification import cases, digits, page
 from gearlink.cli.verification.cases import Case, Source
-from gearlink.cli.verification.computing import computed
-from gearlink.cli.verification.kernels import KERNELS
+from gearlink.cli.verification.computing import KERNELS, computed
 
 ROOT = Path(__file__).resolve().parents[3]
 ALL: list[Source] = [cases.read(name) for name in cases.names()]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gearlink.cli.page.side_by_side import side_by_side
+from gearlink.cli.commands.report import side_by_side
 from gearlink.core.errors import NoSolution
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes")

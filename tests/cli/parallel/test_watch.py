@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli.parallel import shares, watch
-from gearlink.cli.parallel.watch import TooLong, Watch
+from gearlink.cli.parallel.shares import TooLong, Watch
 from gearlink.core.tolerance.shares import of_replications, seen
 
 

@@ -20,7 +20,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli import process
 from gearlink.cli.parallel import shares
-from gearlink.cli.parallel.watch import Watch
+from gearlink.cli.parallel.shares import Watch
 from gearlink.cli.parallel.workers import _close_by_one, _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")

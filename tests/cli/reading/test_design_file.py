@@ -30,7 +30,7 @@ from gearlink.cli.reading import yaml_reader
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, parse, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import parse_path
-from gearlink.cli.reading.value_words import number_remedy
+from gearlink.cli.reading.model_errors import number_remedy
 from gearlink.cli.reading.yaml_reader import MAX_DEPTH
 from gearlink.core.errors import NoSolution
 

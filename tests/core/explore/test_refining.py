@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.explore.exploration import Exploration
+from gearlink.core.explore.front import _Search, _stepped
 from gearlink.core.explore.order import Variable
-from gearlink.core.explore.refining import _Search, _stepped
 from gearlink.core.study.spec import StudySpec
 
 FEED = {

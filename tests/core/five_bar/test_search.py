@@ -15,9 +15,8 @@ from factory import design
 from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar.descent import PathProblem, descend, matched
 from gearlink.core.five_bar.family import UNKNOWNS, FiveBarFamily
-from gearlink.core.five_bar.fit import fit_path, judge
+from gearlink.core.five_bar.fit import PathProblem, descend, fit_path, judge, matched
 from gearlink.core.five_bar.path import coupler_angles, distances, points, rates
 from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.harmonic_sum import HarmonicSum

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.mobility.design import Constraints
 from gearlink.core.linkages.mobility.freedom import common_links, linkage_mobility, pin_names, train_change
-from gearlink.core.linkages.mobility.repeats import Constraints
 from gearlink.core.spec_paths import changed
 
 REFERENCE = Path(__file__).parents[2] / "reference"

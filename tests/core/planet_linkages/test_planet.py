@@ -20,7 +20,7 @@ from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import standstills, turnings
 from gearlink.core.numerics.roots import maximum
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
-from gearlink.core.planet_linkages.rocker_synthesis import (
+from gearlink.core.planet_linkages.rocker_design import (
     crank_for_swing,
     extreme_crank_angles,
     longest_crank,

@@ -21,8 +21,7 @@ from sweeps import examples, mostly_slow
 from gearlink.core.errors import NoSolution
 from gearlink.core.remedies.bench import BUDGET
 from gearlink.core.six_bar import loop
-from gearlink.core.six_bar.course import Course
-from gearlink.core.six_bar.following import Follower
+from gearlink.core.six_bar.course import Course, Follower
 from gearlink.core.six_bar.loop import SixBar
 from gearlink.core.six_bar.mechanism import pins
 from gearlink.core.six_bar.relations import reduced, train_relation
