@@ -20,7 +20,7 @@ KINDS: dict[str, Kind] = {
                 "analyze": "design:ThreeGearFourBar",
                 "gear": "design:ThreeGearFourBar",
                 "loads": "loads:ThreeGearLoads",
-                "register": "register.budget:ThreeGearRegister",
+                "register": "register:ThreeGearRegister",
                 "tolerance": "",
             },
             motion="mechanism:motion",

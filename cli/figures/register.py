@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.register.design import RegisterDesign
     from gearlink.core.tolerance.budget import Budget, Row
-    from gearlink.core.tolerance.register_design import RegisterDesign
 
 _LINES = ("-", style.DASHED)
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.BLACK, style.SKY)
@@ -32,12 +32,10 @@ def draw(design: RegisterDesign) -> Figure:
 
 def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
     """The budgets to draw, each with its name: one where the flank does not matter."""
-    import numpy as np
+    from gearlink.core.register.design import are_alike
 
     one, other = design.budgets
-    # 1e-8 mm and a bit of rounding, which processors do not share, are not the flank's.
-    alike = all(np.allclose(a, b, rtol=1e-9) for a, b in ((one.band, other.band), (one.worst, other.worst)))
-    return [("", one)] if alike else [(" torque +1", one), (" torque −1", other)]
+    return [("", one)] if are_alike(one, other) else [(" torque +1", one), (" torque −1", other)]
 
 
 def _stretch(axes: Axes, design: RegisterDesign) -> None:

@@ -6,118 +6,40 @@ zone shifts the print and costs no register, so every error counts relative to t
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.errors import MissingSection
 from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.flatbed_press.register_chain import PressErrors, register_error
+from gearlink.core.flatbed_press.mechanism import bed_rods
 from gearlink.core.flatbed_press.register_lift import RackLift
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.loop_gains import LoopGains, loop_gains
+from gearlink.core.linkages.fourbar import position
+from gearlink.core.linkages.fourbar.mechanism import turns
 from gearlink.core.linkages.standstills import zeros_over_turn
+from gearlink.core.mechanism.dual import Shift
+from gearlink.core.mechanism.joints import Coupling, Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.rates import fixed, from_start, mixed, steady
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.register.design import RegisterDesign, no_such_place
 from gearlink.core.results import cached_property
 from gearlink.core.tolerance.budget import Contribution
-from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
-from gearlink.core.tolerance.sources import Parts, Scatter
+from gearlink.core.tolerance.sources import Parts
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.register.gains import Errors, Off, Output
 
-_LINKS = ("crank", "coupler", "rocker", "frame")
+_CHAINS = {"bed": ("gear2", "BC", "CDE"), "cylinder": ("gear1", "HM", "MN")}
+_RADIUS = "cylinder.radius"
 MESHES = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
 _PINS = ("A", "B", "C", "D", "E", "F", "G", "H", "M", "N")
-
-
-class PressGains:
-    """Gains of every part of a press over input angles [mm per mm, of angles mm/rad].
-
-    Parameters
-        design : FlatbedPress
-        input_angle : (N,) array [rad]
-    """
-
-    def __init__(self, design: FlatbedPress, input_angle: Reals) -> None:
-        self.motion, self.phi, self.lift = design.motion, input_angle, RackLift(design)
-
-    @cached_property
-    def bed_links(self) -> LoopGains:
-        """Turn of CD per error of the bed's drag link."""
-        chain = self.motion.bed
-        angle = chain.initial_crank_angle + self.phi
-        state = fourbar_sweep.solve(chain.linkage, angle)
-        return loop_gains(angle, state.coupler_angle, state.rocker_angle, chain.linkage.rocker)
-
-    @cached_property
-    def cylinder_links(self) -> LoopGains:
-        """Turn of MN per error of the cylinder's drag link."""
-        chain = self.motion.cylinder
-        angle = chain.initial_angle - self.phi
-        state = fourbar_sweep.solve(chain.linkage, angle)
-        return loop_gains(angle, state.coupler_angle, state.rocker_angle, chain.linkage.rocker)
-
-    @cached_property
-    def cam_slope(self) -> Reals:
-        """s' [mm/rad]: what the cam takes back per turn of CD."""
-        return self.lift.slope(self.phi)
-
-    @cached_property
-    def cylinder_rate(self) -> Reals:
-        """q' [mm/rad]."""
-        rate: Reals = self.motion.cylinder.travel(self.phi, 1).first
-        return rate
-
-    @cached_property
-    def _slider(self) -> tuple[Reals, Reals]:
-        """Directions of DE and of EF [rad]."""
-        chain = self.motion.bed
-        state = fourbar_sweep.solve(chain.linkage, chain.initial_crank_angle + self.phi)
-        psi = state.rocker_angle - chain.crank_offset_angle
-        across = -(chain.offset + chain.slider_crank_length * np.cos(psi)) / chain.rod
-        return psi, -np.arccos(across)
-
-    @cached_property
-    def bed_per_turn(self) -> Reals:
-        """dp/dpsi [mm/rad]: travel of the bed per turn of the slider's crank."""
-        psi, eta = self._slider
-        rate: Reals = -2.0 * self.motion.bed.slider_crank_length * np.sin(psi - eta) / np.sin(eta)
-        return rate
-
-    @cached_property
-    def slider_crank(self) -> dict[str, Any]:
-        """Gains of crank DE, rod, offset, of the angle CDE and of pins at E and F."""
-        psi, eta = self._slider
-        return {
-            "crank": 2.0 * np.cos(psi - eta) / np.sin(eta),
-            "rod": 2.0 / np.sin(eta),
-            "offset": 2.0 * np.cos(eta) / np.sin(eta),
-            "angle": -self.bed_per_turn,
-            "pin": 2.0 * np.exp(-1j * eta) / np.sin(eta),
-        }
-
-    def bed(self, turn: Any) -> Any:
-        """Gain of what turns CD: the bed moves, and the cam on D takes back."""
-        return (self.bed_per_turn - self.cam_slope) * turn
-
-    def cylinder(self, turn: Any) -> Any:
-        """Gain of what turns MN."""
-        chain = self.motion.cylinder
-        return chain.radius * chain.gear_ratio * turn
-
-    def pin(self, name: str) -> Any:
-        """Gain of the play vector of a pin."""
-        if name in "ABC":
-            return self.bed(self.bed_links.pin)
-        if name == "D":  # the loop sees it from the other side, and E stands on the same shaft
-            return self.slider_crank["pin"] - self.bed(self.bed_links.pin)
-        if name in "EF":
-            return self.slider_crank["pin"]
-        return self.cylinder(self.cylinder_links.pin if name in "GHM" else -self.cylinder_links.pin)
 
 
 class PressRegister(RegisterDesign):
@@ -127,6 +49,7 @@ class PressRegister(RegisterDesign):
     spec: FlatbedPressSpec
     default_at = "zone"
     turning = "force on the racks and on the cylinder's gears"
+    words = "bed against cylinder"
 
     @cached_property
     def design(self) -> FlatbedPress:
@@ -144,26 +67,125 @@ class PressRegister(RegisterDesign):
             raise no_such_place(at, ("zone",))
         return self.design.motion.sync_start, self.design.motion.sync_end
 
+    # What the sources move
+
+    @property
+    def errors(self) -> Errors:
+        """By size; the bed's slide line keeps its place, so a longer frame puts A back."""
+        bed, degree = self.design.bed, math.radians(1.0)
+        crank = self._crank_per_stroke * cmath.exp(-1j * bed.crank_offset_angle)
+        found = {
+            "bed.stroke": (Shift("CDE", ("E",), crank),),
+            "bed.rod": (Shift("EF", ("F",)),),
+            "bed.offset": (Shift("frame", ("guide",), -1.0),),
+            "bed.crank_offset_angle": (Shift("CDE", ("E",), -degree, turned=True),),
+            "cylinder.initial_crank_angle": (Shift("gear1", ("H",), degree, turned=True),),
+        }
+        for chain, (crank_pin, coupler_pin) in (("bed", "BC"), ("cylinder", "HM")):
+            crank_link, coupler, rocker = _CHAINS[chain]
+            found |= {
+                f"{chain}.double_crank.crank": (Shift(crank_link, (crank_pin,)),),
+                f"{chain}.double_crank.coupler": (Shift(coupler, (coupler_pin,)),),
+                f"{chain}.double_crank.rocker": (Shift(rocker, (coupler_pin,)),),
+                f"{chain}.double_crank.frame": (Shift(crank_link, (crank_pin,), -1.0, "frame"),),
+            }
+        return found
+
+    pins = {
+        "A": (Shift("gear2", ("B",), 1.0, "frame"),),
+        "D": (Shift("CDE", ("C", "E"), 1.0, "frame"),),
+        "G": (Shift("gear1", ("H",), 1.0, "frame"),),
+        "N": (Shift("MN", ("M",), 1.0, "frame"),),
+    }
+
+    def own_gain(self, key: str, input_angle: Reals) -> Reals | None:
+        """A larger cylinder rolls further."""
+        cylinder = self.design.motion.cylinder
+        return -cylinder.travel(input_angle).value / cylinder.radius if key == _RADIUS else None
+
+    def mechanism(self, input_angle: Reals) -> Mechanism:
+        """Both chains, from the input gears to the carriage of the pinion and to the cylinder."""
+        links, connections = self._bed_chain(input_angle)
+        driven, joints = self._cylinder_chain(input_angle)
+        gears = Coupling("mesh_12", "gear2", "gear1", links["gear2"].origin.value, -1.0)
+        return Mechanism(links | driven, [*connections, *joints, gears], "gear2")
+
+    def output(self, input_angle: Reals) -> Output:
+        """Delta of the bed as it rolls on the carriage, the cylinder's surface and the rack, which CDE lifts."""
+        lift, radius = self._lift, self.design.motion.cylinder.radius
+        start, slope = self._rods(input_angle.ravel(), 0)["CDE"].turn.value.reshape(input_angle.shape), lift.slope
+
+        def output(mechanism: Mechanism, parts: Off = None) -> Sequence[Reals]:
+            bed, cam, cylinder = mechanism.links["carriage"].origin, mechanism.links["CDE"], mechanism.links["cylinder"]
+            lifted = [lift.gained(input_angle, cam.turn.value - start)]
+            lifted += [slope(input_angle) * rate for rate in cam.turn[1:2]]
+            rolls = radius + (parts or {}).get(_RADIUS, 0.0)
+            return [2.0 * p.imag - rolls * q - s for p, q, s in zip(bed, cylinder.turn, lifted, strict=False)]
+
+        return output
+
+    @cached_property
+    def _lift(self) -> RackLift:
+        return RackLift(self.design)
+
+    def _rods(self, phi: Reals, order: int) -> dict[str, Link]:
+        return bed_rods(self.design, phi, order)
+
+    def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+        """Gear 2 to the carriage."""
+        links = self._rods(phi, 1)
+        f = links["carriage"].origin.value
+        return links, [
+            Pin("A", FRAME, "gear2", links["gear2"].origin.value),
+            Pin("B", "gear2", "BC", links["BC"].origin.value),
+            Pin("C", "BC", "CDE", links["CDE"].at(self.design.bed.linkage.rocker).value),
+            Pin("D", FRAME, "CDE", links["CDE"].origin.value),
+            Pin("E", "CDE", "EF", links["EF"].origin.value),
+            Pin("F", "EF", "carriage", f),
+            Guide("guide", FRAME, "carriage", f, -1j),
+        ]
+
+    def _cylinder_chain(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+        """Gear 1 to the cylinder, in the frame of its own: G at 0, N on +x."""
+        chain = self.design.cylinder
+        four = chain.linkage
+        coupler, rocker = turns(four, chain.initial_angle - phi, 1, velocity=-1.0)
+        gear1 = Link(fixed(0j, phi, order=1), steady(phi, -1.0, chain.initial_angle, order=1))
+        n = fixed(four.frame, phi, order=1)
+        start = position.solve(four, chain.initial_angle).rocker_angle
+        links = {
+            "gear1": gear1,
+            "HM": Link(gear1.at(four.crank), coupler),
+            "MN": Link(n, rocker),
+            "cylinder": Link(n, mixed((-chain.gear_ratio, from_start(rocker, start)))),
+        }
+        return links, [
+            Pin("G", FRAME, "gear1", gear1.origin.value),
+            Pin("H", "gear1", "HM", links["HM"].origin.value),
+            Pin("M", "HM", "MN", links["MN"].at(four.rocker).value),
+            Pin("N", FRAME, "MN", n.value),
+            Pin("cylinder", FRAME, "cylinder", n.value),
+            Coupling("mesh_34", "MN", "cylinder", n.value, -chain.gear_ratio),
+        ]
+
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
         """Every source of the file, the cam's own error, and the meshes whose backlash is given."""
-        gains = PressGains(self.design, input_angle)
-        known = gains.lift.known(input_angle)
-        found = [contribution(source, self._gain(source, gains)) for source in self.sources]
+        found = super().contributions(input_angle, torque_sign)
         if self.section.cam_error is not None:
-            lean = self._cam_lean(gains)
-            error = self.section.cam_error
+            lean, error = self._cam_lean(input_angle), self.section.cam_error
             found.append(Contribution("cam profile", 1.0 / np.cos(lean), error, error / 3.0, relative=False))
         for mesh, play in self.backlash.items():
             half = 0.5 * play
-            gain = self._mesh_gain(mesh, gains, torque_sign)
+            gain = self._mesh_gain(mesh, input_angle, torque_sign)
             found.append(Contribution(f"backlash of {mesh}", gain, half, 0.0, mean=half))
+        known = self._lift.known(input_angle)
         return found if known.all() else [replace(one, gain=np.where(known, one.gain, math.nan)) for one in found]
 
     @cached_property
     def input_angles(self) -> Reals:
         """As of any machine; an input angle at which nothing says where the lower rack stands is refused."""
         angles = super().input_angles
-        if not RackLift(self.design).known(angles).all():
+        if not self._lift.known(angles).all():
             start, end = (math.degrees(angle) for angle in self.stretch("zone"))
             raise MissingSection(
                 f"{self._where} nothing says where the lower rack stands: outside the synchronous "
@@ -186,7 +208,7 @@ class PressRegister(RegisterDesign):
             raise MissingSection("the backlash of mesh_12 needs the section input_gears", key="input_gears")
         return float(self.design.gear_pair.working_radius[0])
 
-    def _mesh_gain(self, mesh: str, gains: PressGains, torque_sign: int) -> Reals:
+    def _mesh_gain(self, mesh: str, phi: Reals, torque_sign: int) -> Reals:
         """Gain of half the backlash of a mesh: the driven member lags behind.
 
         Notes
@@ -194,19 +216,17 @@ class PressRegister(RegisterDesign):
             and cylinder are pushed by their inertia: by the sign of q'', outside the zone the bed by that of its own.
         """
         if mesh == "mesh_12":
-            rate: Reals = torque_sign * gains.cylinder_rate / self._input_radius
+            rate: Reals = torque_sign * self.design.cylinder.travel(phi, 1).first / self._input_radius
             return rate
         if mesh == "mesh_34":
-            return np.where(gains.motion.cylinder.travel(gains.phi, 2).second >= 0.0, 1.0, -1.0)
-        return np.where(gains.lift.bed_acceleration(gains.phi) >= 0.0, -1.0, 1.0)
+            return np.where(self.design.cylinder.travel(phi, 2).second >= 0.0, 1.0, -1.0)
+        return np.where(self._lift.bed_acceleration(phi) >= 0.0, -1.0, 1.0)
 
     @cached_property
     def _jumps(self) -> dict[str, float]:
         """How far bed and cylinder jump against each other where the force turns in a mesh, at most [mm]."""
-        gains = PressGains(self.design, self.input_angles)
-        return {
-            mesh: play * float(np.abs(self._mesh_gain(mesh, gains, 1)).max()) for mesh, play in self.backlash.items()
-        }
+        phi = self.input_angles
+        return {mesh: play * float(np.abs(self._mesh_gain(mesh, phi, 1)).max()) for mesh, play in self.backlash.items()}
 
     @cached_property
     def dead_band(self) -> float | None:
@@ -230,61 +250,6 @@ class PressRegister(RegisterDesign):
             return None
         return zeros_over_turn(lambda phi: float(self.design.motion.cylinder.travel(phi, 2).second))
 
-    # Samples of the exact chain
-
-    def sampled_errors(self, input_angle: Reals, _torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-        """Errors of the print by the exact chain."""
-        values: dict[str, Any] = {}
-        for source in self.sources:
-            name, scale = self._chain_name(source)
-            values[name] = values.get(name, 0.0) + scale * parts[source.key]
-        return register_error(RackLift(self.design), input_angle[:, None], PressErrors(values))
-
-    def _chain_name(self, source: Scatter) -> tuple[str, float]:
-        """What a source is called in the chain, and the chain's error per one of the source."""
-        if source.kind == "pin":
-            return source.key.partition(".")[2], 1.0
-        name, degree = source.key.replace(".double_crank", ""), math.radians(1.0)
-        scales = {
-            "bed.stroke": ("crank", self._crank_per_stroke),
-            "bed.rod": ("rod", 1.0),
-            "bed.offset": ("offset", 1.0),
-            "bed.crank_offset_angle": ("angle", degree),
-            "cylinder.initial_crank_angle": ("cylinder.angle", degree),
-            "cylinder.radius": ("radius", 1.0),
-        }
-        return scales.get(name, (name, 1.0))
-
-    def _gain(self, source: Scatter, gains: PressGains) -> Any:
-        section, _, rest = source.key.partition(".")
-        if source.kind == "pin":
-            return gains.pin(rest)
-        chain, _, link = rest.partition(".")
-        if chain == "double_crank" and link in _LINKS:
-            links, moved = (gains.bed_links, gains.bed) if section == "bed" else (gains.cylinder_links, gains.cylinder)
-            return moved(getattr(links, link))
-        found = self._other(source.key, gains)
-        if found is None:
-            message = f"{source.key} does not move bed against cylinder: leave it out of a register"
-            raise NoSolution(message, key="tolerance.sources")
-        return found
-
-    def _other(self, key: str, gains: PressGains) -> Any:
-        """Gains of the keys beside the drag links; angles per degree."""
-        degree, slider, cylinder = math.radians(1.0), gains.slider_crank, gains.motion.cylinder
-        match key:
-            case "bed.stroke":
-                return slider["crank"] * self._crank_per_stroke
-            case "bed.rod" | "bed.offset":
-                return slider[key.removeprefix("bed.")]
-            case "bed.crank_offset_angle":
-                return slider["angle"] * degree
-            case "cylinder.initial_crank_angle":
-                return gains.cylinder_rate * degree
-            case "cylinder.radius":
-                return -cylinder.travel(gains.phi).value / cylinder.radius
-        return None
-
     @property
     def _crank_per_stroke(self) -> float:
         """Error of the crank DE per mm of the bed's stroke, which is how the file gives it: dr/dS, in closed form.
@@ -296,10 +261,9 @@ class PressRegister(RegisterDesign):
         inner, outer = 4.0 * (bed.rod**2 - bed.offset**2) - s * s, 4.0 * bed.rod**2 - s * s
         return 0.5 * crank * (1.0 / s - s / inner + s / outer)
 
-    def _cam_lean(self, gains: PressGains) -> Reals:
+    def _cam_lean(self, phi: Reals) -> Reals:
         """Pressure angle of the main cam along the zone [rad]."""
-        radius = self.design.cams.base_radius
-        cam = self.design.motion.bed.cam_angle(gains.phi).value
+        cam = self.design.bed.cam_angle(phi).value
         lift = self.design.cams.follower.lift(cam, 1)
-        lean: Reals = np.arctan2(lift.first, radius + lift.value)
+        lean: Reals = np.arctan2(lift.first, self.design.cams.base_radius + lift.value)
         return lean

@@ -1,4 +1,4 @@
-"""A mechanism whose parts have errors, closed at one input: by Newton with the matrix of its forces, transposed.
+"""A mechanism whose parts have errors, closed exactly: by Newton with the matrix of its forces, transposed.
 
 Every joint says how far its two elements miss each other where the links stand; teeth do so by the involutes of their
 base circles on one flank, a roller by the parabola of its cam's pitch curve. The steps take the matrix of the mechanism
@@ -8,12 +8,14 @@ without errors, so that each leaves the share error/length of the last.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.mechanism.blocks import blocks
 from gearlink.core.mechanism.dual import Shift, Value, joints_of, on_flanks, origin_of, unit_of
 from gearlink.core.mechanism.dynamics import System
@@ -29,59 +31,73 @@ from gearlink.core.mechanism.joints import (
     SharedContact,
 )
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-from gearlink.core.mechanism.rates import Point, Turn, dot
+from gearlink.core.mechanism.rates import Point, Rates, Turn, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
-Errors = Iterable[tuple[Shift, "Reals | Points"]]
-"""Shifts with their errors, floats or (N,) arrays; complex ones where a shift is a vector."""
+Errors = Sequence[tuple[Shift, "Reals | Points | float"]]
+"""Shifts with their errors, of one machine or of N; complex where a shift is a vector."""
 _STEPS = 12
 _REST = 1e-14
-"""Of the size of the machine: a step that ends the search."""
+"""A step that need not be made, in rad or of the size of the machine."""
 
 
 class Chain:
-    """A mechanism at one input.
+    """A mechanism at some inputs.
 
     Parameters
-        mechanism : Mechanism - of one row
-        sides : by mesh the sign of its tangential force, (1,) arrays - `Dual.sides`
+        mechanism : Mechanism - of R rows
+        sides : by mesh the sign of its tangential force, (R,) arrays - `Dual.sides`
+    Example
+        >>> from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
+        >>> from gearlink.core.linkages.fourbar.position import FourBar, solve
+        >>> bar, longer = FourBar(18.0, 50.0, 100.0, 121.4), FourBar(18.0, 51.0, 100.0, 121.4)
+        >>> links = four_bar(bar, np.array([1.0]))
+        >>> chain = Chain(Mechanism(links, four_bar_pins(links, bar), "crank"), {})
+        >>> turned = chain.output(lambda made: made.links["rocker"].turn, [(Shift("coupler", ("C",)), 1.0)])
+        >>> bool(abs(turned[0, 0] - (solve(longer, 1.0).rocker_angle - solve(bar, 1.0).rocker_angle)) < 1e-14)
+        True
+
     Source
         own derivation: the closure of every joint, displaced
     """
 
     def __init__(self, mechanism: Mechanism, sides: Mapping[str, Reals]) -> None:
-        self.mechanism = on_flanks(mechanism, sides)
-        self._system = System(self.mechanism, {})
+        flanked = on_flanks(mechanism, sides)
+        self._system = System(flanked, {})
+        self.mechanism: Mechanism = _upright(flanked, {})
 
     @cached_property
-    def _size(self) -> float:
-        """Greatest distance in the machine [mm]."""
-        return float(max(np.abs(link.origin.value).max() for link in self.mechanism.links.values())) + 1.0
+    def _sizes(self) -> tuple[float, float, float]:
+        """What displacements of a link are measured by: the greatest distance in the machine [mm], and 1 rad."""
+        size = 1.0 + max(float(np.abs(link.origin.value).max()) for link in self.mechanism.links.values())
+        return size, size, 1.0
 
-    def output(self, value: Value, errors: Errors) -> Reals:
+    def output(self, value: Value, errors: Errors, before: Value | None = None) -> Reals:
         """By how much errors change a value.
 
         Parameters
-            value : function of the links - what is looked at
+            value : function of the links, whose arrays are (R, N) - what is looked at
             errors : shifts with their errors
+            before : what it is without errors, where it depends on them itself
         Returns
-            change : (N,) array - NaN where the machine does not close
+            change : (R, N) array - NaN where a machine does not close
         """
-        moved = _Moved(self.mechanism, list(errors))
+        moved = _Moved(self.mechanism, errors)
         with np.errstate(invalid="ignore", over="ignore"):
+            last = 0.0
             for _ in range(_STEPS):
-                step = self._step(self._gaps(moved))
+                step = self._step(self._gaps(moved), moved.shape)
                 moved.by(step)
-                if not self._far(step):
+                far = max(
+                    float(np.nanmax(np.abs(part), initial=0.0)) / self._sizes[k % 3] for k, part in enumerate(step)
+                )
+                if far * (min(1.0, far / last) if last else 1.0) <= _REST:  # the next, as steps shrink
                     break
+                last = far
             else:
-                moved.refuse(np.abs(step).max(axis=0) > math.sqrt(_REST) * self._size)
-            found = np.asarray(value(moved.mechanism())[0]) - np.asarray(value(self.mechanism)[0])
-        return np.asarray(found + np.zeros(moved.count))
-
-    def _far(self, step: Reals) -> bool:
-        largest = np.abs(step)
-        return bool((largest > _REST * self._size).any()) and bool(np.isfinite(largest).any())
+                moved.refuse(sum(np.abs(part) / self._sizes[k % 3] for k, part in enumerate(step)) > math.sqrt(_REST))
+            found = np.asarray(value(moved.mechanism())[0]) - np.asarray((before or value)(self.mechanism)[0])
+        return np.asarray(found + np.zeros(moved.shape))
 
     def _gaps(self, moved: _Moved) -> list[Any]:
         """How far the elements of every joint miss each other, by unknown; of the drive how far it stands ahead."""
@@ -90,70 +106,99 @@ class Chain:
             found.append(NEWTON_METER * self.mechanism.sense * moved.turn[self.mechanism.drive])
         return found
 
-    def _step(self, gaps: list[Any]) -> Reals:
-        """Displacements that close the gaps, three a link, (unknowns, N)."""
-        left, found = list(gaps), np.zeros((self._system.size, max(np.size(gap) for gap in gaps)))
+    def _step(self, gaps: list[Any], shape: tuple[int, int]) -> list[Reals]:
+        """Displacements that close the gaps, three a link."""
+        left, found = list(gaps), [np.zeros(0)] * self._system.size
         for rows, columns, matrix in self._blocks:
-            solved = -matrix @ np.stack([np.broadcast_to(left[column], found.shape[1:]) for column in columns])
-            found[list(rows)] = solved
+            if len(rows) == 1:
+                solved = [-matrix[:, 0] * left[columns[0]]]
+            else:
+                missed = np.stack([np.broadcast_to(left[column], shape) for column in columns], axis=1)
+                solved = list(np.moveaxis(-matrix @ missed, 1, 0))
             for row, displacement in zip(rows, solved, strict=True):
+                found[row] = displacement
                 for column, factor in self._others[row]:
                     if column not in columns:
                         left[column] = left[column] + factor * displacement
         return found
 
     @cached_property
-    def _entries(self) -> list[dict[int, float]]:
-        """By unknown force its factors in the equations: what a displacement does to the gap."""
-        return [
-            {row: float(np.asarray(factor).reshape(-1)[0]) for row, factor in entries.items()}
-            for entries in self._system.entries
-        ]
-
-    @cached_property
-    def _others(self) -> list[list[tuple[int, float]]]:
+    def _others(self) -> list[list[tuple[int, Any]]]:
         """By displacement the gaps that it changes, with the factor."""
-        found: list[list[tuple[int, float]]] = [[] for _ in range(self._system.size)]
-        for column, entries in enumerate(self._entries):
+        found: list[list[tuple[int, Any]]] = [[] for _ in range(self._system.size)]
+        for column, entries in enumerate(self._system.entries):
             for row, factor in entries.items():
-                if factor:
-                    found[row].append((column, factor))
+                if np.any(factor):
+                    found[row].append((column, factor[:, None] if isinstance(factor, np.ndarray) else factor))
         return found
 
     @cached_property
     def _blocks(self) -> list[tuple[tuple[int, ...], tuple[int, ...], Reals]]:
         """Displacements that are found together, the gaps that give them, and the inverse of what joins them."""
         found = []
-        for rows, columns in reversed(blocks(tuple(tuple(entries) for entries in self._entries))):
-            matrix = np.array([[self._entries[column].get(row, 0.0) for row in rows] for column in columns])
-            found.append((rows, columns, np.linalg.inv(matrix)))
+        entries = self._system.entries
+        for rows, columns in reversed(blocks(tuple(tuple(each) for each in entries))):
+            matrix = np.zeros((self._system.mechanism.rows, len(columns), len(rows)))
+            for i, column in enumerate(columns):
+                for j, row in enumerate(rows):
+                    matrix[:, i, j] = entries[column].get(row, 0.0)
+            found.append((rows, columns, _inverse(matrix)))
         return found
+
+
+def _inverse(matrix: Reals) -> Reals:
+    try:
+        return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise NoSolution("the errors have no end: two links of the mechanism stand in line") from None
+
+
+def _upright(part: Any, done: dict[int, Reals]) -> Any:
+    """A mechanism or a part of it with its rows one below the other, so that machines stand side by side.
+
+    Parameters
+        done : by identity of an array, what became of it: what is one array stays one
+    """
+    if isinstance(part, np.ndarray):
+        return done.setdefault(id(part), part[:, None])
+    if isinstance(part, Rates):
+        return type(part)(*(_upright(each, done) for each in part))
+    if isinstance(part, Mapping):
+        return {name: _upright(each, done) for name, each in part.items()}
+    if isinstance(part, (list, tuple)):
+        return [_upright(each, done) for each in part]
+    if is_dataclass(part) and not isinstance(part, type):
+        parts = {each.name: _upright(getattr(part, each.name), done) for each in fields(part) if each.init}
+        return replace(part, **parts)
+    return part
 
 
 class _Moved:
     """Where the links of a mechanism stand: displacements of their origins and turns, and errors of their elements."""
 
-    def __init__(self, mechanism: Mechanism, errors: list[tuple[Shift, Any]]) -> None:
+    def __init__(self, mechanism: Mechanism, errors: Errors) -> None:
         self.nominal = mechanism
-        self.count = max((np.size(error) for _, error in errors), default=1)
-        self.place = {name: np.zeros(self.count, dtype=np.complex128) for name in (FRAME, *mechanism.links)}
-        self.turn = {name: np.zeros(self.count) for name in (FRAME, *mechanism.links)}
+        self.shape = mechanism.rows, max((np.size(error) for _, error in errors), default=1)
+        self.place: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0j)
+        self.turn: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0.0)
         self.spun: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0j)
         self._shifts: dict[tuple[str, str], list[tuple[Shift, Any]]] = {}
         for shift, error in errors:
             for joint in joints_of(mechanism, shift.link, shift.joints):
                 self._shifts.setdefault((shift.link, joint.name), []).append((shift, error))
 
-    def by(self, step: Reals) -> None:
+    def by(self, step: Sequence[Reals]) -> None:
         """Move the links on, three displacements each."""
         for k, name in enumerate(self.nominal.links):
-            self.place[name] = self.place[name] + step[3 * k] + 1j * step[3 * k + 1]
+            way = np.empty(self.shape, dtype=np.complex128)
+            way.real, way.imag = step[3 * k], step[3 * k + 1]
+            self.place[name] = self.place[name] + way
             self.turn[name] = self.turn[name] + step[3 * k + 2]
             self.spun[name] = _spin(self.turn[name])
 
     def refuse(self, rows: Any) -> None:
         """Take out what does not come to rest."""
-        for name in self.turn:
+        for name in self.nominal.links:
             self.turn[name] = np.where(rows, math.nan, self.turn[name])
             self.place[name] = np.where(rows, math.nan, self.place[name])
 
@@ -167,16 +212,29 @@ class _Moved:
 
     def of(self, link: str, joint: str, at: Points | complex) -> Any:
         """By how much the element that a joint has on a link at a place stands elsewhere [mm]."""
-        body = self.nominal.link(link)
+        body, shifts = self.nominal.link(link), self._shifts.get((link, joint))
+        if shifts is None and (link == FRAME or at is origin_of(body)):
+            return self.place[link]
         arm, spun = at - origin_of(body), self.spun[link]
-        found = self.place[link] + arm * spun
-        for shift, error in self._shifts.get((link, joint), ()):
-            if shift.turned:
-                off = arm * _spin(complex(shift.way).real * error) * (1.0 + spun)
+        if shifts is None:
+            return self.place[link] + arm * spun
+        # on the link the element is turned first, about its origin, and then moved as it lies
+        askew = _spin(sum(complex(shift.way).real * error for shift, error in shifts if shift.turned))
+        moved: Any = arm * askew
+        beside: Any = 0.0
+        for shift, error in (each for each in shifts if not each[0].turned):
+            if shift.frame == "link":
+                moved = moved + shift.way * error * unit_of(body) * (1.0 + askew)
             else:
-                off = shift.way * error * (unit_of(body) * (1.0 + spun) if shift.frame == "link" else 1.0)
-            found = found + off
-        return found
+                beside = beside + shift.way * error * (self._normals[joint] if shift.frame == "normal" else 1.0)
+        return self.place[link] + arm * spun + moved * (1.0 + spun) + beside
+
+    @cached_property
+    def _normals(self) -> dict[str, Points]:
+        """By roller, the normal of its cam where neither has errors."""
+        return {
+            each.name: each.normal for each in self.nominal.connections if isinstance(each, (Contact, SharedContact))
+        }
 
     def turned(self, link: str, joint: str) -> Any:
         """By how much the element has turned too far [rad]."""
@@ -245,6 +303,9 @@ class _Moved:
 
 
 def _spin(turn: Any) -> Any:
-    """e^(i t) - 1, exact for small turns."""
+    """e^(i t) - 1, exact for small turns and right for those of less than half a turn."""
+    if not np.any(turn):
+        return 0j
     half = np.sin(0.5 * turn)
-    return -2.0 * half * half + 1j * np.sin(turn)
+    square = half * half
+    return -2.0 * square + 2j * (half * np.sqrt(1.0 - square))

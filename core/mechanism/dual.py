@@ -31,14 +31,15 @@ class Shift:
         link : str - a link, or the frame
         joints : names of joints that the link has
         way : complex - by how much they move per unit of the error; of a turned one its real part [rad]
-        frame : "link", in whose coordinates that is and which carries it along, or "frame"
+        frame : "link", in whose coordinates that is and which carries it along, "frame", or "normal": along that of a
+            roller on its cam, away from the cam
         turned : bool - they turn about the origin of the link, counter-clockwise
     """
 
     link: str
     joints: tuple[str, ...]
     way: complex = 1.0
-    frame: Literal["link", "frame"] = "link"
+    frame: Literal["link", "frame", "normal"] = "link"
     turned: bool = False
 
     def scaled(self, factor: float) -> Shift:
@@ -119,6 +120,10 @@ class Dual:
         """Error of the output per unit of an error of one direction."""
         if shift.turned:
             return np.asarray(self.force(shift.link, shift.joints)[1] * complex(shift.way).real)
+        if shift.frame == "normal":
+            pressed = sum(self.forces[name][0] for name in shift.joints)
+            on_roller = all(each.second == shift.link for each in joints_of(self.touching, shift.link, shift.joints))
+            return np.asarray(pressed * complex(shift.way).real * (1.0 if on_roller else -1.0))
         return self.vector_gain(shift).real
 
     def vector_gain(self, shift: Shift) -> Points:

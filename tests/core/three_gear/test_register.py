@@ -1,4 +1,5 @@
-"""Register of the three-gear drive: gains against Richardson differences made elsewhere and against the exact chain.
+"""Register of the three-gear drive: by duality against gains derived by hand, those against Richardson differences made
+elsewhere and against an exact chain of their own.
 
 Tolerances: the reference differences carry 2e-8 of their own; the exact chain over +-h differs by h^2 and eps/h.
 """
@@ -14,13 +15,13 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design
+from oracles.three_gear_chain import Errors, output_error
+from oracles.three_gear_gains import Drive, register_gains
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration
-from gearlink.core.three_gear.register.chain import Errors, output_error
-from gearlink.core.three_gear.register.gains import Drive, register_gains
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 GAINS = [case for case in CASES if case["input"]["what"] == "drive-gains"]
@@ -96,6 +97,68 @@ def test_gains_are_the_slopes_of_the_exact_chain(given: list[Any], sign: int) ->
             ]
             slope = (getattr(gains, name) * direction).real
             assert (ends[0] - ends[1]) / (2.0 * step) == pytest.approx(slope, abs=2e-7), part
+
+
+def _register(given: list[Any], **register: Any) -> Any:
+    """The register of a drive with every source."""
+    crank_teeth, idler, output, module, crank, frame, assembly = given
+    sources: dict[str, Any] = {key: {"plus_minus": 0.05} for key in OF_SIZES}
+    sources |= {f"pins.{pin}": {"clearance": [0.0, 0.1]} for pin in "ABCD"}
+    sources |= {f"gears.{gear}": {"eccentricity": 0.05} for gear in ("crank", "idler", "output")}
+    gears = {"module": module, "crank": crank_teeth, "idler": idler, "output": output}
+    made = {"kind": "three-gear-four-bar", "name": "a", "gears": gears, "links": {"crank": crank, "frame": frame}}
+    more = {"assembly": int(assembly), "tolerance": {"sources": sources}, "register": {"at": 0} | register}
+    return design(made | more, command="register")
+
+
+OF_SIZES = {
+    "links.crank": "crank",
+    "links.frame": "frame",
+    "centers.crank_idler": "crank_idler",
+    "centers.idler_output": "idler_output",
+}
+OF_OTHERS = {
+    "pins.A": "pin_a",
+    "pins.B": "crank_idler",
+    "pins.C": "idler_output",
+    "pins.D": "pin_d",
+    "gears.crank": "crank_gear",
+    "gears.idler": "idler",
+    "gears.output": "output_gear",
+}
+
+
+@pytest.mark.parametrize("given", DRIVES)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_gains_by_duality_are_those_derived_by_hand(given: list[Any], sign: int) -> None:
+    made, angles = _register(given), np.linspace(0.2, 6.2, 7)
+    drive = replace(_drive(given), train=made.design.train)
+    gains = register_gains(drive, angles, sign)
+    for one in made.contributions(angles, sign):
+        wanted = getattr(gains, (OF_SIZES | OF_OTHERS)[one.source])
+        assert one.gain == pytest.approx(wanted, abs=1e-12), one.source
+
+
+@pytest.mark.parametrize("given", DRIVES)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_whole_chain_is_the_one_closed_by_hand(given: list[Any], sign: int) -> None:
+    """Errors of 0.05 mm at once, away from where the output hardly follows."""
+    made, angles, random = _register(given), np.linspace(0.2, 6.2, 7), np.random.default_rng(1)
+    parts = {
+        source.key: 0.05 * (random.uniform(-1.0, 1.0, 5) * np.exp(6j * random.uniform(size=5)) if vector else
+                            random.uniform(-1.0, 1.0, 5))
+        for source in made.sources
+        for vector in [source.coordinates == 2 and source.key not in ("pins.B", "pins.C")]
+    }  # fmt: skip
+    drive = replace(_drive(given), train=made.design.train)
+    by_hand = {OF_SIZES[key]: parts[key] for key in OF_SIZES}
+    by_hand["crank_idler"] = by_hand["crank_idler"] + parts["pins.B"]
+    by_hand["idler_output"] = by_hand["idler_output"] + parts["pins.C"]
+    by_hand |= {"loop": parts["pins.A"] - parts["pins.D"]} | {
+        OF_OTHERS[key]: parts[key] for key in OF_OTHERS if key.startswith("gears")
+    }
+    found = made.sampled_errors(angles, sign, parts)
+    assert found == pytest.approx(output_error(drive, angles[:, None], sign, Errors(by_hand)), abs=1e-11)
 
 
 def test_a_pin_in_the_frame_gains_by_the_transmission_angle() -> None:
@@ -185,7 +248,7 @@ def test_a_shaft_lags_under_the_load_of_either_kind_of_train() -> None:
         assert made.output_torque(1.0) == 2.0
         way = math.copysign(1.0, made.design.mean_ratio)
         (twist,) = (row for row in made.contributions(np.array([1.0]), 1) if row.source.startswith("wind-up"))
-        assert twist.gain[0] * way == pytest.approx(-made.drive.radius * 2.0 / 500.0, rel=1e-12)
+        assert twist.gain[0] * way == pytest.approx(-made.radius * 2.0 / 500.0, rel=1e-12)
 
 
 def test_a_torque_of_inertia_needs_a_speed() -> None:

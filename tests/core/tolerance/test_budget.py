@@ -10,6 +10,7 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.register.samples import sampled_share
 from gearlink.core.tolerance.budget import Contribution, budget, normal_band
 from gearlink.core.tolerance.shares import COMPUTED_BY
 
@@ -96,7 +97,7 @@ def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
         COMPUTED_BY.reset(token)
     ((_, _, text),) = sent
     assert json.loads(text) == json.loads(made.spec.model_dump_json(exclude_unset=True, by_alias=True))
-    here = np.mean([made.sampled_share(number) for number in range(2)], axis=0)
+    here = np.mean([sampled_share(made, number) for number in range(2)], axis=0)
     assert found == [float(one.max()) for one in here]
 
 

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from oracles.loop_gains import closed_pin
 
 from gearlink.core.flatbed_press.chains import BedChain
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.loop_gains import closed_pin
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Points, Reals
 
@@ -51,7 +51,7 @@ def register_error(lift: RackLift, input_angle: Reals, errors: PressErrors) -> R
     Notes
         Angles are deviations from the chains without errors, so no branch is lost.
     Source
-        own derivation; agrees with `gearlink.core.flatbed_press.register` to first order
+        own derivation; agrees with `press_gains` to first order
     """
     bed, cylinder = lift.motion.bed, lift.motion.cylinder
     turned = _turn(bed.linkage, bed.initial_crank_angle + input_angle, "bed", "ABC", "D", errors)

@@ -76,7 +76,7 @@ def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> Regist
     Notes
         The idler is in balance, so its two meshes touch on opposite flanks. A ring has a negative radius; its play
         closes as the centre distance grows. Without one |V| = 1/cos(gamma/2), gamma the transmission angle. Against the
-        exact chain of `register_chain` the error falls a hundredfold for every tenfold smaller error of the parts.
+        exact chain of `three_gear_chain` the error falls a hundredfold for every tenfold smaller error of the parts.
     Example
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)

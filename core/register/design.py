@@ -1,42 +1,45 @@
-"""What the register budgets of all machines share: the sources, the two torque signs, the tables, the checks."""
+"""The register budget of a machine: sources, stretch, the two torque signs, tables and checks."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from functools import lru_cache, partial
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, named
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.mechanism.chain import Chain
+from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.register.gains import Errors, Gains, Moves, Output
+from gearlink.core.register.samples import SIGNS, own_errors, places, sampled_band, sampled_errors
 from gearlink.core.report import Check, Status, Table, safely_above
 from gearlink.core.results import cached_property
-from gearlink.core.tolerance.budget import Budget, Contribution, budget, counted
+from gearlink.core.tolerance.budget import Budget, Contribution, budget
 from gearlink.core.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
-from gearlink.core.tolerance.correlation import coordinate_root, of_sizes, together
-from gearlink.core.tolerance.sampling import replication, rounded_up
-from gearlink.core.tolerance.shares import is_shared, of_replications
+from gearlink.core.tolerance.correlation import of_sizes
 from gearlink.core.tolerance.sources import Parts, Scatter, is_play, scatters
-from gearlink.core.tolerance.spec import Register, Tolerance
+from gearlink.core.tolerance.spec import Register
 
-SIGNS = (1, -1)
-_SAMPLES = 16_384
-_SAMPLED_PLACES = 13
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.dual import Shift
+    from gearlink.core.mechanism.links import Mechanism
+
 _STEP = math.radians(0.5)
 
 
 class RegisterDesign(Design):
-    """The register budget of a machine, over a stretch of its cycle; a machine says its gains.
+    """The register budget of a machine, over a stretch of its cycle.
 
-    A machine gives `parts`, `stretch`, `contributions` and what it knows of torque and backlash.
+    A machine gives `parts`, `mechanism` and `output`, what its `errors` move, its `stretch`, and what it knows of
+    torque and backlash.
     """
 
     default_at: ClassVar[str]
     turning: ClassVar[str] = "torque on the output"
+    words: ClassVar[str] = "the output"
+    """What its sources move."""
     outlines: ClassVar[dict[str, Outline]] = {
         "register": Outline(
             ("worst", "rss", "band", "dead_band", "flips"),
@@ -54,6 +57,30 @@ class RegisterDesign(Design):
         """What may scatter beside the keys of the file."""
         raise NotImplementedError
 
+    def mechanism(self, input_angle: Reals) -> Mechanism:
+        """Links and joints at input angles [rad]."""
+        raise NotImplementedError
+
+    def output(self, input_angle: Reals) -> Output:
+        """What is looked at, out of the links at input angles [rad], which may stand one below the other."""
+        raise NotImplementedError
+
+    sizes: ClassVar[Errors] = {}
+    """By size of the file, or centre distance, what it moves."""
+    pins: ClassVar[Errors] = {}
+    """By pin, what its play moves, where that is not the element on the first link: along a link, or in the frame."""
+    gears: ClassVar[Mapping[str, str]] = {}
+    """By gear, its link."""
+
+    @property
+    def errors(self) -> Errors:
+        """By size, what it moves, where that depends on the design as well."""
+        return self.sizes
+
+    def own_gain(self, _key: str, _input_angle: Reals) -> Reals | None:
+        """Gain of a size on which the output depends beside the links."""
+        return None
+
     def stretch(self, at: str) -> tuple[float, float]:
         """First and last input angle [rad] of a place by name.
 
@@ -62,9 +89,54 @@ class RegisterDesign(Design):
         """
         raise NotImplementedError
 
+    # Gains
+
+    @cached_property
+    def moves(self) -> Moves:
+        """What the sources move."""
+        return Moves(self.errors, self.pins, self.gears, self.words)
+
+    def shifts(self, source: Scatter, mechanism: Mechanism) -> tuple[Shift, ...]:
+        """What a source moves; nothing where the output alone depends on it."""
+        if source.kind == "size" and self.own_gain(source.key, np.zeros(1)) is not None:
+            return ()
+        return self.moves.of(source, mechanism)
+
+    def gains(self, input_angle: Reals, torque_sign: int) -> Gains:
+        """The gains over input angles."""
+        return Gains(self.mechanism(input_angle), self.output(input_angle), self.moves, torque_sign)
+
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
         """Every source along input angles."""
-        raise NotImplementedError
+        return self.of_sources(self.gains(input_angle, torque_sign), input_angle)
+
+    def of_sources(self, gains: Gains, input_angle: Reals) -> list[Contribution]:
+        """Every source of the file."""
+        found = []
+        for source in self.sources:
+            own = self.own_gain(source.key, input_angle) if source.kind == "size" else None
+            found.append(contribution(source, gains.of(source) if own is None else own))
+        return found
+
+    def chain(self, input_angle: Reals, torque_sign: int) -> Chain:
+        """The chain over input angles, for what carries at a torque sign; without meshes that is one for both."""
+        key = input_angle.tobytes()
+        if (key, torque_sign) not in self._chains:
+            gains = self.gains(input_angle, torque_sign)
+            chain = Chain(gains.mechanism, gains.dual.sides)
+            self._chains |= {(key, sign): chain for sign in SIGNS if sign == torque_sign or not gains.dual.sides}
+        return self._chains[key, torque_sign]
+
+    @cached_property
+    def _chains(self) -> dict[tuple[bytes, int], Chain]:
+        """The chains that replications look at again and again."""
+        return {}
+
+    def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of machines as made at some input angles; (places, N) array [mm]."""
+        return sampled_errors(self, input_angle, torque_sign, parts)
+
+    # Torque and backlash
 
     @property
     def backlash(self) -> dict[str, float]:
@@ -169,79 +241,27 @@ class RegisterDesign(Design):
             return self.sampled_band
         return [float(one.band.max()) for one in self.budgets]
 
-    # Samples of the whole chain
+    @cached_property
+    def sampled_places(self) -> Reals:
+        """Input angles at which samples are closed [rad]."""
+        return places(self.input_angles)
+
+    @cached_property
+    def own_errors(self) -> list[list[Contribution]]:
+        """What the machine adds there to the sources of the file, for either torque sign."""
+        return own_errors(self, self.sampled_places)
 
     @cached_property
     def sampled_band(self) -> list[float]:
         """What 99.73 % of the samples of the whole chain keep, to either side, for either torque sign [mm]."""
-        _ = self.correlations, self.input_angles  # refused before anything is sampled
-        share = partial(_share_of, type(self), type(self.spec), self._text) if is_shared() else self.sampled_share
-        found = np.mean(list(of_replications(share)), axis=0)
-        return [float(one.max()) for one in found]
-
-    def sampled_share(self, number: int) -> Reals:
-        """The band at some places of the stretch by one replication; (2, places) array [mm]."""
-        section: Tolerance = self.spec.tolerance
-        count = rounded_up(section.samples or _SAMPLES)
-        chosen = self.input_angles[_spread(self.input_angles.size)]
-        own = self._own_errors(chosen)
-        width = sum(one.coordinates for one in self.sources)
-        points = replication(width + len(own[0]), count, section.seed, number)
-        parts = self._parts_of(together(points[:, :width], coordinate_root(section, self.sources)))
-        bands = []
-        for sign, beside in zip(SIGNS, own, strict=True):
-            errors = self.sampled_errors(chosen, sign, parts)
-            if chosen.size > 1:
-                errors = errors - errors[0]
-            bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
-        return np.array(bands)
-
-    def _own_errors(self, chosen: Reals) -> list[list[Contribution]]:
-        """What the machine adds to the sources of the file, for either torque sign, as it counts over the stretch."""
-        keys = {one.key for one in self.sources}
-        start = 0 if chosen.size > 1 else None
-        return [
-            [
-                replace(one, gain=counted(one, start))
-                for one in self.contributions(chosen, sign)
-                if one.source not in keys
-            ]
-            for sign in SIGNS
-        ]
-
-    def _parts_of(self, points: Reals) -> dict[str, Any]:
-        """Errors of the parts in all samples, by source: sizes, and of pins and gears vectors."""
-        found: dict[str, Any] = {}
-        at = 0
-        for source in self.sources:
-            part = points[:, at : at + source.coordinates]
-            at += source.coordinates
-            size = source.law.deviations(part[:, 0])
-            if source.coordinates == 2:
-                half = 0.5 if source.kind == "pin" else 1.0
-                size = half * size * np.exp(2j * math.pi * part[:, 1])
-            found[source.key] = size
-        return found
-
-    def sampled_errors(self, _input_angle: Reals, _torque_sign: int, _parts: Mapping[str, Any]) -> Reals:
-        """Errors of machines as made at some input angles; (places, N) array [mm].
-
-        Raises
-            NoSolution - for machines whose chain is linear alone
-        """
-        raise NoSolution("this machine's register has no Monte-Carlo: take method rss or worst", key="register.method")
-
-    @property
-    def _text(self) -> str:
-        """The design file as text, for what is computed elsewhere."""
-        return str(self.spec.model_dump_json(exclude_unset=True, exclude_none=True, by_alias=True))
+        return sampled_band(self)
 
     # Tables
 
     def table_budget(self, _samples: int | None = None) -> Table:
         """Every source where the whole is greatest, for either torque sign where they differ, the greatest first."""
         both = list(zip(SIGNS, self.budgets, strict=True))
-        if both[0][1].rows == both[1][1].rows:  # nothing depends on the flank that carries
+        if are_alike(*self.budgets):
             both = both[:1]
         rows = [
             (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
@@ -254,8 +274,6 @@ class RegisterDesign(Design):
 
     def table_cycle(self, samples: int | None = None) -> Table:
         """Absolute error over the whole cycle, for either torque sign."""
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
         columns = {
@@ -268,8 +286,6 @@ class RegisterDesign(Design):
 
     def table_sources(self, samples: int | None = None) -> Table:
         """What each source costs at its limit over the whole cycle, absolute, for either torque sign."""
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
         columns = {
@@ -332,35 +348,12 @@ class RegisterDesign(Design):
         return "brake the output, or preload the gears"
 
 
-@lru_cache(maxsize=4)
-def _made(register: type[RegisterDesign], model: type[Any], text: str) -> RegisterDesign:
-    return register(model.model_validate_json(text))
-
-
-def _share_of(register: type[RegisterDesign], model: type[Any], text: str, number: int) -> Reals:
-    made = _made(register, model, text)  # type: ignore[arg-type]  # mypy takes a class for unhashable
-    return made.sampled_share(number)
-
-
-def _spread(count: int) -> Any:
-    """Places spread over a stretch, its ends among them."""
-    return np.linspace(0, count - 1, min(count, _SAMPLED_PLACES)).astype(int)
-
-
-def _scattered(own: Sequence[Contribution], points: Reals) -> Any:
-    """Errors by gains: what all machines have alike, and normal scatter about it; (places, N) array."""
-    from gearlink.core.tolerance.laws import Law
-
-    found: Any = 0.0
-    for one, share in zip(own, points.T, strict=True):
-        law = Law("normal", -one.limit, one.limit, one.mean, one.sigma)
-        found = found + np.real(one.gain)[:, None] * law.deviations(share)
-    return found
-
-
-def _band(errors: Reals) -> float:
-    ordered = np.sort(np.abs(errors))
-    return float(ordered[min(ordered.size - 1, math.ceil(0.9973 * ordered.size) - 1)])
+def are_alike(one: Budget, other: Budget) -> bool:
+    """Whether nothing depends on the flank that carries: what is below rounding is not the flank's."""
+    return all(
+        np.allclose(a, b, rtol=1e-9, atol=1e-12, equal_nan=True)
+        for a, b in ((one.band, other.band), (one.worst, other.worst))
+    )
 
 
 def mean_square(source: Scatter) -> float:

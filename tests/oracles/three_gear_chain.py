@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from oracles.loop_gains import closed_pin
+from oracles.three_gear_gains import Drive, gear_angles, signs
 
 from gearlink.core.gears.tooth.involute_sweep import involute
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.loop_gains import closed_pin
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.three_gear.register.gains import Drive, gear_angles, signs
 
 _STEPS = 12
 

@@ -3,40 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.standstills import zeros_over_turn
+from gearlink.core.mechanism.dual import Shift
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.register.design import RegisterDesign, no_such_place
+from gearlink.core.register.gains import turning
 from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import changed
 from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
 from gearlink.core.three_gear.design import ThreeGearFourBar
-from gearlink.core.three_gear.register.chain import Errors, output_error
-from gearlink.core.three_gear.register.gains import Drive, register_gains
 from gearlink.core.three_gear.synthesis.back_step import BackStepSynthesis
 from gearlink.core.three_gear.synthesis.dwell import DwellSynthesis
 from gearlink.core.three_gear.synthesis.momentary import MomentaryDwellSynthesis
 from gearlink.core.three_gear.synthesis.variable_speed import VariableSpeedSynthesis
 from gearlink.core.tolerance.budget import Contribution
-from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
 from gearlink.core.tolerance.sources import Parts
 
 if TYPE_CHECKING:
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.register.gains import Output
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
-_SIZES = {
-    "links.crank": "crank",
-    "links.frame": "frame",
-    "centers.crank_idler": "crank_idler",
-    "centers.idler_output": "idler_output",
-}
-_GEARS = {"crank": "crank_gear", "idler": "idler", "output": "output_gear"}
-_PINS = {"A": "pin_a", "B": "crank_idler", "C": "idler_output", "D": "pin_d"}
+_OF_IDLER = (Shift("coupler", ("B",), -1.0),)  # a longer coupler: the crank side stands back
+_OF_OUTPUT = (Shift("rocker", ("D",), -1.0),)
 _SYNTHESES = {
     "synth dwell": DwellSynthesis,
     "synth back-step": BackStepSynthesis,
@@ -51,6 +46,14 @@ class ThreeGearRegister(RegisterDesign):
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
     default_at = "dwell"
+    sizes = {
+        "links.crank": (Shift("crank", ("B", "mesh_13")),),
+        "links.frame": (Shift("frame", ("D", "D_output")),),
+        "centers.crank_idler": _OF_IDLER,
+        "centers.idler_output": _OF_OUTPUT,
+    }
+    pins = {"B": _OF_IDLER, "C": _OF_OUTPUT, "D": (Shift("frame", ("D", "D_output"), 1.0, "frame"),)}
+    gears = {"crank": "crank", "idler": "idler", "output": "output"}
 
     def __init__(self, spec: Any) -> None:
         asked = spec.syntheses() if spec.links is None else ()
@@ -70,11 +73,22 @@ class ThreeGearRegister(RegisterDesign):
         return ThreeGearSamples(self.design).parts
 
     @cached_property
-    def drive(self) -> Drive:
-        """The drive at the radius that is asked for."""
-        design, gears = self.design, self.spec.gears
-        radius = self.section.radius or 0.5 * gears.module * abs(design.output_teeth)
-        return Drive(design.linkage, design.train, math.radians(gears.pressure_angle), radius)
+    def radius(self) -> float:
+        """Radius at which the error of the output is measured [mm]."""
+        return self.section.radius or self._reference
+
+    @property
+    def _reference(self) -> float:
+        """Reference radius of the output gear [mm]."""
+        return 0.5 * self.spec.gears.module * abs(self.design.output_teeth)
+
+    def mechanism(self, input_angle: Reals) -> Mechanism:
+        """The five links."""
+        return self.design.moving.make(input_angle, 1, 1)
+
+    def output(self, _input_angle: Reals) -> Output:
+        """The circle of the output gear, as the output is counted."""
+        return turning("output", self.radius, self.design.train.sense)
 
     def stretch(self, at: str) -> tuple[float, float]:
         """The dwell: within the tolerance where the file gives one, else phi13."""
@@ -90,21 +104,8 @@ class ThreeGearRegister(RegisterDesign):
         return start, start + length
 
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
-        """Every source of the file that moves the output."""
-        gains = register_gains(self.drive, input_angle, torque_sign)
-        found = []
-        for source in self.sources:
-            group, _, name = source.key.partition(".")
-            if source.kind == "gear":
-                found.append(contribution(source, getattr(gains, _GEARS[name])))
-            elif source.kind == "pin":
-                found.append(contribution(source, getattr(gains, _PINS[name])))
-            elif source.key in _SIZES:
-                found.append(contribution(source, getattr(gains, _SIZES[source.key])))
-            else:
-                raise NoSolution(
-                    f"{group}.{name} does not move the output: leave it out of a register", key="tolerance.sources"
-                )
+        """Every source of the file, and the wind-up of the output's shaft."""
+        found = super().contributions(input_angle, torque_sign)
         if self.section.stiffness is not None and self.output_torque is not None:
             found.append(self._wind_up(input_angle))
         return found
@@ -115,7 +116,7 @@ class ThreeGearRegister(RegisterDesign):
         assert self.section.stiffness is not None
         torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
         counted = self._ahead.sense * self.design.train.sense
-        gain = -counted * self.drive.radius * torque / self.section.stiffness
+        gain = -counted * self.radius * torque / self.section.stiffness
         return Contribution("wind-up of the output shaft", gain, 1.0, 0.0, mean=1.0)
 
     # Torque and backlash
@@ -130,8 +131,7 @@ class ThreeGearRegister(RegisterDesign):
         """The jump at the radius that is asked for [mm]."""
         if not self.backlash:
             return None
-        reference = 0.5 * self.spec.gears.module * abs(self.design.output_teeth)
-        return sum(self.backlash.values()) * self.drive.radius / reference
+        return sum(self.backlash.values()) * self.radius / self._reference
 
     @property
     def _by_inertia_alone(self) -> bool:
@@ -190,28 +190,3 @@ class ThreeGearRegister(RegisterDesign):
         rate = speed * math.pi / 30.0
         most = section.output_inertia * rate * rate * max(abs(extremes.greatest), abs(extremes.least))
         return f"a friction torque above {most:.4g} N m on the output keeps the sign"
-
-    # Monte-Carlo of the exact chain
-
-    def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-        """Errors of the output by the exact chain."""
-        return output_error(self.drive, input_angle[:, None], torque_sign, Errors(self._errors(parts)))
-
-    def _errors(self, parts: Mapping[str, Any]) -> dict[str, Any]:
-        """Errors by the names of the chain."""
-        found: dict[str, Any] = {}
-        for source in self.sources:
-            name, error = source.key.partition(".")[2], parts[source.key]
-            if source.kind in ("size", "center"):
-                _add(found, _SIZES[source.key], error)
-            elif source.kind == "gear":
-                _add(found, _GEARS[name], error)
-            elif name in ("A", "D"):
-                _add(found, "loop", error if name == "A" else -error)
-            else:
-                _add(found, _PINS[name], error.real)
-        return found
-
-
-def _add(found: dict[str, Any], name: str, value: Any) -> None:
-    found[name] = found[name] + value if name in found else value
