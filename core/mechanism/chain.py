@@ -48,11 +48,11 @@ class Chain:
         mechanism : Mechanism - of R rows
         sides : by mesh the sign of its tangential force, (R,) arrays - `Dual.sides`
     Example
-        >>> from gearlink.core.linkages.fourbar.loads import four_bar, four_bar_pins
+        >>> from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
         >>> from gearlink.core.linkages.fourbar.position import FourBar, solve
         >>> bar, longer = FourBar(18.0, 50.0, 100.0, 121.4), FourBar(18.0, 51.0, 100.0, 121.4)
         >>> links = four_bar(bar, np.array([1.0]))
-        >>> chain = Chain(Mechanism(links, four_bar_pins(links, bar), "crank"), {})
+        >>> chain = Chain(Mechanism(links, four_bar_pins(links), "crank"), {})
         >>> turned = chain.output(lambda made: made.links["rocker"].turn, [(Shift("coupler", ("C",)), 1.0)])
         >>> bool(abs(turned[0, 0] - (solve(longer, 1.0).rocker_angle - solve(bar, 1.0).rocker_angle)) < 1e-14)
         True

@@ -458,7 +458,7 @@ class TestBatch:
     ) -> None:
         for name in ("a", "b"):
             (tmp_path / f"{name}.yaml").write_text(CRANK)
-        from gearlink.cli.batch import one_file
+        from gearlink.cli.batch import pool as one_file
 
         original = one_file.build
 

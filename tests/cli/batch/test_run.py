@@ -412,7 +412,7 @@ def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, m
 
 def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Designs know their parts and these the design: 0.3 MB of each file of wide swings stayed."""
-    from gearlink.cli.batch import one_file
+    from gearlink.cli.batch import pool as one_file
 
     asked: list[int] = []
 

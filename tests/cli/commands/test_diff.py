@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from conftest import ROOT
 
-from gearlink.cli.commands import result_file
+from gearlink.cli.commands import diff as result_file
 from gearlink.cli.commands.diff_page import show_difference
 from gearlink.cli.commands.difference import Change, Difference, relative_change, same
 from gearlink.cli.options import Options

@@ -128,7 +128,7 @@ def test_what_a_killed_run_leaves_on_the_disk_is_continued(
     """Its files as they stand while a chunk is computed, which is all that is left of a process that is killed then."""
     store, killed = tmp_path / "s.sqlite", tmp_path / "killed.sqlite"
     ran: list[int] = []
-    from gearlink.cli.exploring import computing
+    from gearlink.cli.exploring import run as computing
 
     real = computing.computed
 
@@ -157,7 +157,7 @@ def test_finished_chunks_are_not_computed_again(
         connection.execute("DELETE FROM chunk WHERE id = 3")
     connection.close()
     ran: list[int] = []
-    from gearlink.cli.exploring import computing
+    from gearlink.cli.exploring import run as computing
 
     real = computing.computed
     monkeypatch.setattr(computing, "computed", lambda text, number: ran.append(number) or real(text, number))
@@ -240,7 +240,7 @@ PARENT = os.getpid()
 def test_a_worker_that_dies_is_replaced_and_the_culprit_named(
     gearlink: Any, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gearlink.cli.exploring import computing
+    from gearlink.cli.exploring import run as computing
 
     monkeypatch.setattr(computing, "computed", dies)
     monkeypatch.setattr(computing, "_survives", lambda _, first, last: not first <= 150 < last)

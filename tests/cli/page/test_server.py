@@ -22,10 +22,10 @@ from factory import design
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+from gearlink.cli.commands import watch as server
 from gearlink.cli.commands.watch import Board, _make, run_watch, served
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
-from gearlink.cli.page import server
 from gearlink.cli.page.sections import whole_page
 from gearlink.cli.page.sheets import Remembered, sheet
 

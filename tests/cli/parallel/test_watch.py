@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.parallel import shares, watch
+from gearlink.cli.parallel import shares
 from gearlink.cli.parallel.shares import TooLong, Watch
 from gearlink.core.tolerance.shares import of_replications, seen
 
@@ -27,7 +27,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
     made = Clock()
-    monkeypatch.setattr(watch, "monotonic", made)
+    monkeypatch.setattr(shares, "monotonic", made)
     return made
 
 
@@ -100,7 +100,7 @@ def threads(count: int) -> Iterator[Any]:
 def test_a_long_first_share_is_left_to_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shares, "processors", lambda: 2)
     monkeypatch.setattr("gearlink.cli.parallel.workers.workers", threads)
-    monkeypatch.setattr(watch, "_FIRST_LOOK", -1.0)
+    monkeypatch.setattr(shares, "_FIRST_LOOK", -1.0)
     monkeypatch.setattr(shares, "_WORTH_SECONDS", -1.0)
     assert _found(0) == list(range(16))
 
