@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.report import Check
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Mask, Reals
 
 
 @dataclass(frozen=True, slots=True)

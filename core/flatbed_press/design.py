@@ -19,8 +19,8 @@ from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantit
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank.design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.linkages.slider_crank.position import SliderCrank
+from gearlink.core.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Check, Table, safely_above
 from gearlink.core.results import cached_property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.slider_crank.position import SliderCrank, slider
+from gearlink.core.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.remedies.ways import down, either, up
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
     from gearlink.core.linkages.standstills import Turning
 
-SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
 _SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES, "dead_center_extended_at", "dead_center_folded_at")
 _MOTION = (
     "forward_angle",
@@ -31,16 +31,6 @@ _MOTION = (
     "return_time",
     *SLIDER_SPEEDS,
 )
-
-
-class SliderCrankQuantities:
-    """Quantities of a design that has a `slider_crank`."""
-
-    crank_length: float = placed("slider_crank.crank_length")
-    quick_return_ratio: float = placed("slider_crank.quick_return_ratio")
-    dead_center_extended: float = placed("slider_crank.dead_center_extended")
-    dead_center_folded: float = placed("slider_crank.dead_center_folded")
-    max_stroke: float = placed("slider_crank.max_stroke")
 
 
 class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
