@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.cams.profile import profile, profile_points, translating
 from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.parts.cams.profile import profile, profile_points, translating
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]

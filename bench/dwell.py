@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.three_gear.dwell.momentary_dwell import momentary_frame_length
-from gearlink.core.three_gear.many import symmetric as symmetric_many
-from gearlink.core.three_gear.sweep import momentary_dwells
-from gearlink.core.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_frame_length
+from gearlink.core.machines.three_gear.many import symmetric as symmetric_many
+from gearlink.core.machines.three_gear.sweep import momentary_dwells
+from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
 
 Array = NDArray[np.float64]
 SIZES = (1, 1000, 100_000)
@@ -131,9 +131,9 @@ def nested_search(r1: float, r3: float, r5: float, eccentricity: float) -> float
     """Frame length at which the least output speed of the turn is zero: a search over frames round one over angles."""
     from scipy.optimize import brentq, minimize_scalar
 
-    from gearlink.core.linkages.fourbar import position as fourbar
-    from gearlink.core.linkages.fourbar.position import FourBar
-    from gearlink.core.three_gear.motion import GearTrain
+    from gearlink.core.machines.three_gear.motion import GearTrain
+    from gearlink.core.parts.linkages.fourbar import position as fourbar
+    from gearlink.core.parts.linkages.fourbar.position import FourBar
 
     train = GearTrain(r1, r3, r5)
     b, c = r1 + r3, r3 + r5

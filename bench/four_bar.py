@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.linkages.fourbar import newton as fourbar_newton
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 Array = NDArray[np.float64]
 LINKAGE = FourBar(18.0, 50.0, 100.0, 121.4)

@@ -8,11 +8,11 @@ from functools import partial
 from typing import Any
 
 from bench.timing import Family, Method, measure, mpmath
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.shifts.contour import BlockingContour
-from gearlink.core.gears.shifts.search import PairTask, candidates, pairs_of_teeth
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.shifts.contour import BlockingContour
+from gearlink.core.parts.gears.shifts.search import PairTask, candidates, pairs_of_teeth
 
 TASK = PairTask(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0, 4.0, 5.0))
 _MOST = 100

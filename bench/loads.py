@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from bench.timing import Family, Method, measure, mpmath, numpy_pass
-from gearlink.core.loads.flywheel import Energy
-from gearlink.core.loads.motor import MotorRun
-from gearlink.core.loads.panels import Panels
-from gearlink.core.loads.vibration import Oscillator, Panelled
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.loads.flywheel import Energy
+from gearlink.core.studies.loads.motor import MotorRun
+from gearlink.core.studies.loads.panels import Panels
+from gearlink.core.studies.loads.vibration import Oscillator, Panelled
 
 ROWS = 360
 TURN = 2.0 * math.pi

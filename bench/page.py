@@ -82,7 +82,7 @@ def draw(family: Family, path: Path) -> None:
     """Work-precision diagram: error over time each, both axes logarithmic; each point bears its method's number."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    from gearlink.cli.figures.drawing import style
+    from gearlink.cli.views.figures.drawing import style
 
     figure = style.figure(9.0, 5.5, "\n".join(wrap(family.title, 72)))
     FigureCanvasAgg(figure)

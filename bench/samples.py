@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from bench.timing import Family, Method, Row, measure, numpy_pass
-from gearlink.core.design import in_unit
-from gearlink.core.nomenclature import term
-from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
-from gearlink.core.three_gear.design import ThreeGearFourBar
-from gearlink.core.three_gear.spec import ThreeGearSpec
+from gearlink.core.base.design import in_unit
+from gearlink.core.base.nomenclature import term
+from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+from gearlink.core.machines.three_gear.spec import ThreeGearSpec
 
 _FEW = 12
 _ASKED = ("speed_ratio_min", "back_step_angle", "dwell_swing", "dwell_angle", "tolerance_dwell_angle")

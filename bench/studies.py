@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from bench.timing import Family, Method, Row, measure, numpy_pass
-from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one
-from gearlink.core.explore.preparing import problem
-from gearlink.core.explore.problem import CHUNK, Problem
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.chunks import chunk_of, evaluated, one_by_one
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.explore.problem import CHUNK, Problem
+from gearlink.core.studies.study.spec import StudySpec
 
 _GEARS = {
     "gears.crank": {"from": 20, "to": 60, "also": ["gears.output"]},

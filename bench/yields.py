@@ -11,7 +11,7 @@ import numpy as np
 
 from bench.timing import Family, Method, Row, measure, numpy_pass
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.tolerance.sampling import REPLICATIONS, estimate, replications
+from gearlink.core.studies.tolerance.sampling import REPLICATIONS, estimate, replications
 
 _SEEDS = 8
 _FAR = 7.0 / math.sqrt(2.0)

@@ -26,7 +26,7 @@ from gearlink.cli.export.register import register as register_export
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
 from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
 

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 Offer: TypeAlias = list[tuple[str, str]]
 _KIND = re.compile(r"^\W*kind\W+([\w-]+)", re.MULTILINE)
@@ -24,7 +24,7 @@ _LINES = ("COMP_WORDS", "_TYPER_COMPLETE_ARGS")
 
 def kinds(incomplete: str) -> Offer:
     """Kinds of design files."""
-    from gearlink.core.kinds import FILES
+    from gearlink.core.base.kinds import FILES
 
     return _beginning(incomplete, ((kind.name, kind.summary) for kind in FILES.values()))
 
@@ -40,21 +40,21 @@ def explained(incomplete: str) -> Offer:
 
 def laws(incomplete: str) -> Offer:
     """Names of the motion laws."""
-    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+    from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
 
     return _beginning(incomplete, ((name, "") for name in (*REST_TO_REST, *REST_TO_SPEED)))
 
 
 def charts(incomplete: str) -> Offer:
     """Names of the design charts."""
-    from gearlink.cli.figures.chart_list import CHARTS
+    from gearlink.cli.views.figures.chart_list import CHARTS
 
     return _beginning(incomplete, ((name, "") for name in CHARTS))
 
 
 def quantities(incomplete: str) -> Offer:
     """Quantities of the design file on the line, with what they mean."""
-    from gearlink.core.nomenclature import TERMS, term
+    from gearlink.core.base.nomenclature import TERMS, term
 
     names = _of_design("quantity_names") or TERMS
     return _beginning(incomplete, ((name, term(name).words) for name in names))
@@ -144,7 +144,7 @@ def _of_design(names: str) -> tuple[str, ...]:
 
 def _design() -> tuple[Kind | None, list[str]]:
     """The kind of the first design file on the line, and the words of the line."""
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.base.kinds import KINDS
 
     words = _words()
     for text in _texts(words):
@@ -155,7 +155,7 @@ def _design() -> tuple[Kind | None, list[str]]:
 
 def _kinds() -> list[Kind]:
     """The kind of the first design file on the line; without one, all kinds."""
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.base.kinds import KINDS
 
     kind, _ = _design()
     return [*KINDS.values()] if kind is None else [kind]

@@ -12,15 +12,15 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
-from gearlink.core.design import UnknownName
-from gearlink.core.errors import NoSolution
-from gearlink.core.kind import FileDesigns, Kind
-from gearlink.core.kinds import FILES, STUDY
+from gearlink.core.base.design import UnknownName
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kind import FileDesigns, Kind
+from gearlink.core.base.kinds import FILES, STUDY
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.report import Report
-    from gearlink.core.study.faults import WrongStudy
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.report import Report
+    from gearlink.core.studies.study.faults import WrongStudy
 
 
 def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
@@ -105,7 +105,7 @@ def refusals_located(loaded: LoadedFile) -> Iterator[None]:
 
 
 def _wrong_study() -> type[WrongStudy]:
-    from gearlink.core.study.faults import WrongStudy
+    from gearlink.core.studies.study.faults import WrongStudy
 
     return WrongStudy
 
@@ -147,7 +147,7 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     if command in kind.commands:
         return
     message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
-    from gearlink.core.kinds import FILES
+    from gearlink.core.base.kinds import FILES
 
     serves = [name for name, other in FILES.items() if command in other.commands]
     help = f"`{command}` serves {', '.join(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 
 from gearlink.cli import process
 from gearlink.cli.printable import visible
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 TYPE_CHECKING = False  # as typing has it
 if TYPE_CHECKING:

@@ -15,16 +15,16 @@ from gearlink.cli.evaluate import require_command
 from gearlink.cli.reading.design_file import load as load_file
 from gearlink.cli.reading.design_file import parse, read_kind, validate, with_overrides
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.design import UnknownName
-from gearlink.core.errors import GearlinkError, NoSolution, named
-from gearlink.core.kind import FileDesigns
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.design import UnknownName
+from gearlink.core.base.errors import GearlinkError, NoSolution, named
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gearlink.core.design import Design
-    from gearlink.core.report import Quantity
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.report import Quantity
 
     class Shown(Quantity):
         """A quantity whose value is of the type that its name brings: a number, a text, a list."""
@@ -112,7 +112,7 @@ def figure(design: Design, command: str | None = None) -> Figure:
         NoSolution - where the sheet shows something that the design does not have
         TypeError - without a command for a design that was not opened for one
     """
-    from gearlink.cli.figures.write import draw
+    from gearlink.cli.views.figures.write import draw
 
     wanted = _origin(design)[1] if command is None else command
     if not (isinstance(wanted, str) and wanted in design.outlines):

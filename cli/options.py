@@ -11,7 +11,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gearlink.core.numerics.rows import FEWEST_ROWS, MOST_ROWS
+from gearlink.core.base.rows import FEWEST_ROWS, MOST_ROWS
 
 STREAM = Path("-")
 """Standard output, where a file is asked for."""
@@ -186,4 +186,4 @@ COMMANDS = {
     "synth variable-speed": "Size the linkage for an output speed that varies between two values.",
     "synth momentary-dwell": "Size the frame for one momentary standstill per turn.",
 }
-"""The commands on one design file and what each does; `gearlink.core.kinds` says which kind understands which."""
+"""The commands on one design file and what each does; `gearlink.core.base.kinds` says which kind understands which."""

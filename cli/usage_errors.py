@@ -201,7 +201,7 @@ def _value_after(arguments: Sequence[str], names: Sequence[str]) -> str:
 
 def _of_law(message: str) -> str:
     """The option that takes the name of a law, and the laws where it is none."""
-    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+    from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
 
     name = message.rpartition("(")[2].rstrip(").").split(" ")[0]
     known = (*REST_TO_REST, *REST_TO_SPEED)

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from gearlink.cli.texts import indexing, known
 from gearlink.cli.verification import page
-from gearlink.core.kinds import FILES
-from gearlink.core.nomenclature import TERMS
+from gearlink.core.base.kinds import FILES
+from gearlink.core.base.nomenclature import TERMS
 
 TARGET = Path(__file__).parent / "nomenclature.md"
 VALIDATION = Path(__file__).parent / "validation.md"

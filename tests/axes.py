@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.explore.chunks import evaluated, one_by_one
-from gearlink.core.explore.preparing import problem
-from gearlink.core.explore.problem import Problem
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.chunks import evaluated, one_by_one
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.explore.problem import Problem
+from gearlink.core.studies.study.spec import StudySpec
 
 
 def sampled(

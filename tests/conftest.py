@@ -214,7 +214,7 @@ def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures of commands are empty ones, where a test asks which files there are and not what they show."""
     from matplotlib.figure import Figure
 
-    monkeypatch.setattr("gearlink.cli.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
+    monkeypatch.setattr("gearlink.cli.views.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
 
 
 @pytest.fixture

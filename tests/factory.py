@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import yaml
 
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
 

@@ -15,7 +15,7 @@ import numpy as np
 from factory import changed, design, worked
 from sweeps import mostly_slow
 
-from gearlink.cli.figures.write import draw, panels
+from gearlink.cli.views.figures.write import draw, panels
 
 
 class Sheet(NamedTuple):

@@ -131,7 +131,7 @@ def test_make_targets_of_the_readme_exist() -> None:
 def test_demo_fits_a_screen(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Both results of `make demo`, the lines that make shows of them and what it says, on 24 lines of 80."""
     monkeypatch.setenv("COLUMNS", "80")
-    monkeypatch.setattr("gearlink.cli.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
+    monkeypatch.setattr("gearlink.cli.views.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
     recipe = subprocess.run(["make", "-n", "demo"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     lines = [line for line in recipe.splitlines() if re.match(r"\S+/gearlink |echo", line)]
     commands = [line.split()[1:] for line in lines if not line.startswith("echo")]

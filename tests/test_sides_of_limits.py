@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 from factory import DESIGNS, each_kind, worked
 
-from gearlink.core.kinds import KINDS
-from gearlink.core.linkages.checks import dwell_edge_check
-from gearlink.core.report import Check, Rule
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.report import Check, Rule
+from gearlink.core.parts.linkages.checks import dwell_edge_check
 
 
 def findings(name: str) -> Iterator[Check]:

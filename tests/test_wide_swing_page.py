@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from factory import DESIGNS, design
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.nomenclature import TERMS
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
-from gearlink.core.wide_swing.law.iteration import legacy_law
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.nomenclature import TERMS
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.law.iteration import legacy_law
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "wide_swing.md"
 NODES = (2, 4, 8, 16, 32, 64)

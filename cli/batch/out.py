@@ -18,8 +18,8 @@ from gearlink.cli.render.json_report import as_json
 
 if TYPE_CHECKING:
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.core.design import Design
-    from gearlink.core.report import Report
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.report import Report
 
 
 def write_results(source: Path, design: Design, report: Report, options: BatchOptions) -> tuple[str, ...]:
@@ -41,7 +41,7 @@ def write_results(source: Path, design: Design, report: Report, options: BatchOp
         written.append(Path(f"{results}-{table.name}.csv"))
         write_atomically(written[-1], lambda stream, data=data: stream.write(data))  # type: ignore[misc]
     if options.design.plot:
-        from gearlink.cli.figures.write import write_plot
+        from gearlink.cli.views.figures.write import write_plot
 
         drawn = options.design._replace(out=folder)
         written.append(write_plot(report.command, design, drawn, stem=stem, checks=report.checks))

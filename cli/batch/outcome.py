@@ -8,7 +8,7 @@ from typing import Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.reading.diagnostics import Diagnostic
-from gearlink.core.report import Check, Report
+from gearlink.core.base.report import Check, Report
 
 
 @dataclass(frozen=True, slots=True)

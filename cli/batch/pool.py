@@ -24,12 +24,12 @@ from gearlink.cli.parallel.workers import workers
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.kind import FileDesigns
-from gearlink.core.report import Remedy, Report
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.report import Remedy, Report
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
 
 
 # Every command that one design file of a batch asks for; nothing that it does can end the batch

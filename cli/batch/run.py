@@ -13,7 +13,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.reading.places import design_files
-from gearlink.core.wording import amount
+from gearlink.core.base.wording import amount
 
 
 def run_batch(places: Sequence[str], options: BatchOptions) -> int:

@@ -9,7 +9,7 @@ from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.batch.outcome import Outcome, summary
 from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT, as_plain
-from gearlink.core.wording import amount
+from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -15,12 +15,12 @@ from gearlink.cli.patience import patience
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
-from gearlink.cli.scenes.loops import build, moves, moving_kinds, pictures_for
+from gearlink.cli.views.scenes.loops import build, moves, moving_kinds, pictures_for
 
 if TYPE_CHECKING:
-    from gearlink.cli.moving.stage import Stage
-    from gearlink.cli.scenes.scene import Scene
-    from gearlink.core.design import Design
+    from gearlink.cli.views.films.stage import Stage
+    from gearlink.cli.views.scenes.scene import Scene
+    from gearlink.core.base.design import Design
 
 _SIZE = re.compile(r"(\d{3,4})x(\d{3,4})")
 _LEAST_SIZE, _MOST_SIZE = 160, 3840
@@ -42,7 +42,7 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
     try:
         width, height = _size(asked.size)
         if asked.format == "mp4":
-            from gearlink.cli.moving.video import ffmpeg
+            from gearlink.cli.views.films.video import ffmpeg
 
             ffmpeg()
         with patience(f"drawing {source}", quiet=options.quiet):
@@ -85,26 +85,26 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _stage(design: Design, scene: Scene, width: int, height: int) -> Stage:
-    from gearlink.cli.moving.stage import Stage
+    from gearlink.cli.views.films.stage import Stage
 
     return Stage(scene, design.spec.name, width, height)
 
 
 def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> None:
     if asked.format == "html":
-        from gearlink.cli.moving.page import page
+        from gearlink.cli.views.films.page import page
 
         stream.write(page(stage, asked.fps).encode())
         return
-    from gearlink.cli.moving.raster import Raster
+    from gearlink.cli.views.films.raster import Raster
 
     raster, count = Raster(stage), stage.count
     pictures = counted(range(count), "drawing", quiet=options.quiet)
     if asked.format == "mp4":
-        from gearlink.cli.moving.video import write_mp4
+        from gearlink.cli.views.films.video import write_mp4
 
         write_mp4(stream, raster, asked.fps, pictures)
     else:
-        from gearlink.cli.moving.gif import write_gif
+        from gearlink.cli.views.films.gif import write_gif
 
         write_gif(stream, raster, count, asked.fps, pictures)

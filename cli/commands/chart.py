@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.commands.design import print_report, written_beside
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.figures.chart_list import CHARTS, DesignChart, Marked
 from gearlink.cli.files import CannotWrite, require_folder, wrote
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.lists import listed
-from gearlink.core.errors import NoSolution, at_key, named
-from gearlink.core.report import Report
+from gearlink.cli.views.figures.chart_list import CHARTS, DesignChart, Marked
+from gearlink.core.base.errors import NoSolution, at_key, named
+from gearlink.core.base.report import Report
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.design import ThreeGearFourBar
+    from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 
 _LINK_TOLERANCE = 1e-3
 
@@ -57,7 +57,7 @@ def run_chart(asked: Asked, options: Options) -> int:
     print_report(report, options)
 
     def draw() -> None:
-        from gearlink.cli.figures.design_charts import write_chart
+        from gearlink.cli.views.figures.design_charts import write_chart
 
         path = write_chart(chart, report.tables[0], curves, marked, options)
         if not options.quiet:

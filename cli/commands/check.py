@@ -18,13 +18,13 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
-from gearlink.core.design import Outline
-from gearlink.core.kind import FileDesigns
-from gearlink.core.report import Check
+from gearlink.core.base.design import Outline
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.report import Check
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
 
 # Starting processes costs some hundredths of a second.
 _WORTH_SECONDS = 0.15

@@ -12,7 +12,7 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text
 from gearlink.cli.render.errors import fitted
 from gearlink.cli.render.json_report import FORMAT, plain_check
-from gearlink.core.wording import amount
+from gearlink.core.base.wording import amount
 
 _STATUSES = ("pass", "warn", "fail", "error", "fault")
 _HEADS = ("file", "line", "column", "key", "status", "code", "check", "command", "value", "limit", "unit", "message")

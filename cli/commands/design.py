@@ -17,13 +17,13 @@ from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
-    from gearlink.core.report import Report
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.base.report import Report
 
 
 def run_design(command: str, source: str, options: Options) -> int:
@@ -115,7 +115,7 @@ def _save(loaded: LoadedFile, kind: Kind, command: str, design: Design, options:
 
 def plot(command: str, design: Design, options: Options, report: Report) -> None:
     """Write the design's figure, with what its report finds wrong, and say where."""
-    from gearlink.cli.figures.write import write_plot
+    from gearlink.cli.views.figures.write import write_plot
 
     with patience(f"drawing {report.name}", quiet=options.quiet):
         path = write_plot(command, design, options, checks=report.checks)

@@ -18,12 +18,12 @@ from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.places import is_named_pipe, piped
 from gearlink.cli.render.json_report import as_plain
-from gearlink.core.report import Report
-from gearlink.core.wording import amount
+from gearlink.core.base.report import Report
+from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
 
 
 # A result that was kept as JSON, read as what it may be: another program's, edited, or no result at all

@@ -11,7 +11,7 @@ from gearlink.cli.commands.difference import Change, Difference, same
 from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT
-from gearlink.core.wording import amount
+from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -12,11 +12,11 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, listed
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
-from gearlink.core.errors import named
+from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
-    from gearlink.core.report import Rule
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.base.report import Rule
 
 
 # Which names may have been meant by a word that nothing bears: those that hold it, and those that it misspells
@@ -141,8 +141,8 @@ def _told_of(point: str) -> Iterator[Topic]:
 
 def _topics(name: str) -> Iterator[Topic]:
     from gearlink.cli.texts.codes import explanations
-    from gearlink.core.kinds import FILES
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.kinds import FILES
+    from gearlink.core.base.nomenclature import TERMS
 
     texts = explanations()
     if name in texts:
@@ -165,7 +165,7 @@ def _topics(name: str) -> Iterator[Topic]:
 
 def _symbols(name: str) -> Iterator[Topic]:
     """The quantities that a symbol stands for in tables and formulas."""
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import TERMS
 
     for quantity, entry in TERMS.items():
         if name and name in (entry.symbol, *entry.symbol.split(", ")) and name != quantity:
@@ -175,7 +175,7 @@ def _symbols(name: str) -> Iterator[Topic]:
 
 def symbols() -> Iterator[tuple[str, str]]:
     """Symbols that are one word, each with the quantity that it stands for."""
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import TERMS
 
     for quantity, entry in TERMS.items():
         yield from ((symbol, quantity) for symbol in entry.symbol.split(", ") if symbol and " " not in symbol)
@@ -206,8 +206,8 @@ def names() -> tuple[str, ...]:
 def plain_names() -> tuple[str, ...]:
     """Codes, checks, kinds, quantities, laws, columns: what is known beside the keys of files."""
     from gearlink.cli.texts.codes import explanations
-    from gearlink.core.kinds import FILES
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.kinds import FILES
+    from gearlink.core.base.nomenclature import TERMS
 
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
@@ -233,7 +233,7 @@ def _check(name: str, text: Rule) -> Topic:
 
 def _kinds_with_checks(checks: tuple[str, ...]) -> str:
     """Kinds whose design class makes one of the checks, whether a command always shows it or a section calls for it."""
-    from gearlink.core.kinds import FILES
+    from gearlink.core.base.kinds import FILES
 
     makers = {kind for check in checks for kind in index().checks[check]}
     return ", ".join(kind for kind in FILES if kind in makers)
@@ -243,7 +243,7 @@ def _kinds_with_checks(checks: tuple[str, ...]) -> str:
 
 
 def _quantity(name: str) -> Topic:
-    from gearlink.core.nomenclature import term
+    from gearlink.core.base.nomenclature import term
 
     entry = term(name)
     paragraphs = {
@@ -276,7 +276,7 @@ def _kind(kind: Kind) -> Topic:
 
 
 def _law(name: str) -> Topic:
-    from gearlink.core.cams.laws import law
+    from gearlink.core.parts.cams.laws import law
 
     found = law(name)
     peaks = [("velocity Cv", found.peak_velocity), ("acceleration Ca", found.peak_acceleration)]
@@ -374,7 +374,7 @@ def _index(format: Format) -> str:
 def _unknown(subject: str, format: Format) -> int:
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import TERMS
 
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
     near = near_names(subject, [*(name.rpartition(".")[2] for name in everything), *everything])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.reading.diagnostics import Diagnostic
-from gearlink.core.report import Check
+from gearlink.core.base.report import Check
 
 _STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
 

@@ -12,7 +12,7 @@ from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.shifts.search import PairTask
+    from gearlink.core.parts.gears.shifts.search import PairTask
 
 
 @takes("format", "color", "quiet")
@@ -43,7 +43,7 @@ def gears(
 
     Example: gearlink gears --ratio 3.2 --center-distance 120
     """
-    from gearlink.core.gears.shifts.search import MODULES, PairTask
+    from gearlink.core.parts.gears.shifts.search import MODULES, PairTask
 
     task = PairTask(
         ratio=ratio,
@@ -66,8 +66,8 @@ def run_gears(task: PairTask, options: Options) -> int:
 
     from gearlink.cli.commands.design import print_report
     from gearlink.cli.patience import patience
-    from gearlink.core.gears.shifts.search import candidates, table_of
-    from gearlink.core.report import Report
+    from gearlink.core.base.report import Report
+    from gearlink.core.parts.gears.shifts.search import candidates, table_of
 
     with patience("searching for gears", quiet=options.quiet):
         found = candidates(task)
@@ -81,7 +81,7 @@ def run_gears(task: PairTask, options: Options) -> int:
 
 def _remedy(task: PairTask) -> str:
     """What may bring pairs; a large ratio is beyond all of them."""
-    from gearlink.core.gears.shifts.search import MOST_TEETH
+    from gearlink.core.parts.gears.shifts.search import MOST_TEETH
 
     fewest = task.least_teeth * abs(task.ratio + (-1.0 if task.internal else 1.0))
     if fewest > MOST_TEETH * (1.0 + task.tolerance):

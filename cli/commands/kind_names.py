@@ -5,9 +5,9 @@ from __future__ import annotations
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.errors import show_errors
-from gearlink.core.errors import named
-from gearlink.core.kind import Kind
-from gearlink.core.kinds import FILES
+from gearlink.core.base.errors import named
+from gearlink.core.base.kind import Kind
+from gearlink.core.base.kinds import FILES
 
 
 def kind_named(name: str) -> Kind | None:

@@ -13,7 +13,7 @@ from gearlink.cli.typer_options import offers, option, takes
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.diagnostics import Diagnostic
-    from gearlink.core.cams.laws import Law
+    from gearlink.core.parts.cams.laws import Law
 
 _WHERE = "<--law>"
 
@@ -43,8 +43,8 @@ def run_laws(names: Sequence[str], options: Options) -> int:
     from gearlink.cli.commands.design import plotted, print_report
     from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
     from gearlink.cli.render.errors import show_errors
-    from gearlink.core.cams.law_tables import LawChoice, MotionLaws
-    from gearlink.core.errors import NoSolution
+    from gearlink.core.base.errors import NoSolution
+    from gearlink.core.parts.cams.law_tables import LawChoice, MotionLaws
 
     chosen: list[Law] = []
     wrong: list[Diagnostic] = []
@@ -66,7 +66,7 @@ def run_laws(names: Sequence[str], options: Options) -> int:
 
 def _law(text: str) -> Law:
     """The law of a name, or of a mapping written as in a design file."""
-    from gearlink.core.cams.laws import law
+    from gearlink.core.parts.cams.laws import law
 
     definition: Any = text
     if text.lstrip().startswith("{"):

@@ -11,12 +11,12 @@ from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.worked_designs import worked_design
-from gearlink.core.kinds import FILES, KINDS
-from gearlink.core.spec_paths import part_at
+from gearlink.core.base.kinds import FILES, KINDS
+from gearlink.core.base.spec_paths import part_at
 
 if TYPE_CHECKING:
     from gearlink.cli.texts.spec_keys import SpecKey
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:

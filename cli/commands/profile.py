@@ -7,7 +7,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from gearlink.core.results import observed
+from gearlink.core.base.results import observed
 
 
 @dataclass(slots=True)

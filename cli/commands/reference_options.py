@@ -13,7 +13,7 @@ import typer
 
 from gearlink.cli.options import Format, Options, file, folder
 from gearlink.cli.typer_options import offers, option, place, takes
-from gearlink.core.kinds import FILES
+from gearlink.core.base.kinds import FILES
 
 
 class PageFormat(StrEnum):

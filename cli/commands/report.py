@@ -21,14 +21,14 @@ from gearlink.cli.patience import patience
 from gearlink.cli.quiet import without_notes
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
-from gearlink.core.errors import GearlinkError, NoSolution
-from gearlink.core.kind import FileDesigns
+from gearlink.core.base.errors import GearlinkError, NoSolution
+from gearlink.core.base.kind import FileDesigns
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
-    from gearlink.core.report import Report
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.base.report import Report
 
     Part = tuple[Design, Report]
 
@@ -103,7 +103,7 @@ class Section(NamedTuple):
 
 def run_report(source: str, options: Options) -> int:
     """Write NAME.html into the folder of the options and give the worst exit status of the design's commands."""
-    from gearlink.cli.page.sections import whole_page
+    from gearlink.cli.views.page.sections import whole_page
 
     try:
         loaded, kind = open_design(source, options)
@@ -161,8 +161,8 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
 
 
 def _section(part: Part | None, *, filmed: bool) -> Section | None:
-    from gearlink.cli.page import sections
-    from gearlink.cli.page.sheets import sheet
+    from gearlink.cli.views.page import sections
+    from gearlink.cli.views.page.sheets import sheet
 
     if part is None:
         return None
@@ -173,7 +173,7 @@ def _section(part: Part | None, *, filmed: bool) -> Section | None:
 
 
 def _body(text: str, spec: Any, made: Sequence[Section]) -> Iterator[str]:
-    from gearlink.cli.page import sections
+    from gearlink.cli.views.page import sections
 
     yield sections.head(spec, [section.report for section in made])
     yield made[0].film

@@ -19,8 +19,8 @@ from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.cli.texts.written_design import flow, written
-from gearlink.core.errors import NoSolution
-from gearlink.core.spec_paths import part_at, put
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec_paths import part_at, put
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from gearlink.cli.commands.suggest import Change
     from gearlink.cli.options import Options
     from gearlink.cli.reading.loaded_file import LoadedFile
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
-    from gearlink.core.report import Check
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.base.report import Check
 
 _KEY_ORDER = ("kind", "name", "input_speed")
 

@@ -13,7 +13,7 @@ from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
-from gearlink.core.kinds import FILES
+from gearlink.core.base.kinds import FILES
 
 PATTERNS = ("designs/**/*.yaml", "*.gearlink.yaml")
 """Names of files that an editor takes for design files."""

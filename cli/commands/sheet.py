@@ -16,15 +16,15 @@ from gearlink.cli.patience import patience
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
-from gearlink.core.errors import named
+from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.cli.figures.sheets.sheet_list import Makers
+    from gearlink.cli.views.figures.sheets.sheet_list import Makers
 
 
 def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
-    from gearlink.cli.figures.sheets.sheet_list import sheets_of
+    from gearlink.cli.views.figures.sheets.sheet_list import sheets_of
 
     try:
         loaded, kind = open_design(source, options)
@@ -60,14 +60,14 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
 
 
 def _who_has() -> str:
-    from gearlink.cli.figures.sheets.sheet_list import kinds
+    from gearlink.cli.views.figures.sheets.sheet_list import kinds
 
     return f"the kinds with sheets are {', '.join(kinds())}"
 
 
 def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
-    from gearlink.cli.figures.drawing.placing import settled
-    from gearlink.cli.figures.write import save
+    from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.write import save
 
     ending = options.plot_format.value
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"

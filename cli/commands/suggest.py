@@ -21,14 +21,14 @@ from gearlink.cli.patience import patience
 from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
-from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.bench import Bench
-from gearlink.core.report import Check, Remedy, Report
-from gearlink.core.spec_paths import changed, value_at
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.bench import Bench
+from gearlink.core.base.report import Check, Remedy, Report
+from gearlink.core.base.spec_paths import changed, value_at
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
 
 _ROUNDS = 8
 _NONE_FOUND = "none found with which every check passes"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
-from gearlink.core.errors import named
+from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.diagnostics import Diagnostic

@@ -23,13 +23,13 @@ from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
-from gearlink.core.errors import NoSolution
-from gearlink.core.kind import FileDesigns
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kind import FileDesigns
 
 if TYPE_CHECKING:
-    from gearlink.cli.page.sheets import Remembered
-    from gearlink.core.design import Design
-    from gearlink.core.report import Check, Report
+    from gearlink.cli.views.page.sheets import Remembered
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.report import Check, Report
 
     Stamp = tuple[int, int, int] | None
 
@@ -241,8 +241,8 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         port : int - 0 takes a free one
         show : bool - open the page in the browser
     """
-    from gearlink.cli.page.sections import watch_script, whole_page
-    from gearlink.cli.page.sheets import Remembered
+    from gearlink.cli.views.page.sections import watch_script, whole_page
+    from gearlink.cli.views.page.sheets import Remembered
 
     if source == "-":
         error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])
@@ -324,7 +324,7 @@ def _pieces(
     board: Board, sheets: Remembered, text: str, spec: Any, parts: list[tuple[Design, Report]]
 ) -> list[Callable[[], None]]:
     """The steps of making the page: the film, all numbers, then sheet by sheet, and again those whose panels moved."""
-    from gearlink.cli.page import sections
+    from gearlink.cli.views.page import sections
 
     names = [f"piece-{i}" for i in range(len(parts))]
     order = ["head", "film", *(name + kind for name in names for kind in ("-sheet", "-results")), "input"]

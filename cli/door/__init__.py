@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from gearlink.cli.opening import design as design
     from gearlink.cli.opening import figure as figure
     from gearlink.cli.opening import load as load
-    from gearlink.core.errors import GearlinkError as GearlinkError
-    from gearlink.core.errors import NoSolution as NoSolution
+    from gearlink.core.base.errors import GearlinkError as GearlinkError
+    from gearlink.core.base.errors import NoSolution as NoSolution
 
     __version__: str
 
@@ -24,8 +24,8 @@ _PLACES = {
     "design": ("gearlink.cli.opening", "design"),
     "changed": ("gearlink.cli.opening", "changed"),
     "figure": ("gearlink.cli.opening", "figure"),
-    "GearlinkError": ("gearlink.core.errors", "GearlinkError"),
-    "NoSolution": ("gearlink.core.errors", "NoSolution"),
+    "GearlinkError": ("gearlink.core.base.errors", "GearlinkError"),
+    "NoSolution": ("gearlink.core.base.errors", "NoSolution"),
     "__version__": ("gearlink.core.version", "VERSION"),
 }
 __all__ = ["GearlinkError", "NoSolution", "__version__", "changed", "design", "figure", "load"]

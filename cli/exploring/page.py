@@ -6,10 +6,10 @@ from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.numbers import number
 from gearlink.cli.render.terminal import console_for, grid_for, show_findings, show_grid, show_table
-from gearlink.core.explore.exploration import Exploration
-from gearlink.core.explore.front import SHOWN
-from gearlink.core.report import Report, Table
-from gearlink.core.wording import amount
+from gearlink.core.base.report import Report, Table
+from gearlink.core.base.wording import amount
+from gearlink.core.studies.explore.exploration import Exploration
+from gearlink.core.studies.explore.front import SHOWN
 
 
 def show(study: Exploration, report: Report, options: Options) -> None:

@@ -44,14 +44,14 @@ from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors, show_refusal
-from gearlink.core.explore.chunks import computed, designs_of, together
-from gearlink.core.explore.exploration import Exploration
-from gearlink.core.explore.front import Found
-from gearlink.core.explore.preparing import problem
-from gearlink.core.explore.problem import Problem
-from gearlink.core.report import Report
-from gearlink.core.study.faults import BrokenPromise, WrongStudy
-from gearlink.core.wording import amount
+from gearlink.core.base.report import Report
+from gearlink.core.base.wording import amount
+from gearlink.core.studies.explore.chunks import computed, designs_of, together
+from gearlink.core.studies.explore.exploration import Exploration
+from gearlink.core.studies.explore.front import Found
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.explore.problem import Problem
+from gearlink.core.studies.study.faults import BrokenPromise, WrongStudy
 
 # Computing the chunks of a study: here, in processes, or on a cluster; what is finished is kept at once
 

@@ -19,10 +19,10 @@ from typing import Any, Protocol
 
 from gearlink.cli.program import program
 from gearlink.cli.reading.places import is_named_pipe
-from gearlink.core.errors import GearlinkError
-from gearlink.core.explore.chunks import Chunk, Miss
-from gearlink.core.explore.preparing import problem_of
-from gearlink.core.explore.problem import Problem
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.studies.explore.chunks import Chunk, Miss
+from gearlink.core.studies.explore.preparing import problem_of
+from gearlink.core.studies.explore.problem import Problem
 
 Result = tuple[int, str, bytes]
 """Number of a chunk, and what `Chunk.counts` and `Chunk.data` gave."""

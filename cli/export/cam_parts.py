@@ -12,11 +12,11 @@ import numpy as np
 
 from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
-from gearlink.core.cams.checks import undercut_checks
-from gearlink.core.cams.disc_cam import DiscCam
+from gearlink.core.parts.cams.checks import undercut_checks
+from gearlink.core.parts.cams.disc_cam import DiscCam
 
 if TYPE_CHECKING:
-    from gearlink.core.wide_swing.cams.outline import AnyCam
+    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
 
 CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
 _TURN = 2.0 * math.pi
@@ -102,7 +102,7 @@ def swing_cam(name: str, design: Any) -> Part:
     Raises
         NoSolution - where the profile does not exist
     """
-    from gearlink.core.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.cams.outline import middle_of
 
     cam, mirror = _served(name, design)
     contact = design.contact_of(cam)
@@ -202,7 +202,7 @@ def closed_cam(name: str, design: Any) -> Part:
 
 
 def _of_sector(closed: Any, frame: Any, sector: int, low: float, high: float) -> Stretch:
-    from gearlink.core.wide_swing.cams.closed_cam import SECTORS
+    from gearlink.core.machines.wide_swing.cams.closed_cam import SECTORS
 
     def points(t: Reals) -> Points:
         return np.stack([frame(closed.contour_of(sector, t)), frame(closed.pitch_of(sector, t))])
@@ -230,6 +230,6 @@ def _closed_notes(closed: Any, cycle: Any, late: bool) -> tuple[str, ...]:
 
 def is_external(cam: AnyCam) -> bool:
     """Whether the cam's body lies inside its profile."""
-    from gearlink.core.wide_swing.cams import outline
+    from gearlink.core.machines.wide_swing.cams import outline
 
     return outline.is_external(cam)

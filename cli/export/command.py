@@ -20,7 +20,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal
-from gearlink.core.errors import GearlinkError, named
+from gearlink.core.base.errors import GearlinkError, named
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Contour

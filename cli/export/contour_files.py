@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.export.header import design_hash
 from gearlink.cli.export.options import FileFormat
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -39,10 +39,10 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
 
 
 def _svg(design: Any) -> bytes:
-    from gearlink.cli.figures.drawing import panels
-    from gearlink.cli.figures.drawing.placing import settled
-    from gearlink.cli.figures.gears.contour import contour_plot
-    from gearlink.cli.figures.write import save
+    from gearlink.cli.views.figures.drawing import panels
+    from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.gears.contour import contour_plot
+    from gearlink.cli.views.figures.write import save
 
     def made() -> Figure:
         figure = panels.page(design.spec.name, _SHARE)

@@ -16,7 +16,7 @@ from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 from gearlink.cli.quiet import without_notes
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.cli.export.sampling import Points, Reals
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 _FIRST_STEP = 0.5
 _MOST_SPANS = 500

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.gears.tooth.teeth import rim_radius
-from gearlink.core.kind import load
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.errors import MissingSection, at_key
+from gearlink.core.base.kind import load
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
-    from gearlink.core.gears.mesh.pair import GearPair
+    from gearlink.core.parts.gears.mesh.pair import GearPair
 
 Makers = dict[str, Callable[[], "Part"]]
 
@@ -225,7 +225,7 @@ def is_ring(mesh: Any) -> bool:
 
 def _planet(mesh: Any) -> GearPair:
     """The planet of an internal mesh without shift, as one of two equal external gears: its teeth are the same."""
-    from gearlink.core.gears.mesh.pair import GearPair
+    from gearlink.core.parts.gears.mesh.pair import GearPair
 
     teeth = (mesh.teeth[0], mesh.teeth[0])
     profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}

@@ -15,11 +15,11 @@ from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.export.parts import is_ring, pair_hands, train_hands
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.mesh_phase import signed_pair
-from gearlink.core.gears.train.meshed import Meshed
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+from gearlink.core.parts.gears.train.meshed import Meshed
 from gearlink.core.version import VERSION
 
 _VERSION = "1.7"

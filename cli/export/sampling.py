@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.export.options import CurveForm
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 Points = NDArray[np.complex128]
 Reals = NDArray[np.float64]

@@ -17,7 +17,7 @@ from gearlink.cli.export.helicoid import Turning, turning
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 from gearlink.cli.files import unfinished
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 _ARRAYS = {
     "gp_Pnt": ("TColgp", "TColgp_Array{}OfPnt"),

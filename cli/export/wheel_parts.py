@@ -12,13 +12,13 @@ import numpy as np
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.gear_parts import SENSES
 from gearlink.cli.export.sampling import Points, Reals, Stretch
-from gearlink.core.dwell_gears.wheel import end_tooth_radius
-from gearlink.core.gears.outline.tooth_profile import ToothProfile
+from gearlink.core.base.wording import amount
+from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.wording import amount
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
 
 if TYPE_CHECKING:
-    from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
+    from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
 
 _Curve = Callable[[Reals], Points]
 _Piece = tuple[str, _Curve, float, float]

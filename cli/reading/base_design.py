@@ -12,8 +12,8 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.reading.places import ENDINGS
 from gearlink.cli.reading.yaml_reader import Tree, format_path
-from gearlink.core.kinds import KINDS
-from gearlink.core.study.faults import Fault
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.studies.study.faults import Fault
 
 
 def with_base(loaded: LoadedFile, spec: Any) -> Any:

@@ -26,9 +26,9 @@ from gearlink.cli.reading.yaml_reader import (
     plain_value,
     read,
 )
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.spec_paths import LARGEST_SIZE, LEAST_SIZE, has_size
-from gearlink.core.wording import amount
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.spec_paths import LARGEST_SIZE, LEAST_SIZE, has_size
+from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

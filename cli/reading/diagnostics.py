@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from gearlink.cli.printable import glyphs, visible
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 MAX_SHOWN = 100
 _WINDOW = 100

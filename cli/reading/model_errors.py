@@ -16,7 +16,7 @@ from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
 from gearlink.cli.reading.model_shapes import allowed_range, fields_at, list_at, meaning_at, takes_truth_value, unit_at
 from gearlink.cli.reading.yaml_reader import format_path, plain_value
 from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
-from gearlink.core.wording import amount
+from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from gearlink.core.spec import Deferred, Entries
+from gearlink.core.base.spec import Deferred, Entries
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import KeyPath
@@ -54,7 +54,7 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """What a key is for: its words, its unit and limits, or the keys of a section; of an element those of its list.
 
     Example
-        >>> from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
+        >>> from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
         >>> meaning_at(SliderCrankSpec, ("rod",), {})
         'rod: connecting rod (mm, above 0)'
     """
@@ -100,7 +100,7 @@ def list_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[int, str,
     """Length of a list that has one, else 0; its entries with their unit; an example.
 
     Example
-        >>> from gearlink.core.gears.spec import GearPairSpec
+        >>> from gearlink.core.machines.gear_pair.spec import GearPairSpec
         >>> list_at(GearPairSpec, ("teeth",), {})
         (2, '[gear 1, gear 2]', '[25, 40]')
     """

@@ -9,7 +9,7 @@ from typing import IO
 
 from gearlink.cli import process
 from gearlink.cli.printable import cell
-from gearlink.core.report import Report, Table
+from gearlink.core.base.report import Report, Table
 
 
 def write_csv(report: Report, stream: IO[str]) -> None:

@@ -13,7 +13,7 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.json_report import FORMAT
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 _NARROWEST = 40
 _MESSAGE = r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: "  # the source line and its caret stay

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gearlink.cli.printable import json_text
-from gearlink.core.report import Check, Report
+from gearlink.core.base.report import Check, Report
 
 FORMAT = 1
 

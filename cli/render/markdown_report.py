@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from gearlink.cli.printable import visible
-from gearlink.core.report import Report
+from gearlink.core.base.report import Report
 
 
 def as_markdown(report: Report) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from gearlink.core.report import Report, Table, without_noise
+from gearlink.core.base.report import Report, Table, without_noise
 
 _NOISE = 1e-12  # of the scale: what a root is left with, in a table of seven digits
 _ROUNDING = 1e-13  # of the largest of a column

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlink.cli.printable import visible
 from gearlink.cli.render.markdown_report import text_of
-from gearlink.core.report import Report
+from gearlink.core.base.report import Report
 
 
 def as_lines(report: Report) -> str:

@@ -20,7 +20,7 @@ from rich.text import Text
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning, with_intervals
-from gearlink.core.report import Check, Quantity, Report, Table
+from gearlink.core.base.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from gearlink.core.codes import rules
-from gearlink.core.report import Rule
+from gearlink.core.base.codes import rules
+from gearlink.core.base.report import Rule
 
 # The codes GL1xx: what can be wrong with a design file or a command line
 

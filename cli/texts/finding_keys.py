@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 from gearlink.cli.texts.codes import explanations
-from gearlink.core.report import Check, remedy_words
+from gearlink.core.base.report import Check, remedy_words
 
 _PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.texts.known import Index
 from gearlink.cli.texts.worked_designs import worked_design
-from gearlink.core.kind import Kind
-from gearlink.core.kinds import FILES
+from gearlink.core.base.kind import Kind
+from gearlink.core.base.kinds import FILES
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 
 # The keys of a kind of design file as JSON Schema draft-07, made from its model
@@ -121,8 +121,8 @@ def _kept(definitions: dict[str, str], name: str, text: str) -> str:
 def made() -> Index:
     """The index of all kinds."""
     from gearlink.cli.texts.codes import explanations
-    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
-    from gearlink.core.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
 
     shown = _shown()
     checks = dict.fromkeys(check for text in explanations().values() for check in text.checks)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 Node = dict[str, Any]
 SCHEMAS = Path(__file__).parent / "schemas.json"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.texts.known import schema_parts
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 Node = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"

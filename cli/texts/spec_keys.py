@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.texts.schema import kind_schema
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 Node = dict[str, Any]
 _LOWER, _UPPER = (
@@ -105,7 +105,7 @@ def _narrowest(node: Node, bounds: tuple[tuple[str, str], ...], sign: float) -> 
 @cache
 def known_keys() -> list[tuple[SpecKey, list[str]]]:
     """Each key of files with the kinds that have it in the same words."""
-    from gearlink.core.kinds import FILES
+    from gearlink.core.base.kinds import FILES
 
     found: dict[tuple[str, str], tuple[SpecKey, list[str]]] = {}
     for kind in FILES.values():

@@ -1,7 +1,7 @@
 """What columns of tables and constants mean, and the formulas of quantities: the words of `words.json`.
 
 A column that bears the name of a quantity is that quantity, place by place. Formulas are in the symbols of
-`gearlink.core.nomenclature`; where a name serves several kinds of design, each has its part. Inputs have none.
+`gearlink.core.base.nomenclature`; where a name serves several kinds of design, each has its part. Inputs have none.
 """
 
 from __future__ import annotations

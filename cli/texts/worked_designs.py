@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink import designs
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 

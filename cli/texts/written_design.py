@@ -11,7 +11,7 @@ from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
 
 if TYPE_CHECKING:
-    from gearlink.core.kind import Kind
+    from gearlink.core.base.kind import Kind
 
 _PLAIN = re.compile(r"[A-Za-z_][\w/.-]*( [\w/.-]+)*")
 _NOT_TEXT = {"true", "false", "null", "yes", "no", "on", "off", "y", "n"}
@@ -32,7 +32,7 @@ def written(
     Returns
         text : str - read again, it gives the same data
     Example
-        >>> from gearlink.core.kinds import KINDS
+        >>> from gearlink.core.base.kinds import KINDS
         >>> print(written(KINDS["slider-crank"], {"kind": "slider-crank", "stroke": 310.0, "rod": 520}))
         kind: slider-crank   # an offset slider-crank given by its stroke or its crank
         stroke: 310          # mm: stroke of the slider; may be left out

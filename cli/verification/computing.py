@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.cli.verification.cases import Case, Number
 
 if TYPE_CHECKING:
-    from gearlink.core.design import Design
+    from gearlink.core.base.design import Design
 
 
 # What published cases compute that no design file asks for alone: a fixed set of functions by name
@@ -23,7 +23,7 @@ def four_bar(given: Given) -> Results:
 
     Angles in rad from the frame line, those of the coupler from the crank pin, of the rocker from its pivot.
     """
-    from gearlink.core.linkages.fourbar.position import FourBar, solve
+    from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
     crank, coupler, rocker, frame = (float(given[link]) for link in ("crank", "coupler", "rocker", "frame"))
     linkage = FourBar(crank, coupler, rocker, frame, given.get("assembly", 1))
@@ -37,7 +37,7 @@ def four_bar(given: Given) -> Results:
 
 def motion_law(given: Given) -> Results:
     """Constants of a law of motion, and its rise and derivatives at a share of the time."""
-    from gearlink.core.cams.laws import law
+    from gearlink.core.parts.cams.laws import law
 
     found = law(given["law"])
     return {
@@ -50,7 +50,7 @@ def motion_law(given: Given) -> Results:
 
 def iso_limits(given: Given) -> Results:
     """Limit deviations [um] of tolerance classes at a size, and standard tolerances of grades."""
-    from gearlink.core.tolerance.iso_286 import limit_deviations, standard_tolerance
+    from gearlink.core.studies.tolerance.iso_286 import limit_deviations, standard_tolerance
 
     return {
         "limits": [[1e3 * each for each in limit_deviations(given["size"], one)] for one in given.get("classes", ())],
@@ -60,14 +60,14 @@ def iso_limits(given: Given) -> Results:
 
 def cumulative_pitch(given: Given) -> Results:
     """Cumulative pitch tolerance [um] of ISO 1328-1."""
-    from gearlink.core.tolerance.iso_1328 import cumulative_pitch
+    from gearlink.core.studies.tolerance.iso_1328 import cumulative_pitch
 
     return {"F_p": 1e3 * cumulative_pitch(given["class"], given["module"], given["diameter"], given["width"])}
 
 
 def thickness_allowances(given: Given) -> Results:
     """Upper and lower tooth thickness allowance [um] of DIN 3967, of each reference diameter."""
-    from gearlink.core.gears.measures.allowances import thickness_allowances
+    from gearlink.core.parts.gears.measures.allowances import thickness_allowances
 
     found = [thickness_allowances(given["series"], diameter) for diameter in given["diameters"]]
     return {"allowances": [[1e3 * each for each in pair] for pair in found]}
@@ -75,7 +75,7 @@ def thickness_allowances(given: Given) -> Results:
 
 def bearing_clearance(given: Given) -> Results:
     """Least and greatest radial clearance [um] of deep groove ball bearings, ISO 5753-1."""
-    from gearlink.core.tolerance.bearings import radial_clearance
+    from gearlink.core.studies.tolerance.bearings import radial_clearance
 
     return {"clearance": [1e3 * each for each in radial_clearance(given["bore"], given["group"])]}
 
@@ -88,8 +88,8 @@ def flywheel(given: Given) -> Results:
     import numpy as np
     from numpy.typing import NDArray
 
-    from gearlink.core.loads.flywheel import Energy
-    from gearlink.core.loads.panels import Panels
+    from gearlink.core.studies.loads.flywheel import Energy
+    from gearlink.core.studies.loads.panels import Panels
 
     def load(angle: NDArray[np.float64]) -> NDArray[np.float64]:
         waves = [a * np.sin(n * angle) + b * np.cos(n * angle) for n, a, b in given["torque"]]
@@ -160,7 +160,7 @@ def computed(cases: Iterable[Case]) -> Iterator[Outcome]:
         >>> [(round(each.computed, 3), each.met) for each in computed([case])]
         [(28.035, True)]
     """
-    from gearlink.core.errors import GearlinkError
+    from gearlink.core.base.errors import GearlinkError
 
     for case in cases:
         try:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gearlink.cli.verification.computing import Outcome
-from gearlink.core.report import Quantity, Report, Table
+from gearlink.core.base.report import Quantity, Report, Table
 
 _NO_UNIT = "1"
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.mechanism.blocks import blocks
 from gearlink.core.mechanism.dual import Shift, Value, joints_of, on_flanks, origin_of, unit_of
 from gearlink.core.mechanism.dynamics import System
@@ -48,8 +48,8 @@ class Chain:
         mechanism : Mechanism - of R rows
         sides : by mesh the sign of its tangential force, (R,) arrays - `Dual.sides`
     Example
-        >>> from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
-        >>> from gearlink.core.linkages.fourbar.position import FourBar, solve
+        >>> from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
         >>> bar, longer = FourBar(18.0, 50.0, 100.0, 121.4), FourBar(18.0, 51.0, 100.0, 121.4)
         >>> links = four_bar(bar, np.array([1.0]))
         >>> chain = Chain(Mechanism(links, four_bar_pins(links), "crank"), {})

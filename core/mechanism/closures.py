@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.mechanism.rates import Point, Turn, cross, dot
 
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from gearlink.core.base.report import Table
 from gearlink.core.mechanism.links import FRAME, Mechanism
 from gearlink.core.mechanism.motion import Course, Motion
 from gearlink.core.numerics.arrays import Reals, turn_degrees
-from gearlink.core.report import Table
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points

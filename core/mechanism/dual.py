@@ -60,8 +60,8 @@ class Dual:
     Raises
         NoSolution - where two links stand in line
     Example
-        >>> from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
-        >>> from gearlink.core.linkages.fourbar.position import FourBar, solve
+        >>> from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
         >>> bar = FourBar(18.0, 50.0, 100.0, 121.4)
         >>> links = four_bar(bar, np.array([1.0]))
         >>> made = Mechanism(links, four_bar_pins(links), "crank")

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.mechanism.blocks import Block, blocks
 from gearlink.core.mechanism.joints import NEWTON_METER, Act, Column, meshes_of
 from gearlink.core.mechanism.links import FRAME, Mechanism

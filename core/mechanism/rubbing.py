@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 
 _PASSES, _PLAIN, _KEPT = 60, 4, 5

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 
 _BLOCK = 1024

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 _ROUNDING = 2.0**-40  # of x: steps so small that do not shrink are rounding
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0

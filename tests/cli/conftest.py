@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import pytest
 
-from gearlink.core.gears.shifts import contour
+from gearlink.core.parts.gears.shifts import contour
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _few_lines_of_blocking_contours() -> Iterator[None]:
     """Contours are traced on fewer diagonals: each takes a second at its full fineness, and what a sheet, a page or a
-    file shows of one does not depend on it. tests/core/gears/shifts/test_contour.py judges the lines."""
+    file shows of one does not depend on it. tests/core/parts/gears/shifts/test_contour.py judges the lines."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contour, "_DIAGONALS", 17)
         patch.setattr(contour, "_UPRIGHTS", 9)
@@ -22,4 +22,4 @@ def _few_lines_of_blocking_contours() -> Iterator[None]:
 @pytest.fixture
 def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())
+    monkeypatch.setattr("gearlink.core.base.remedies.bench.Bench.remedy", lambda *_: ())

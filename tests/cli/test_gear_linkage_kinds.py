@@ -10,7 +10,7 @@ import pytest
 from sheets import sheet
 from sweeps import ALL, mostly_slow
 
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 WORKED = {
     "gear-train-mobility": ["six_bar_two_trains"],

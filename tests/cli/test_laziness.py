@@ -110,29 +110,39 @@ def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str],
     """Scalar commands no numpy, sweeps no scipy and no matplotlib, neither rich nor Typer."""
     modules = loaded_after(*as_json(lines))
     assert installed(modules) <= READING | {"_yaml"} | besides
-    assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
+    assert not {name for name in modules if name.startswith(("gearlink.cli.views.figures", "gearlink.cli.app"))}
 
 
-_SEARCHES = {"explore", "study", "tolerance", "tolerance_study"}
-_DATA = {"gears.measures.backlash", "gears.mesh.ring_interference", "gears.drawing", "gears.measures.allowances"}
-_RINGS = {
-    "gears.mesh.internal_mesh",
-    "gears.mesh.ring_cutter",
-    "gears.mesh.ring_interference",
-    "gears.outline.mesh_phase",
+_SEARCHES = {"studies.explore", "studies.study", "studies.tolerance", "studies.tolerance_study"}
+_DATA = {
+    "parts.gears.measures.backlash",
+    "parts.gears.mesh.ring_interference",
+    "parts.gears.drawing",
+    "parts.gears.measures.allowances",
 }
-_TOOLS = {"gears.tooth.tools", "gears.tooth.root_fillet", "gears.data", "gears.rating.load"}
-_TRAINS = {"gears.train.meshes", "gears.train.key_sections", "gears.keys.sections", "gears.keys.pair"}
+_RINGS = {
+    "parts.gears.mesh.internal_mesh",
+    "parts.gears.mesh.ring_cutter",
+    "parts.gears.mesh.ring_interference",
+    "parts.gears.outline.mesh_phase",
+}
+_TOOLS = {"parts.gears.tooth.tools", "parts.gears.tooth.root_fillet", "parts.gears.data", "parts.gears.rating.load"}
+_TRAINS = {
+    "parts.gears.train.meshes",
+    "parts.gears.train.key_sections",
+    "parts.gears.keys.sections",
+    "parts.gears.keys.pair",
+}
 _SECTIONS = {
-    "gears.keys.sections",
-    "gears.train.key_sections",
-    "linkages.spec_sections",
-    "three_gear.synthesis.task_spec",
+    "parts.gears.keys.sections",
+    "parts.gears.train.key_sections",
+    "parts.linkages.spec_sections",
+    "machines.three_gear.synthesis.task_spec",
 }
 """Models of sections and keys that most files do not have: making them takes longer than most results."""
-_GENERAL = {f"three_gear.families.{name}" for name in ("external", "internal", "window_lengths")} | {
-    "three_gear.synthesis.candidates",
-    "three_gear.dwell.internal_dwell",
+_GENERAL = {f"machines.three_gear.families.{name}" for name in ("external", "internal", "window_lengths")} | {
+    "machines.three_gear.synthesis.candidates",
+    "machines.three_gear.dwell.internal_dwell",
 }
 
 
@@ -142,15 +152,15 @@ _GENERAL = {f"three_gear.families.{name}" for name in ("external", "internal", "
     [
         (
             "synth dwell designs/candy_feed.yaml",
-            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.symmetric.window_dwell"},
+            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"machines.three_gear.symmetric.window_dwell"},
         ),
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (
             "gear designs/ty460_input_gears.yaml",
-            _RINGS | {"gears.measures.backlash", "gears.drawing", "linkages", "cams"},
+            _RINGS | {"parts.gears.measures.backlash", "parts.gears.drawing", "parts.linkages", "parts.cams"},
         ),
-        ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"gears.mesh.pair", "cams"}),
-        ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"gears.mesh.pair", "loads.machine"}),
+        ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "parts.cams"}),
+        ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "studies.loads.machine"}),
     ],
 )
 def test_a_command_imports_no_room_that_it_does_not_enter(line: str, unused: set[str]) -> None:
@@ -169,7 +179,7 @@ def test_checks_of_scalar_designs_import_no_numpy() -> None:
 def test_help_imports_no_models() -> None:
     *_, modules = modules_after("--help", "synth --help")
     assert "numpy" not in modules
-    assert not {m for m in modules if m.startswith("gearlink.core.") and "spec" in m.rpartition(".")[2]}
+    assert not {m for m in modules if m.startswith("gearlink.core.") and "base.spec" in m.rpartition(".")[2]}
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
@@ -236,10 +246,10 @@ _EVALUATED = [
     ("press", "ty460", "sync_start", "slider_crank bed cylinder"),
     ("cam", "ty460", "follower_stroke", "slider_crank bed cylinder sync_start sync_end follower"),
     ("cam", "ty460", "cam_base_radius", "base_radius"),
-    ("gripper", "swing_gripper", "total_swing", "law"),
-    ("gripper", "swing_gripper", "handover_speed", "law state speed shaft_speed"),
-    ("gripper", "swing_gripper", "min_transmission_angle", "law linkage"),
-    ("cam", "swing_gripper", "max_pressure_angle", "law linkage section center main_cam return_cam"),
+    ("gripper", "machines.swing_gripper", "total_swing", "law"),
+    ("gripper", "machines.swing_gripper", "handover_speed", "law state speed shaft_speed"),
+    ("gripper", "machines.swing_gripper", "min_transmission_angle", "law linkage"),
+    ("cam", "machines.swing_gripper", "max_pressure_angle", "law linkage section center main_cam return_cam"),
     ("swing", "wide_swing_twin_cam", "energy_parameter", "swing device plain_law"),
     ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
     ("swing", "wide_swing_twin_cam", "spring_rate", "swing device plain_law"),
@@ -262,8 +272,8 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     # the file as completed and as read, whether to advise, the kind that made it, and a function: nothing worked out
-    given = ("spec", "asked", "advise", "kin", "_way_back")
-    parts = [each for name, each in vars(made).items() if hasattr(each, "spec") and name not in given]
+    given = ("base.spec", "asked", "advise", "kin", "_way_back")
+    parts = [each for name, each in vars(made).items() if hasattr(each, "base.spec") and name not in given]
     return {
         name
         for each in (made, *parts)

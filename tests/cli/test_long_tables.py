@@ -13,12 +13,12 @@ import pytest
 from factory import each_kind
 from sweeps import mostly_slow
 
-import gearlink.core.design
+import gearlink.core.base.design
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.options import Options
-from gearlink.core.design import Design
-from gearlink.core.errors import GearlinkError
-from gearlink.core.report import Table, TableInParts
+from gearlink.core.base.design import Design
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.report import Table, TableInParts
 
 DESIGNS = sorted((Path(__file__).resolve().parents[2] / "designs").glob("*.yaml"))
 SIZES = (37, 43)  # no table of fixed length has so many rows
@@ -35,7 +35,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         lengths.append(made.length)
         return made
 
-    monkeypatch.setattr(gearlink.core.design, "_PART_SIZES", SIZES)
+    monkeypatch.setattr(gearlink.core.base.design, "_PART_SIZES", SIZES)
     monkeypatch.setattr(Design, "table", counted)
     return lengths
 
@@ -107,7 +107,7 @@ def test_long_tables_are_read_as_often_as_asked() -> None:
 )
 def test_rows_do_not_depend_on_how_many_there_are(file: str, table: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """From 256 KiB on numpy turns products with a temporary array round, which rounds complex ones otherwise."""
-    monkeypatch.setattr(gearlink.core.design, "_PART_SIZES", (5003,))
+    monkeypatch.setattr(gearlink.core.base.design, "_PART_SIZES", (5003,))
     made = factory.design(file)
     whole, parts = made.table(table, samples=17_011), made.table_in_parts(table, 17_011)
     assert list(map(tuple, parts.each_row())) == list(map(tuple, whole.each_row()))

@@ -16,7 +16,7 @@ import gearlink.cli.commands.suggest
 from gearlink.cli import app
 from gearlink.cli.options import COMMANDS, OPTIONS, Format, Options, PlotFormat
 from gearlink.cli.quick import plain_line, plain_reference, run_reference
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 WORDS = st.sampled_from(["x.yaml", "a b", "-", "speed=4500", "teeth[1]=20", "crank_length", "press", "."])
 WRITTEN = st.one_of(

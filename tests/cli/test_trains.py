@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from factory import worked
 
-from gearlink.cli.scenes.gears import gear
+from gearlink.cli.views.scenes.gears import gear
 
 LEVER = """kind: geared-rocker
 gears:
@@ -102,7 +102,7 @@ def test_worked_gears_pass_and_are_asked_for_by_their_file(gearlink, designs, na
     ended = gearlink("check", designs / f"{name}.yaml")
     assert ended.status == 0
     assert "fail" not in ended.out
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.base.kinds import KINDS
 
     data = worked(name)
     assert "gear" in KINDS[data["kind"]].spec_model().model_validate(data).commands()

@@ -11,7 +11,7 @@ import pytest
 from factory import DESIGNS, each_kind, worked
 from pydantic import BaseModel
 
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 _ASKS = {"gear", "analyze"}
 """What a default that is written out may ask for besides: the gears, or the motion, that it is a key of."""

@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 from factory import design, worked
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar import candidates as five_bar_candidates
-from gearlink.core.five_bar import function_fit
-from gearlink.core.five_bar.wanted import StructuralError
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.five_bar import candidates as five_bar_candidates
+from gearlink.core.machines.five_bar import function_fit
+from gearlink.core.machines.five_bar.wanted import StructuralError
 
 CASES = [
     (

@@ -15,12 +15,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.design import Design, Outline, UnknownName, placed
-from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.gears.codes import CONTACT_RATIO
-from gearlink.core.linkages.codes import TRANSMISSION_ANGLE
-from gearlink.core.report import Check, Report, Table, safely_above, safely_below
-from gearlink.core.results import cached_property, observed, step
+from gearlink.core.base.design import Design, Outline, UnknownName, placed
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.report import Check, Report, Table, safely_above, safely_below
+from gearlink.core.base.results import cached_property, observed, step
+from gearlink.core.parts.gears.codes import CONTACT_RATIO
+from gearlink.core.parts.linkages.codes import TRANSMISSION_ANGLE
 
 
 class Spec:

@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from gearlink import designs
-from gearlink.core.kind import Kind, load
-from gearlink.core.kinds import FILES, KINDS
-from gearlink.core.report import Rule
+from gearlink.core.base.kind import Kind, load
+from gearlink.core.base.kinds import FILES, KINDS
+from gearlink.core.base.report import Rule
 
 ROOT = Path(__file__).parents[2]
 
@@ -40,15 +40,22 @@ def test_what_a_record_names_is_there(kind: Kind) -> None:
 
 @pytest.mark.parametrize("kind", KINDS.values(), ids=lambda kind: kind.name)
 def test_outputs_are_columns_of_tables(kind: Kind) -> None:
-    """That the columns are there, tests/core/tolerance_study/test_band.py holds."""
+    """That the columns are there, tests/core/studies/tolerance_study/test_band.py holds."""
     assert set(kind.outputs) <= set(kind.design_class("analyze").table_names())
     assert bool(kind.register_at) is ("register" in kind.commands)
 
 
 def test_a_record_imports_nothing() -> None:
-    code = "import sys, gearlink.core.kinds; print(*(name for name in sys.modules if name.startswith('gearlink.')))"
+    code = (
+        "import sys, gearlink.core.base.kinds; print(*(name for name in sys.modules if name.startswith('gearlink.')))"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert set(done.stdout.split()) == {"gearlink.core", "gearlink.core.kind", "gearlink.core.kinds"}
+    assert set(done.stdout.split()) == {
+        "gearlink.core",
+        "gearlink.core.base",
+        "gearlink.core.base.kind",
+        "gearlink.core.base.kinds",
+    }
 
 
 def _keys(path: Path) -> Iterator[str]:

@@ -11,8 +11,8 @@ import pytest
 from typer.testing import CliRunner
 
 import gearlink.core
-from gearlink.core.kind import Kind
-from gearlink.core.kinds import FILES, KINDS
+from gearlink.core.base.kind import Kind
+from gearlink.core.base.kinds import FILES, KINDS
 
 TOYS = Path(__file__).parents[1] / "toy_kinds"
 RECORD = Kind(

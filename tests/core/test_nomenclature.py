@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from gearlink.core import nomenclature
-from gearlink.core.design import Design
-from gearlink.core.errors import GearlinkError
-from gearlink.core.gears.checks import GEAR_CHECKS
-from gearlink.core.kinds import KINDS
-from gearlink.core.nomenclature import TERMS, Term, term
+from gearlink.core.base import nomenclature
+from gearlink.core.base.design import Design
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.nomenclature import TERMS, Term, term
+from gearlink.core.parts.gears.checks import GEAR_CHECKS
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
 
 SPEED = 150.0
 OMEGA = SPEED * 2.0 * math.pi / 60.0

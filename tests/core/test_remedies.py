@@ -15,12 +15,12 @@ import pytest
 from oracles.random_designs import KINDS as DRAWN
 from oracles.random_designs import Data, draw
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.kind import FileDesigns
-from gearlink.core.kinds import KINDS
-from gearlink.core.remedies.ways import down, left_out, shared, up
-from gearlink.core.report import Check, Remedy, remedy_words
-from gearlink.core.spec_paths import changed, numbers_at, step_of, value_at
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.remedies.ways import down, left_out, shared, up
+from gearlink.core.base.report import Check, Remedy, remedy_words
+from gearlink.core.base.spec_paths import changed, numbers_at, step_of, value_at
 
 SLOW_KINDS = ("five_bar", "hypocycloid", "six_bar")
 """Much that is wrong with them no single key repairs, and each trial follows a whole motion."""
@@ -116,8 +116,8 @@ def follow(data: Data, check: Check, i: int, stood: dict[str, Failing | None]) -
 
 
 IN_THEIR_ROOMS = ("cycle", "loads", "wide_swing")
-"""Up to a second for one design; their rooms follow remedies of their own (tests/core/loads/test_remedies.py,
-test_remedy_in_the_message_holds in tests/core/wide_swing/test_design.py)."""
+"""Up to a second for one design; their rooms follow remedies of their own (tests/core/studies/loads/test_remedies.py,
+test_remedy_in_the_message_holds in tests/core/machines/wide_swing/test_design.py)."""
 SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
 """Draws that begin with designs whose remedy takes few trials; every other one belongs to `make check-full`."""
 

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.linkages.fourbar.position import solve
-from gearlink.core.numerics.rows import Rows
+from gearlink.core.base.rows import Rows
+from gearlink.core.parts.linkages.fourbar.position import solve
 
 LINKS = [
     ("thesis_example_3_as_printed", ["coupler", "rocker", "idler", "output"]),

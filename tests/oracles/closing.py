@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
 def assembles(linkage: FourBar, crank_angle: ArrayLike) -> NDArray[np.bool_]:

@@ -16,9 +16,9 @@ from typing import Any
 import factory
 import numpy as np
 
-from gearlink.core.swing_gripper.design import SwingGripper
-from gearlink.core.swing_gripper.forces import Masses
-from gearlink.core.swing_gripper.linkage import GripperLinkage
+from gearlink.core.machines.swing_gripper.design import SwingGripper
+from gearlink.core.machines.swing_gripper.forces import Masses
+from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "swing_gripper.json").read_text())
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

@@ -10,8 +10,8 @@ import numpy as np
 from oracles.gripper_register_contact import ROLLER, roller_contact
 from oracles.loop_gains import closed_pin, loop_gains
 
+from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.swing_gripper.design import SwingGripper
 
 LINKS = {"links.input": "crank", "links.coupler": "coupler", "links.output": "rocker"}
 PINS = ("A", "C", "D", "E")

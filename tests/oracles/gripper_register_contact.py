@@ -12,8 +12,8 @@ import numpy as np
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.swing_gripper.cams import GripperCams
-    from gearlink.core.swing_gripper.linkage import GripperMotion
+    from gearlink.core.machines.swing_gripper.cams import GripperCams
+    from gearlink.core.machines.swing_gripper.linkage import GripperMotion
 
 ROLLER = {"cam.roller.arm": "arm", "cam.roller.radius": "radius", "cam.roller.angle": "angle"}
 _STEPS = 4

@@ -37,8 +37,8 @@ def loop_gains(crank_angle: Reals, coupler_angle: Reals, rocker_angle: Reals, ro
     Notes
         1/sin(t2 - t3) is the condition of the loop, infinite in a dead point.
     Example
-        >>> from gearlink.core.linkages.fourbar import sweep
-        >>> from gearlink.core.linkages.fourbar.position import FourBar
+        >>> from gearlink.core.parts.linkages.fourbar import sweep
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
         >>> angles = np.array([1.0])
         >>> state, longer = (sweep.solve(FourBar(18.0, 50.0 + d, 100.0, 121.4), angles) for d in (0.0, 1e-6))
         >>> slope = (longer.rocker_angle - state.rocker_angle) / 1e-6

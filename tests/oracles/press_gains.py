@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from oracles.loop_gains import LoopGains, loop_gains
 
-from gearlink.core.flatbed_press.register_lift import RackLift
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.machines.flatbed_press.register_lift import RackLift
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 
 if TYPE_CHECKING:
-    from gearlink.core.flatbed_press.design import FlatbedPress
+    from gearlink.core.machines.flatbed_press.design import FlatbedPress
 
 
 class PressGains:

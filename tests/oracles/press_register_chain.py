@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from oracles.loop_gains import closed_pin
 
-from gearlink.core.flatbed_press.chains import BedChain
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.machines.flatbed_press.chains import BedChain
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
-    from gearlink.core.flatbed_press.register_lift import RackLift
+    from gearlink.core.machines.flatbed_press.register_lift import RackLift
 
 
 @dataclass(frozen=True, slots=True)

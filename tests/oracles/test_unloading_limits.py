@@ -19,8 +19,8 @@ from oracles.unloading_limits import (
     touching_pins_energy_parameter,
 )
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.law.device import Pneumatic, Spring
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
 
 ROUNDING = 1e-15
 

@@ -16,9 +16,9 @@ import numpy as np
 from oracles.loop_gains import closed_pin
 from oracles.three_gear_gains import Drive, gear_angles, signs
 
-from gearlink.core.gears.tooth.involute_sweep import involute
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.parts.gears.tooth.involute_sweep import involute
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 
 _STEPS = 12
 
@@ -51,8 +51,8 @@ def output_error(drive: Drive, crank_angle: Reals, torque_sign: int, errors: Err
     Notes
         The eccentricity of a gear moves with the angle that is sought: steps of a contraction by e/r, to rest.
     Example
-        >>> from gearlink.core.linkages.fourbar.position import FourBar
-        >>> from gearlink.core.three_gear.motion import GearTrain
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
+        >>> from gearlink.core.machines.three_gear.motion import GearTrain
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)
         >>> error = output_error(drive, np.array([math.radians(270.0)]), 1, Errors({"frame": np.array([0.01])}))

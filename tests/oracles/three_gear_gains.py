@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,9 +11,9 @@ import mpmath as mp
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
 def exact_angles(linkage: FourBar, phi: float) -> tuple[mp.mpf, mp.mpf]:
@@ -55,7 +55,7 @@ def loop_rates(
         Independent of the rates of `position.solve`, which differentiate the angles of a triangle.
     Example
         >>> linkage = FourBar(18.0, 50.0, 100.0, 121.4)
-        >>> from gearlink.core.linkages.fourbar.position import solve
+        >>> from gearlink.core.parts.linkages.fourbar.position import solve
         >>> at = solve(linkage, 0.0)
         >>> [round(float(x), 9) for x in loop_rates(linkage, 0.0, at.coupler_angle, at.rocker_angle, 1)]
         [-0.174081238, -0.174081238]

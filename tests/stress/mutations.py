@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 
 from gearlink.cli.texts.spec_keys import known_keys
-from gearlink.core.kinds import FILES
+from gearlink.core.base.kinds import FILES
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (ROOT / "designs", ROOT / "designs" / "studies", Path(__file__).parent / "seeds")

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_linkage
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
-from gearlink.core.three_gear.symmetric import family
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_linkage
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.machines.three_gear.symmetric import family
+from gearlink.core.parts.linkages.checks import check_linkage
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 Random = np.random.Generator
 

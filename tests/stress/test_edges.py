@@ -7,20 +7,20 @@ import math
 import numpy as np
 import pytest
 
-from gearlink.core.cams.profile import profile, translating
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.tooth.involute import inverse_involute, involute
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank import position as slider_crank
-from gearlink.core.linkages.slider_crank.position import SliderCrank
-from gearlink.core.three_gear.dwell.dwells import dwell_positions
-from gearlink.core.three_gear.dwell.momentary_dwell import momentary_frame_length, momentary_linkage
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.wide_swing.cams.cam import WideSwingCam
-from gearlink.core.wide_swing.law.device import Pneumatic
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.dwells import dwell_positions
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_frame_length, momentary_linkage
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
+from gearlink.core.machines.wide_swing.law.device import Pneumatic
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.parts.cams.profile import profile, translating
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank import position as slider_crank
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 EPS = 2.0**-52
 

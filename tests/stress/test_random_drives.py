@@ -16,15 +16,15 @@ from oracles.long_drive import Drives
 from stress.random_drives import VARIANTS, Design, arrays, designs, turning
 from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS
-from gearlink.core.linkages.fourbar.loop import closing_range
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.three_gear import motion
-from gearlink.core.three_gear.dwell import dwells
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.sweep import output_motion
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
+from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.dwell import dwells
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.sweep import output_motion
+from gearlink.core.parts.linkages.fourbar.loop import closing_range
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 pytestmark = LONGER_NUMBERS
 

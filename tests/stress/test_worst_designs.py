@@ -28,18 +28,18 @@ from stress.test_random_drives import (
 )
 from stress.worst import EPS, LONGER_NUMBERS, Worst
 
-from gearlink.core.cams.profile import oscillating, profile, translating
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank.position import SliderCrank
-from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.three_gear.dwell.momentary_dwell import least_eccentricity
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.sweep import momentary_dwells
-from gearlink.core.three_gear.symmetric.back_step import dwell_angle
-from gearlink.core.wide_swing.law.device import Spring
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import least_eccentricity
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.sweep import momentary_dwells
+from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.machines.wide_swing.law.device import Spring
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.parts.cams.profile import oscillating, profile, translating
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 pytestmark = pytest.mark.usefixtures("forty_digits")
 

@@ -231,7 +231,7 @@ class TestFormats:
 
 
 def test_only_json_computes_tables(gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearlink.core.flatbed_press.design import FlatbedPress
+    from gearlink.core.machines.flatbed_press.design import FlatbedPress
 
     def fail(self: object) -> None:
         raise AssertionError("a table that nobody reads")

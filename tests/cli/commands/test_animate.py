@@ -23,16 +23,16 @@ from PIL import Image
 from sweeps import mostly_slow
 
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
-from gearlink.cli.moving import gif, raster
-from gearlink.cli.moving.backdrop import backdrop
-from gearlink.cli.moving.brush import FINER
-from gearlink.cli.moving.page import page, player_stage
-from gearlink.cli.moving.raster import Raster
-from gearlink.cli.moving.stage import ChartScale, Stage
 from gearlink.cli.options import Options
-from gearlink.cli.scenes.loops import build, moving_kinds, pictures_for
-from gearlink.cli.scenes.scene import TURN, Body, Chain, Scene
-from gearlink.core.three_gear.sweep import output_motion
+from gearlink.cli.views.films import gif, raster
+from gearlink.cli.views.films.backdrop import backdrop
+from gearlink.cli.views.films.brush import FINER
+from gearlink.cli.views.films.page import page, player_stage
+from gearlink.cli.views.films.raster import Raster
+from gearlink.cli.views.films.stage import ChartScale, Stage
+from gearlink.cli.views.scenes.loops import build, moving_kinds, pictures_for
+from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene
+from gearlink.core.machines.three_gear.sweep import output_motion
 
 ROOT = Path(__file__).resolve().parents[3]
 DESIGNS = ROOT / "designs"

@@ -15,8 +15,8 @@ from sweeps import ALL
 
 from gearlink.cli.commands import check
 from gearlink.cli.texts.finding_keys import key_of
-from gearlink.core.design import Design
-from gearlink.core.report import Check
+from gearlink.core.base.design import Design
+from gearlink.core.base.report import Check
 
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
 PAIR = "kind: gear-pair\nmodule: 4\nteeth: [72, 72]\ncenter_distance: 290.2912330746487\n"
@@ -228,7 +228,7 @@ def test_a_fault_ends_only_its_design(gearlink: Any, tmp_path: Path, monkeypatch
         raise ZeroDivisionError(name)
 
     write(tmp_path, pair=PAIR)
-    monkeypatch.setattr("gearlink.core.gears.design.GearPairDesign.check", fault)
+    monkeypatch.setattr("gearlink.core.machines.gear_pair.design.GearPairDesign.check", fault)
     ended = gearlink("check", tmp_path)
     assert ended.status == 3
     assert "fault GL199" in ended.out

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.cli.figures.chart_list import CHARTS
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.sweep import output_motion
-from gearlink.core.three_gear.symmetric.family import symmetric_linkage
+from gearlink.cli.views.figures.chart_list import CHARTS
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.sweep import output_motion
+from gearlink.core.machines.three_gear.symmetric.family import symmetric_linkage
 
 NEW = ("dwell-ratio", "dwell-tolerance", "dwell-frame", "velocity-peak", "acceleration-peak", "energy-parameter")
 

@@ -13,9 +13,9 @@ from sweeps import mostly_slow
 from gearlink.cli.commands.explain import names
 from gearlink.cli.texts.codes import explanations
 from gearlink.cli.texts.words import FORMULAS, column_words
-from gearlink.core.codes import rules
-from gearlink.core.kinds import FILES as KINDS
-from gearlink.core.nomenclature import TERMS
+from gearlink.core.base.codes import rules
+from gearlink.core.base.kinds import FILES as KINDS
+from gearlink.core.base.nomenclature import TERMS
 
 ROOT = Path(__file__).parents[3]
 PATHS = [

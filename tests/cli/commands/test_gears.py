@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.shifts import search
-from gearlink.core.gears.shifts.search import PairTask, candidates, pairs_of_teeth, teeth_sums
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.shifts import search
+from gearlink.core.parts.gears.shifts.search import PairTask, candidates, pairs_of_teeth, teeth_sums
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,8 @@ import pytest
 from sweeps import ALL
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.core.cams.law_tables import MotionLaws
-from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, law
+from gearlink.core.parts.cams.law_tables import MotionLaws
+from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED, law
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "swing_gripper.json").read_text())
 ULP = 2.0**-52
@@ -116,8 +116,8 @@ def test_plot_is_written_and_reproducible(gearlink: Any, tmp_path: Path) -> None
 
 
 def test_plotted_curves_are_the_laws(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearlink.cli.figures.motion_laws import draw
-    from gearlink.core.cams.law_tables import LawChoice
+    from gearlink.cli.views.figures.motion_laws import draw
+    from gearlink.core.parts.cams.law_tables import LawChoice
 
     chosen = (law("cycloidal"), law("half-modified-sine"))
     figure = draw(MotionLaws(LawChoice(chosen)))

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from sweeps import ALL
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.page import sections
 from gearlink.cli.render.numbers import thinning
-from gearlink.core.report import Table
+from gearlink.cli.views.page import sections
+from gearlink.core.base.report import Table
 
 
 class Page(HTMLParser):
@@ -66,7 +66,7 @@ def test_page_is_whole_and_self_contained_and_the_same_every_time(gearlink: Any,
 @pytest.fixture
 def pictures_are_blank(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures are drawn by tests of their own."""
-    monkeypatch.setattr("gearlink.cli.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
+    monkeypatch.setattr("gearlink.cli.views.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
 
 
 @pytest.mark.usefixtures("pictures_are_blank")

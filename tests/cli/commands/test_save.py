@@ -12,7 +12,7 @@ from factory import DESIGNS
 from sweeps import mostly_slow
 
 from gearlink.cli.reading.design_file import load, validate
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 # what is a complete design as it stands, of every kind
 FILES = [DESIGNS / f"{name}.yaml" for name in (
@@ -109,8 +109,8 @@ def test_what_failed_before_it_was_rounded_seeks_no_remedy_again(
     gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nor a better place of the cams: the remedies of the design as it is are the ones that are shown."""
-    from gearlink.core.remedies.bench import Bench
-    from gearlink.core.swing_gripper.cams import GripperCams
+    from gearlink.core.base.remedies.bench import Bench
+    from gearlink.core.machines.swing_gripper.cams import GripperCams
 
     sought: list[Any] = []
     centers: list[float] = []

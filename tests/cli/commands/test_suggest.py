@@ -14,8 +14,8 @@ from gearlink.cli.commands import suggest
 from gearlink.cli.commands.suggest import Change, overrides
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import COMMANDS
-from gearlink.core.kinds import KINDS
-from gearlink.core.spec_paths import value_at
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.spec_paths import value_at
 
 LOOP = """kind: wide-swing-cam
 layout: twin-rocker

@@ -23,7 +23,7 @@ from factory import QUICK
 from sweeps import ALL
 
 import gearlink
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
 
 CRANK = {"kind": "slider-crank", "stroke": 310, "rod": 520, "offset": 50}
 PAIR = {"kind": "gear-pair", "module": 4, "teeth": (72, 72), "center_distance": 290.2912330746487}
@@ -254,9 +254,9 @@ def test_figure_is_the_sheet(designs: Path) -> None:
 
 
 def test_kernels_stand_in_their_packages() -> None:
-    from gearlink.core.cams import law
-    from gearlink.core.gears import GearPair
-    from gearlink.core.linkages import FourBar
+    from gearlink.core.parts.cams import law
+    from gearlink.core.parts.gears import GearPair
+    from gearlink.core.parts.linkages import FourBar
 
     assert GearPair.from_shift(4.0, (72, 72)).contact_ratio > 1.0
     assert FourBar(18.0, 50.0, 100.0, 121.4).kind() == "crank-rocker"

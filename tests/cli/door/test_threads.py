@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import gearlink
-from gearlink.cli.figures import write
+from gearlink.cli.views.figures import write
 
 
 @pytest.fixture(autouse=True)

@@ -10,7 +10,7 @@ import pytest
 from sweeps import mostly_slow
 
 import gearlink
-from gearlink.core.report import Table
+from gearlink.core.base.report import Table
 
 KEEPING = ["candy_feed", "drawn_lever", "wide_lever", "swing_gripper", "five_bar_points", "belt_feed"]
 """Designs that keep lists and arrays: of places, swings, meshes, errors, intervals."""

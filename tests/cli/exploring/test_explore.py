@@ -152,7 +152,7 @@ def test_batch_and_check_take_studies(gearlink: Any, written: Any) -> None:
 def test_check_makes_a_study_ready_and_does_not_search(
     gearlink: Any, written: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gearlink.core.explore import exploration
+    from gearlink.core.studies.explore import exploration
 
     def searched(*_: object) -> None:
         raise AssertionError("a chunk was computed")

@@ -227,7 +227,7 @@ def test_show_and_write_give_files_that_run(gearlink: Any, study: Path, tmp_path
 
 def dies(canonical: str, number: int) -> tuple[str, bytes]:
     """A chunk of which the second ends its process."""
-    from gearlink.core.explore import chunks
+    from gearlink.core.studies.explore import chunks
 
     if number == 2 and os.getpid() != PARENT:
         os._exit(9)
@@ -446,7 +446,7 @@ def test_designs_that_another_program_computes_otherwise_are_no_fault(
     gearlink: Any, small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In a store of this program they are one: there the search and the class disagree."""
-    from gearlink.core.explore import front
+    from gearlink.core.studies.explore import front
 
     store, ours = tmp_path / "s", tmp_path / "ours"
     with monkeypatch.context() as patch:

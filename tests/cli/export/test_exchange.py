@@ -20,8 +20,8 @@ from gearlink.cli.export import parts, step
 from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.rexs import as_rexs
-from gearlink.core.gears.outline.tooth_profile import ToothProfile
-from gearlink.core.gears.tooth.involute import involute
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
+from gearlink.core.parts.gears.tooth.involute import involute
 
 HELICAL = """kind: gear-pair
 name: h & <b>

@@ -27,9 +27,9 @@ from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Stretch, TooFine, sample
 from gearlink.cli.export.svg import bezier
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.tooth.involute import involute
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.tooth.involute import involute
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "tests" / "reference" / "contract"
@@ -639,7 +639,7 @@ def test_csv_of_a_swing_cam_leaves_the_slot_empty() -> None:
     assert (k[0], k[-1]) == (0.0, 1.0)
     assert all(low < high for low, high in pairwise(k))
     touching = [float(row["k"]) for row in rows if row["x [mm]"]]
-    from gearlink.core.wide_swing.cams.contact import contact_end
+    from gearlink.core.machines.wide_swing.cams.contact import contact_end
 
     end = contact_end(design.cam)
     assert max(value for value in touching if value < 0.5) == end

@@ -13,8 +13,8 @@ from factory import design
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.scenes.mutilated_gear_dwell import mesh_scene
-from gearlink.core.dwell_gears.wheel import free_radius
+from gearlink.cli.views.scenes.mutilated_gear_dwell import mesh_scene
+from gearlink.core.machines.dwell_gears.wheel import free_radius
 
 
 def outline(made: Any, form: CurveForm = CurveForm.POLYLINE) -> Any:

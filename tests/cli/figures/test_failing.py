@@ -9,7 +9,7 @@ import pytest
 from factory import design
 from sheets import sheet
 
-from gearlink.cli.figures.drawing import failing
+from gearlink.cli.views.figures.drawing import failing
 
 CASES = [
     ("analyze", "two_gear_ring", {"limits__transmission_angle": 70.0}, 1),

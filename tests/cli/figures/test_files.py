@@ -9,8 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
-from gearlink.cli.figures import design_charts, write
 from gearlink.cli.files import CannotWrite
+from gearlink.cli.views.figures import design_charts, write
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [

@@ -10,9 +10,9 @@ import pytest
 from matplotlib.mathtext import MathTextParser
 
 import gearlink
-from gearlink.cli.figures import write
-from gearlink.cli.figures.drawing import style
-from gearlink.cli.figures.gears import values
+from gearlink.cli.views.figures import write
+from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.gears import values
 
 
 def test_a_star_stands_above_the_index_before_it() -> None:

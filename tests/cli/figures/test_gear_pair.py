@@ -13,12 +13,12 @@ from factory import design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 
-from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
-from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.rack.geometry import RackGeometry
+from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+from gearlink.cli.views.figures.write import write_plot
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.rack.geometry import RackGeometry
 
 DATA = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
 

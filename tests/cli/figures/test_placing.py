@@ -18,9 +18,9 @@ from matplotlib.patches import Circle
 from sheets import sheet
 from sweeps import mostly_slow
 
-from gearlink.cli.figures.drawing import style
-from gearlink.cli.figures.drawing.placing import places, settled
-from gearlink.cli.moving.brush import thinned
+from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.drawing.placing import places, settled
+from gearlink.cli.views.films.brush import thinned
 
 OUTLINE = 3.0 * np.exp(2j * np.pi * np.arange(7) / 7) + 1j
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from sweeps import ALL
 
-from gearlink.cli.figures.study import draw
-from gearlink.core.explore.exploration import Exploration
-from gearlink.core.study.spec import StudySpec
+from gearlink.cli.views.figures.study import draw
+from gearlink.core.studies.explore.exploration import Exploration
+from gearlink.core.studies.study.spec import StudySpec
 
 KEYS: dict[str, Any] = {
     "kind": "study",

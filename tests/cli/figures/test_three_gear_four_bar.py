@@ -17,10 +17,10 @@ from factory import design
 from sheets import curve, lines, odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 from sweeps import mostly_slow
 
-from gearlink.cli.figures.three_gear_mechanism import dwell_position
-from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.linkages.fourbar.position import solve
+from gearlink.cli.views.figures.three_gear_mechanism import dwell_position
+from gearlink.cli.views.figures.write import write_plot
+from gearlink.core.parts.linkages.fourbar.position import solve
 
 MOMENTARY, STEADY = "synth momentary-dwell", "synth variable-speed"
 PRINTED = "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, links: {crank: 18.0, frame: 121.4}}"

@@ -13,8 +13,8 @@ import pytest
 from sheets import placed_sheet, sheet
 from sweeps import mostly_slow
 
-from gearlink.cli.figures.drawing import time_axes
-from gearlink.cli.page import sheets as page_sheets
+from gearlink.cli.views.figures.drawing import time_axes
+from gearlink.cli.views.page import sheets as page_sheets
 
 GIVEN = {"input_speed": 75.0}
 CASES: list[tuple[str, str, dict[str, Any]]] = [

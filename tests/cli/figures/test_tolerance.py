@@ -10,8 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 from sheets import sheet
 
-from gearlink.cli.figures import tolerance
-from gearlink.core.tolerance_study.band import Course
+from gearlink.cli.views.figures import tolerance
+from gearlink.core.studies.tolerance_study.band import Course
 
 SMALL = {"tolerance__samples": 128}
 

@@ -15,7 +15,7 @@ from factory import design
 from sheets import Sheet, lines, odd_sheets, panel, placed_sheet, sheet
 from sweeps import ALL, mostly_slow
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 
 def drawn(name: str, command: str, **keys: Any) -> Sheet:
@@ -110,7 +110,7 @@ def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: st
 
 
 def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
-    from gearlink.core.wide_swing.cams.outline import contour, dwell_arc
+    from gearlink.core.machines.wide_swing.cams.outline import contour, dwell_arc
 
     for name in ("twin_cam", "twin_rocker"):
         made = design(f"wide_swing_{name}", command="cam")

@@ -10,17 +10,17 @@ import pytest
 from factory import design, worked
 from sheets import curve, labels, panel, sheet, words
 
-from gearlink.cli.figures import design_charts
-from gearlink.cli.figures.chart_list import CHARTS
-from gearlink.cli.figures.drawing import panels, style
-from gearlink.cli.figures.geared_five_bar import _gears
-from gearlink.cli.figures.sheets import cam_sheets, motion_sheet, timing_sheet
-from gearlink.cli.figures.write import fonts_of
-from gearlink.cli.scenes import three_gear_four_bar
-from gearlink.cli.scenes.geared_five_bar import build
-from gearlink.core.gears.outline.mesh_phase import signed_pair
-from gearlink.core.kind import load
-from gearlink.core.kinds import KINDS
+from gearlink.cli.views.figures import design_charts
+from gearlink.cli.views.figures.chart_list import CHARTS
+from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.figures.geared_five_bar import _gears
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
+from gearlink.cli.views.figures.write import fonts_of
+from gearlink.cli.views.scenes import three_gear_four_bar
+from gearlink.cli.views.scenes.geared_five_bar import build
+from gearlink.core.base.kind import load
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 
 def test_extremes_of_a_slider_are_those_of_the_analysis() -> None:

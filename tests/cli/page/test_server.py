@@ -26,8 +26,8 @@ from gearlink.cli.commands import watch as server
 from gearlink.cli.commands.watch import Board, _make, run_watch, served
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
-from gearlink.cli.page.sections import whole_page
-from gearlink.cli.page.sheets import Remembered, sheet
+from gearlink.cli.views.page.sections import whole_page
+from gearlink.cli.views.page.sheets import Remembered, sheet
 
 
 def test_news_are_what_has_changed() -> None:
@@ -194,7 +194,7 @@ def one_panel(monkeypatch: pytest.MonkeyPatch) -> None:
         axes.plot(range(30), [made.spec.rod * 1.001**i for i in range(30)])
         return figure
 
-    monkeypatch.setattr("gearlink.cli.figures.write.panels", panels)
+    monkeypatch.setattr("gearlink.cli.views.figures.write.panels", panels)
 
 
 @pytest.mark.usefixtures("one_panel")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from gearlink.cli.commands.report import side_by_side
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 

@@ -18,7 +18,7 @@ from gearlink.cli.reading import model_shapes
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.yaml_reader import format_path
-from gearlink.core.kinds import FILES
+from gearlink.core.base.kinds import FILES
 
 Build = Callable[[Any], Any]
 

@@ -32,7 +32,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import parse_path
 from gearlink.cli.reading.model_errors import number_remedy
 from gearlink.cli.reading.yaml_reader import MAX_DEPTH
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 KINDS = ("three-gear-four-bar", "gear-pair", "slider-crank")
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.cli.reading.diagnostics import MAX_SHOWN, DesignFileError, Diagnostic, Source, visible
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 
 
 def test_text_form() -> None:

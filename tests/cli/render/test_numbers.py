@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli.render.numbers import quiet, readable_rows, scales
-from gearlink.core.report import Check, Quantity, Report, Table, without_noise
+from gearlink.core.base.report import Check, Quantity, Report, Table, without_noise
 
 NOISE = re.compile(r"\d[\d.]*e-1[2-9]")
 

@@ -10,7 +10,7 @@ from factory import DESIGNS
 from rich.console import Console
 
 from gearlink.cli.render.terminal import show_table
-from gearlink.core.report import Table
+from gearlink.core.base.report import Table
 
 
 def heads(table: Table, width: int) -> list[list[str]]:

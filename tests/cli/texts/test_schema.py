@@ -17,8 +17,8 @@ from gearlink.cli.reading.design_file import load, parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import FILES as KINDS
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import FILES as KINDS
 
 DESIGNS = sorted((Path(__file__).parents[3] / "designs").glob("*.yaml"))
 ALL = all_kinds_schema(list(KINDS.values()))

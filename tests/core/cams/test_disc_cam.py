@@ -13,11 +13,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlink.core.cams.checks import hub_checks, pressure_angle_checks, step_check, undercut_checks
-from gearlink.core.cams.codes import VELOCITY_STEP
-from gearlink.core.cams.disc_cam import DiscCam
-from gearlink.core.cams.profile import translating
-from gearlink.core.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.parts.cams.checks import hub_checks, pressure_angle_checks, step_check, undercut_checks
+from gearlink.core.parts.cams.codes import VELOCITY_STEP
+from gearlink.core.parts.cams.disc_cam import DiscCam
+from gearlink.core.parts.cams.profile import translating
+from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 1.0))
 
@@ -116,7 +116,7 @@ def test_roller_that_cuts_through_the_neck_from_the_other_side(roller):
 
 
 def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
-    from gearlink.core.cams.undercut import undercut
+    from gearlink.core.parts.cams.undercut import undercut
 
     cam = lobes(100.0, 20.0, 50.0)
     assert cam._star_shaped()

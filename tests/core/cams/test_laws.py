@@ -23,8 +23,8 @@ from oracles.forty_digits import COEFFICIENTS as OF_REST_TO_REST
 from oracles.forty_digits import SHARES, scca_acceleration
 from sweeps import examples, mostly_slow
 
-from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
 
 EPS = 2.0**-52
 ULPS = 8 * EPS

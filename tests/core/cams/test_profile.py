@@ -17,8 +17,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.cams.laws import law
-from gearlink.core.cams.profile import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.laws import law
+from gearlink.core.parts.cams.profile import (
     CamProfile,
     RollerPath,
     curvature,
@@ -29,7 +30,6 @@ from gearlink.core.cams.profile import (
     profile_points,
     translating,
 )
-from gearlink.core.errors import NoSolution
 
 POINT = 1e-13 * 230.0
 ANGLE = 2e-15

@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlink.core.cams.laws import law
-from gearlink.core.cams.profile import curvature, oscillating, pressure_angle, profile
-from gearlink.core.cams.size import RockingRoller, smallest_cam_of_rollers
-from gearlink.core.cams.undercut import undercut
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.extremes import least_convex_radius, maximum_over, minimum_over
+from gearlink.core.parts.cams.laws import law
+from gearlink.core.parts.cams.profile import curvature, oscillating, pressure_angle, profile
+from gearlink.core.parts.cams.size import RockingRoller, smallest_cam_of_rollers
+from gearlink.core.parts.cams.undercut import undercut
 
 LENGTH = 1e-11
 ANGLE = 4e-15

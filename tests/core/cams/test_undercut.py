@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlink.core.cams.laws import law
-from gearlink.core.cams.profile import CamProfile, profile, translating
-from gearlink.core.cams.undercut import nearest, undercut
 from gearlink.core.numerics.extremes import convex_radius, maximum_over
+from gearlink.core.parts.cams.laws import law
+from gearlink.core.parts.cams.profile import CamProfile, profile, translating
+from gearlink.core.parts.cams.undercut import nearest, undercut
 
 NONE = 1e-12 * 100.0
 DEPTH = 1e-9

@@ -14,11 +14,11 @@ import pytest
 from factory import design
 from pydantic import ValidationError
 
-from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_gap
-from gearlink.core.clearance.checks import shaft_checks
-from gearlink.core.clearance.reach import Reach, constant, coupler_joint, crank_pin
-from gearlink.core.codes import rules
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.base.codes import rules
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.studies.clearance.bodies import Gear, Layout, Shaft, least_gap
+from gearlink.core.studies.clearance.checks import shaft_checks
+from gearlink.core.studies.clearance.reach import Reach, constant, coupler_joint, crank_pin
 
 IDLER = {
     "kind": "geared-five-bar",

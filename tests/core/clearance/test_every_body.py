@@ -16,7 +16,7 @@ import pytest
 from factory import design
 from oracles.bodies import Machine, machine
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 MODULES = (1, 1.25, 2, 2.5, 4)
 Data = dict[str, Any]

@@ -19,10 +19,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from sweeps import examples
 
-from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
-from gearlink.core.dwell_gears.mutilated_mechanism import driven
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.dwell_gears.mutilated import MutilatedGear, teeth_for_times
+from gearlink.core.machines.dwell_gears.mutilated_mechanism import driven
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

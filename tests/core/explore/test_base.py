@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from factory import DESIGNS, design, each_kind, worked
 
-from gearlink.core.explore.base import Base
-from gearlink.core.explore.one_by_one import single
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.studies.explore.base import Base
+from gearlink.core.studies.explore.one_by_one import single
 
 PRESS = worked("ty460")
 CHANGES: list[list[tuple[str, Any]]] = [

@@ -13,14 +13,14 @@ from typing import Any
 import factory
 import pytest
 
-from gearlink.core.codes import rules
-from gearlink.core.errors import NoSolution
-from gearlink.core.explore import front
-from gearlink.core.explore.exploration import Exploration
-from gearlink.core.explore.one_by_one import single
-from gearlink.core.report import Check, Rule, Status
-from gearlink.core.study.faults import BrokenPromise, WrongStudy
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.base.codes import rules
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import Check, Rule, Status
+from gearlink.core.studies.explore import front
+from gearlink.core.studies.explore.exploration import Exploration
+from gearlink.core.studies.explore.one_by_one import single
+from gearlink.core.studies.study.faults import BrokenPromise, WrongStudy
+from gearlink.core.studies.study.spec import StudySpec
 
 CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}
 FEED = {

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.explore.chunks import chunk_of
-from gearlink.core.explore.preparing import problem
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.chunks import chunk_of
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.study.spec import StudySpec
 
 FEED = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40}}
 LINKS = {"crank": 38.857, "frame": 153.552}

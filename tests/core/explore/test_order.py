@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlink.core.explore.order import Grid, Sample, TooManyDesigns, Variable
+from gearlink.core.studies.explore.order import Grid, Sample, TooManyDesigns, Variable
 
 
 def whole(path: str, low: float, high: float, times: str = "", step: float = 1.0) -> Variable:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.core.explore.pareto import PARTS, best_boxes, boxes, counted, front, knee, spread
+from gearlink.core.studies.explore.pareto import PARTS, best_boxes, boxes, counted, front, knee, spread
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())
 RNG = np.random.default_rng(7)

@@ -12,10 +12,10 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.explore.exploration import Exploration
-from gearlink.core.explore.front import _Search, _stepped
-from gearlink.core.explore.order import Variable
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.exploration import Exploration
+from gearlink.core.studies.explore.front import _Search, _stepped
+from gearlink.core.studies.explore.order import Variable
+from gearlink.core.studies.study.spec import StudySpec
 
 FEED = {
     "kind": "three-gear-four-bar",

@@ -19,13 +19,13 @@ import pytest
 from factory import changed, design, worked
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar import function_fit, levelling
-from gearlink.core.five_bar.function_motion import FunctionFiveBar
-from gearlink.core.five_bar.path import points
-from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.five_bar.timed_fit import fit_timed
-from gearlink.core.five_bar.wanted import Wanted, structural_error
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.five_bar import function_fit, levelling
+from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.machines.five_bar.path import points
+from gearlink.core.machines.five_bar.path_motion import PathFiveBar
+from gearlink.core.machines.five_bar.timed_fit import fit_timed
+from gearlink.core.machines.five_bar.wanted import Wanted, structural_error
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 LOG = Wanted("log", (1.0, 2.0), math.radians(60.0), math.radians(90.0))

@@ -14,11 +14,11 @@ import pytest
 from factory import design
 from sweeps import mostly_slow
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar.family import UNKNOWNS, FiveBarFamily
-from gearlink.core.five_bar.fit import PathProblem, descend, fit_path, judge, matched
-from gearlink.core.five_bar.path import coupler_angles, distances, points, rates
-from gearlink.core.five_bar.path_motion import PathFiveBar
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.five_bar.family import UNKNOWNS, FiveBarFamily
+from gearlink.core.machines.five_bar.fit import PathProblem, descend, fit_path, judge, matched
+from gearlink.core.machines.five_bar.path import coupler_angles, distances, points, rates
+from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 
 BAR = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))

@@ -17,7 +17,7 @@ import pytest
 from oracles.press import TY460
 from oracles.press_follower import lift
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 pytestmark = pytest.mark.usefixtures("forty_digits")
 

@@ -22,8 +22,8 @@ import pytest
 from oracles.press import PRESSES, TY460
 from sweeps import mostly_slow
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.flatbed_press.design import FlatbedPress
 
 CONTRACT = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "cam.json").read_text())
 CAM = {

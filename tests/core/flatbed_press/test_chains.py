@@ -21,10 +21,10 @@ from hypothesis import strategies as st
 from oracles.press import PRESSES, TY460, Press
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank.position import SliderCrank
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]

@@ -20,13 +20,13 @@ import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460, Press, at, polynomial
 
-from gearlink.core.cams.laws import law
-from gearlink.core.errors import NoSolution
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
-from gearlink.core.flatbed_press.compensation import Compensation
-from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank.position import SliderCrank
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain
+from gearlink.core.machines.flatbed_press.compensation import Compensation
+from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, zone_end
+from gearlink.core.parts.cams.laws import law
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]

@@ -22,8 +22,8 @@ import pytest
 from oracles.press import PRESSES, TY460, Press
 from pydantic import ValidationError
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.flatbed_press.design import FlatbedPress
 
 ROOT = Path(__file__).parents[3]
 CONTRACT = [

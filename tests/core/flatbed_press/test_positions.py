@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, least_transmission_input
+from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, least_transmission_input
 from tests import factory
 
 PHI = np.radians(np.arange(0.0, 360.0, 7.5))

@@ -18,10 +18,10 @@ from oracles.loop_gains import loop_gains
 from oracles.press_gains import PressGains
 from oracles.press_register_chain import PressErrors, register_error
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.flatbed_press.register_lift import RackLift
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.flatbed_press.register_lift import RackLift
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 LINKS = dict(zip("abcd", ("crank", "coupler", "rocker", "frame"), strict=True))

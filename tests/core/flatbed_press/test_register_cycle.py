@@ -18,7 +18,7 @@ import pytest
 from oracles.press import TY460
 from oracles.press_follower import lift
 
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.base.errors import MissingSection, NoSolution
 
 pytestmark = pytest.mark.usefixtures("forty_digits")
 

@@ -18,11 +18,16 @@ import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460, Press
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.flatbed_press.zone import equal_speed_angle, equal_speed_angles, forward_stroke_end, zone_end
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.slider_crank.position import SliderCrank
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.machines.flatbed_press.zone import (
+    equal_speed_angle,
+    equal_speed_angles,
+    forward_stroke_end,
+    zone_end,
+)
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXACT = REFERENCE["flatbed_press"][0]["expect"]["sync_exact"]

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from axes import agree, bits_stand_alone, sampled
 
-from gearlink.core.explore.chunks import chunk_of, evaluated, together
-from gearlink.core.explore.preparing import problem
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.chunks import chunk_of, evaluated, together
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.study.spec import StudySpec
 
 BASE: dict[str, Any] = {"kind": "gear-pair", "module": 2, "teeth": [23, 48], "center_distance": 72}
 SHIFTED = {"kind": "gear-pair", "module": 2, "teeth": [23, 48], "profile_shift": [0.2, 0.1]}

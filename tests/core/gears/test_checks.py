@@ -13,11 +13,11 @@ import factory
 import pytest
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, contact_check, gear_check, gear_quantity
-from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec import GearLimits
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.spec import GearLimits
+from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, contact_check, gear_check, gear_quantity
+from gearlink.core.parts.gears.mesh.pair import GearPair
 
 LIMITS = GearLimits()
 SIN2 = math.sin(math.radians(20.0)) ** 2

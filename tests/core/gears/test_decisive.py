@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.drawing_names import DERIVED
-from gearlink.core.gears.measures.inspection import PREFERRED_PINS, Ball, preferred_pin
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.results import observed
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import observed
+from gearlink.core.parts.gears.drawing_names import DERIVED
+from gearlink.core.parts.gears.measures.inspection import PREFERRED_PINS, Ball, preferred_pin
+from gearlink.core.parts.gears.mesh.pair import GearPair
 from tests.factory import design
 from tests.sweeps import ALL
 

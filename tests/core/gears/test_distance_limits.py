@@ -11,7 +11,7 @@ import random
 import pytest
 from factory import design
 
-from gearlink.core.gears.codes import AT_LIMITS
+from gearlink.core.parts.gears.codes import AT_LIMITS
 
 
 def at_limits(made):

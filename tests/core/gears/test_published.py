@@ -16,11 +16,11 @@ from factory import design
 from gear_cases import CASES, spec_of
 
 from gearlink.cli.verification.cases import Case, read
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.mesh.ring_cutter import ShapedRing
-from gearlink.core.gears.tooth.involute import involute
-from gearlink.core.gears.tooth.root_fillet import RackCutRoot
-from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
+from gearlink.core.parts.gears.tooth.involute import involute
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
+from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
 
 PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) and "module" in case["input"]]
 SINGLE = [case for case in read("gearcore").cases if case.id.startswith("gearcore-generation")]

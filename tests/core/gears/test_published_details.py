@@ -15,11 +15,11 @@ import pytest
 from factory import design
 from gear_cases import CASES, spec_of
 
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.rating.load import Material
-from gearlink.core.gears.rating.root_stress import RootStress
-from gearlink.core.gears.tooth.involute import inverse_involute, involute
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.rating.load import Material
+from gearlink.core.parts.gears.rating.root_stress import RootStress
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute
 
 ELSEWHERE = {  # compared by the tests named after them
     "profile_shift_1", "zeta_root", "profile_shift_2", "pressure_A", "pressure_B-", "pressure_B+", "pressure_C",

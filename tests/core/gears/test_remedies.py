@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.gears.checks import gear_check
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.report import Check
-from gearlink.core.spec import GearLimits
-from gearlink.core.spec_paths import changed
+from gearlink.core.base.report import Check
+from gearlink.core.base.spec import GearLimits
+from gearlink.core.base.spec_paths import changed
+from gearlink.core.parts.gears.checks import gear_check
+from gearlink.core.parts.gears.mesh.pair import GearPair
 
 SHIFTED = {"kind": "gear-pair", "module": 4, "teeth": [12, 40], "profile_shift": [0.9, -0.2]}
 

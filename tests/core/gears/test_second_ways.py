@@ -17,19 +17,19 @@ from hypothesis import strategies as st
 from matplotlib.path import Path
 from sweeps import examples
 
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.measures.backlash import MeshPlay
-from gearlink.core.gears.mesh.contact import PathOfContact
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.mesh.ring_interference import InternalInterference
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.outline.ring_profile import RingProfile
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
-from gearlink.core.gears.rating.flank_strength import FlankStrength
-from gearlink.core.gears.rating.load import Load, Material
-from gearlink.core.gears.rating.root_strength import RootSection
-from gearlink.core.gears.tooth.root_fillet import RackCutRoot
-from gearlink.core.gears.tooth.tools import RackTool
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.measures.backlash import MeshPlay
+from gearlink.core.parts.gears.mesh.contact import PathOfContact
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
+from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
+from gearlink.core.parts.gears.rating.load import Load, Material
+from gearlink.core.parts.gears.rating.root_strength import RootSection
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
+from gearlink.core.parts.gears.tooth.tools import RackTool
 
 TEETH, SHIFT = st.integers(12, 90), st.floats(-0.3, 0.7)
 HELIX = st.floats(0.0, 32.0)

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.checks import gear_check
-from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.spec import GearLimits
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec import GearLimits
+from gearlink.core.parts.gears.checks import gear_check
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.mesh.pair import GearPair
 
 ANGLE = math.radians(20.0)
 WIDEST = math.pi / (4.0 * math.tan(ANGLE))

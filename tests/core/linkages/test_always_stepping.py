@@ -16,14 +16,14 @@ import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.always_stepping import AlwaysStepping, keeping
-from gearlink.core.planet_linkages import two_gear_family as kernel
-from gearlink.core.planet_linkages.two_gear_frames import Family
-from gearlink.core.planet_linkages.two_gear_synthesis import always_stepping as two_gear_frames
-from gearlink.core.three_gear.families import external, internal
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.synthesis.always import always_stepping as three_gear_frames
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planet_linkages import two_gear_family as kernel
+from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+from gearlink.core.machines.planet_linkages.two_gear_synthesis import always_stepping as two_gear_frames
+from gearlink.core.machines.three_gear.families import external, internal
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.synthesis.always import always_stepping as three_gear_frames
+from gearlink.core.parts.linkages.always_stepping import AlwaysStepping, keeping
 
 STEP = 0.5  # deg
 GRID = np.radians(np.arange(0.0, 720.0, STEP))

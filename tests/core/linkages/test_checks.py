@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.parts.linkages.checks import transmission_check
 
 
 @pytest.mark.parametrize(("degrees", "status"), [(39.9, "fail"), (40.1, "warn"), (45.1, "pass")])

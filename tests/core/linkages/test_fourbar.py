@@ -25,9 +25,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.loop import closing_range, rocker_and_rate, rocker_rate
-from gearlink.core.linkages.fourbar.position import FourBar, FourBarState, inverse_reading, solve, solve_inverse
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar.loop import closing_range, rocker_and_rate, rocker_rate
+from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, inverse_reading, solve, solve_inverse
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

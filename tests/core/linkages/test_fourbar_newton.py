@@ -23,13 +23,13 @@ from hypothesis import strategies as st
 from oracles.vector_loop import exact_angles, loop_rates
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import newton as fourbar_newton
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.loop import closing_range
-from gearlink.core.linkages.fourbar.newton import loop_step
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.loop import closing_range
+from gearlink.core.parts.linkages.fourbar.newton import loop_step
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

@@ -24,11 +24,11 @@ from hypothesis import strategies as st
 from oracles.closing import assembles
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar import sweep as sweep
-from gearlink.core.linkages.fourbar.loop import closing_range
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar import sweep as sweep
+from gearlink.core.parts.linkages.fourbar.loop import closing_range
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

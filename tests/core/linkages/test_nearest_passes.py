@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 
 EPS = 2.0**-52
 

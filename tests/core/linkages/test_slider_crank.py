@@ -19,11 +19,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.slider_crank import position as slider_crank
-from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
-from gearlink.core.linkages.slider_crank.position import SliderCrank
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.slider_crank import position as slider_crank
+from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

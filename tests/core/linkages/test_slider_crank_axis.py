@@ -13,10 +13,10 @@ import pytest
 from axes import agree, bits_stand_alone, by_path, sampled
 from factory import design
 
-from gearlink.core.explore.preparing import problem
-from gearlink.core.linkages.slider_crank.axis import axis
-from gearlink.core.linkages.slider_crank.sweep import slider
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.machines.slider_crank.axis import axis
+from gearlink.core.parts.linkages.slider_crank.sweep import slider
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.study.spec import StudySpec
 
 BASE: dict[str, Any] = {"kind": "slider-crank", "stroke": 300, "rod": 500, "offset": 40}
 SIZES = [

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.linkages.standstills import TURN, Turning, back_steps, standstills, turnings, zeros_over_turn
+from gearlink.core.parts.linkages.standstills import TURN, Turning, back_steps, standstills, turnings, zeros_over_turn
 
 
 def wave(k, shift):

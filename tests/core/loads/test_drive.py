@@ -15,14 +15,14 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar.mechanism import four_bar, full_balance
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.loads.flywheel import Energy
-from gearlink.core.loads.motor import MotorRun
-from gearlink.core.loads.panels import Panels
+from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.mechanism.dynamics import Mass, shaking
 from gearlink.core.mechanism.links import Mechanism
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, full_balance
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.studies.loads.flywheel import Energy
+from gearlink.core.studies.loads.motor import MotorRun
+from gearlink.core.studies.loads.panels import Panels
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 FEED = {key: value for key, value in DATA["cases"][0]["spec"].items() if key != "at"}

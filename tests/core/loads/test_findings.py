@@ -10,8 +10,8 @@ from typing import Any
 import factory
 import pytest
 
-from gearlink.core.loads import checks
-from gearlink.core.loads.cams import checks as cam_checks
+from gearlink.core.studies.loads import checks
+from gearlink.core.studies.loads.cams import checks as cam_checks
 
 FEED = "loaded_feed"
 

@@ -18,12 +18,12 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from gearlink.core.loads.flywheel import Energy, SteadyRun
-from gearlink.core.loads.panels import Panels
 from gearlink.core.mechanism.dynamics import Mass, System, reduced
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import fixed, standing, steady
+from gearlink.core.studies.loads.flywheel import Energy, SteadyRun
+from gearlink.core.studies.loads.panels import Panels
 
 G = -9810j
 BAR = Mass(1.0, 1.0 / 12.0, 500.0 + 0j)

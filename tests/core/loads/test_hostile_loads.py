@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from gearlink.core.errors import GearlinkError
-from gearlink.core.loads import courses
-from gearlink.core.loads.spec import Course
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.studies.loads import courses
+from gearlink.core.studies.loads.spec import Course
 
 FEED = "loaded_feed"
 

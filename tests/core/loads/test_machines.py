@@ -15,15 +15,15 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.flatbed_press.chains import Travel
-from gearlink.core.flatbed_press.compensation import Compensation
-from gearlink.core.flatbed_press.loads import PressLoads
-from gearlink.core.loads import machine
+from gearlink.core.machines.flatbed_press.chains import Travel
+from gearlink.core.machines.flatbed_press.compensation import Compensation
+from gearlink.core.machines.flatbed_press.loads import PressLoads
 from gearlink.core.mechanism import friction
 from gearlink.core.mechanism.joints import Contact
 from gearlink.core.mechanism.links import Link, Mechanism
 from gearlink.core.mechanism.motion import Motion
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.loads import machine
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
 

@@ -14,8 +14,8 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.cli.scenes.flatbed_press import Machine
-from gearlink.core.flatbed_press.loads import PressLoads
+from gearlink.cli.views.scenes.flatbed_press import Machine
+from gearlink.core.machines.flatbed_press.loads import PressLoads
 from gearlink.core.mechanism.rates import cross
 
 PRESS = "loaded_press"

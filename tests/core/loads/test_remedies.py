@@ -9,8 +9,8 @@ import pytest
 from pydantic import ValidationError
 from sweeps import mostly_slow
 
-from gearlink.core.loads.spec import Course
-from gearlink.core.spec_paths import changed
+from gearlink.core.base.spec_paths import changed
+from gearlink.core.studies.loads.spec import Course
 
 FEED = "loaded_feed"
 CASES: list[tuple[str, str, dict[str, Any]]] = [

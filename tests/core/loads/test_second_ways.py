@@ -18,8 +18,8 @@ import yaml
 from loaded import LOADS, loaded
 from sweeps import mostly_slow
 
-from gearlink.core.errors import GearlinkError
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.mechanism.dynamics import Force, Mass, reduced
 from gearlink.core.mechanism.friction import with_friction
 from gearlink.core.mechanism.joints import Pin
@@ -184,7 +184,7 @@ def test_change_point_linkage_is_refused() -> None:
 
 def test_what_has_no_masses_computes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Another command on a file with loads, and every command on one without, never asks for the links' motion."""
-    from gearlink.core.three_gear.loads import ThreeGearLoads
+    from gearlink.core.machines.three_gear.loads import ThreeGearLoads
 
     def refuse(*_: Any) -> Any:
         raise AssertionError("loads were computed")

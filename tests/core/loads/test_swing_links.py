@@ -18,9 +18,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from gearlink.core.errors import GearlinkError
-from gearlink.core.wide_swing import remedies as swing_remedies
-from gearlink.core.wide_swing.loads import checks as swing_load_checks
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.machines.wide_swing import remedies as swing_remedies
+from gearlink.core.machines.wide_swing.loads import checks as swing_load_checks
 
 DEGREE = 90
 K = np.array([0.03, 0.11, 0.24, 0.37, 0.44, 0.58, 0.66, 0.79, 0.92, 0.985])
@@ -442,7 +442,7 @@ def test_cams_stand_in_the_frames_of_their_tables(base: str, changes: dict[str, 
 
 @pytest.mark.parametrize("way", ["outward", "homeward"])
 def test_directions_left_out_are_those_of_the_film(way: str) -> None:
-    from gearlink.cli.scenes.wide_swing_cam import Cycle, _crank_rocker, _slider
+    from gearlink.cli.views.scenes.wide_swing_cam import Cycle, _crank_rocker, _slider
 
     design = factory.design("wide_swing_oscillating_cam", command="loads", drive__stroke=way, loads={})
     phi = np.array([0.2, 1.1, 2.3])

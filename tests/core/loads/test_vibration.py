@@ -14,9 +14,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.cams.laws import law
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.vibration import Oscillator, Panelled, PeriodicResponse, harmonics, speed_limit
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.parts.cams.laws import law
+from gearlink.core.studies.loads.vibration import Oscillator, Panelled, PeriodicResponse, harmonics, speed_limit
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 LAWS = DATA["residual amplitude of all laws, damping 0.0"]

@@ -11,8 +11,8 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import GearlinkError
-from gearlink.core.report import Rule
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.report import Rule
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 EXPECTED = DATA["wide_swing"]["expected"]

@@ -11,9 +11,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gearlink.core.loads.machine import TURN
-from gearlink.core.loads.zeros import zeros, zeros_of
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.loads.machine import TURN
+from gearlink.core.studies.loads.zeros import zeros, zeros_of
 
 _NEAR = 4.0 * float(np.spacing(TURN))
 

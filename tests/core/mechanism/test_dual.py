@@ -10,14 +10,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlink.core.linkages.fourbar.mechanism import four_bar, four_bar_pins
-from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.mechanism.chain import Chain
 from gearlink.core.mechanism.dual import Dual, Shift, gradient
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import fixed, mixed
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 BAR = FourBar(18.0, 50.0, 100.0, 121.4)
 ANGLES = np.linspace(0.2, 6.2, 7)

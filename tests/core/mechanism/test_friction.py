@@ -11,10 +11,10 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.base.remedies.bench import Bench
 from gearlink.core.mechanism.blocks import blocks
 from gearlink.core.mechanism.friction import solution_of
 from gearlink.core.mechanism.rubbing import Rubbing, SelfLocking
-from gearlink.core.remedies.bench import Bench
 
 FEED, PRESS = "loaded_feed", "loaded_press"
 RUBBING = {"pins": 0.1, "pin_radius": 10, "guides": 0.1, "meshes": 0.98}
@@ -236,7 +236,7 @@ def test_many_turns_have_their_forces_computed_once_for_all_that_integrates_them
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """19 turns: mean, rms, energy and what pins bear look at the same nodes, and changes of sign at the same grid."""
-    from gearlink.core.loads import machine
+    from gearlink.core.studies.loads import machine
 
     asked, solve = [0], machine.with_friction
 

@@ -12,7 +12,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.elliptic import (
     amplitude,
     complete_integral,

@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.periodic import cosine_series, midpoint_mean
 
 ULP = 2.0**-52

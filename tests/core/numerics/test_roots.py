@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root, sign_changes
 
 

@@ -15,17 +15,17 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar, solve
-from gearlink.core.linkages.standstills import standstills, turnings
-from gearlink.core.numerics.roots import maximum
-from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
-from gearlink.core.planet_linkages.rocker_design import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
+from gearlink.core.machines.planet_linkages.rocker_design import (
     crank_for_swing,
     extreme_crank_angles,
     longest_crank,
     output_swing,
 )
+from gearlink.core.numerics.roots import maximum
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+from gearlink.core.parts.linkages.standstills import standstills, turnings
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

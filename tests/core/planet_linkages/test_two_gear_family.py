@@ -22,14 +22,14 @@ import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar, solve
-from gearlink.core.linkages.standstills import standstills
-from gearlink.core.planet_linkages import two_gear_family as kernel
-from gearlink.core.planet_linkages import two_gear_frames as frames_of
-from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.planet_linkages.two_gear_frames import Family
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.planet_linkages import two_gear_family as kernel
+from gearlink.core.machines.planet_linkages import two_gear_frames as frames_of
+from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
+from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+from gearlink.core.parts.linkages.standstills import standstills
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 SUN, RING = Family(54.0, 48.0, 50.0, -2.0), Family(32.0, 64.0, 80.0, 0.6)

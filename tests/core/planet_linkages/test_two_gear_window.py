@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import sweep
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar import sweep
 
 STEP = math.radians(0.01)
 FRAME = 83.70093140551192

@@ -12,11 +12,11 @@ import factory
 import pytest
 from oracles.random_designs import draw
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar import timed_fit
-from gearlink.core.flatbed_press import zone
-from gearlink.core.remedies.ways import Standing, modules, steps_to_limit
-from gearlink.core.report import Check, Remedy
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import Standing, modules, steps_to_limit
+from gearlink.core.base.report import Check, Remedy
+from gearlink.core.machines.five_bar import timed_fit
+from gearlink.core.machines.flatbed_press import zone
 
 
 def path_of(key: str) -> str:

@@ -18,14 +18,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples, mostly_slow
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.bench import BUDGET
-from gearlink.core.six_bar import loop
-from gearlink.core.six_bar.course import Course, Follower
-from gearlink.core.six_bar.loop import SixBar
-from gearlink.core.six_bar.mechanism import pins
-from gearlink.core.six_bar.relations import reduced, train_relation
-from gearlink.core.six_bar.spec import GearedSixBarSpec, SixStart
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.bench import BUDGET
+from gearlink.core.machines.six_bar import loop
+from gearlink.core.machines.six_bar.course import Course, Follower
+from gearlink.core.machines.six_bar.loop import SixBar
+from gearlink.core.machines.six_bar.mechanism import pins
+from gearlink.core.machines.six_bar.relations import reduced, train_relation
+from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixStart
 
 EPS = 2.0**-52
 CLOSED, FOLLOWED = "geared_six_bar", "six_bar_swing"

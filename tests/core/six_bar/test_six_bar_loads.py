@@ -1,6 +1,6 @@
 """Loads of the geared six-bar: both torques for every seat of a train, energy over the period, and what is refused.
 
-The forces themselves are held against an augmented system in tests/core/loads/test_augmented.py.
+The forces themselves are held against an augmented system in tests/core/studies/loads/test_augmented.py.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from factory import design, worked
 from pydantic import ValidationError
 from six_bars import LOADS, SIX_BARS
 
-from gearlink.core.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError
 from gearlink.core.mechanism.joints import meshes_of
 
 SWING = "six_bar_swing"
@@ -104,7 +104,7 @@ def test_a_balanced_free_gear_leaves_the_period_alone() -> None:
 
 
 def test_without_the_section_there_are_no_loads(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearlink.core.six_bar.loads import SixBarLoads
+    from gearlink.core.machines.six_bar.loads import SixBarLoads
 
     def refuse(*_: Any) -> Any:
         raise AssertionError("loads were computed")

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gearlink.core.study.expressions import NotAnExpression, parse
+from gearlink.core.studies.study.expressions import NotAnExpression, parse
 
 QUANTITIES = {"a": 3.0, "b.c[1]": -2.5, "d_2": 7.0}
 UNITS = {"a": "mm", "b.c[1]": "mm", "d_2": "deg"}

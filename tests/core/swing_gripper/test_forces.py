@@ -19,9 +19,15 @@ from hypothesis import strategies as st
 from oracles.gripper import CASES, REFERENCE, kinetic_energy, machine
 from sweeps import examples, mostly_slow
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.remedies.bench import Bench
-from gearlink.core.swing_gripper.forces import LeverSpring, Masses, contact_torques, inertia_torque, lift_off_speed
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.remedies.bench import Bench
+from gearlink.core.machines.swing_gripper.forces import (
+    LeverSpring,
+    Masses,
+    contact_torques,
+    inertia_torque,
+    lift_off_speed,
+)
 
 EPS = 2.0**-52
 EXAMPLE = machine()

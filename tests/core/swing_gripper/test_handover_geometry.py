@@ -17,8 +17,13 @@ from hypothesis import strategies as st
 from oracles.gripper import CASES, machine
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.swing_gripper.handover_geometry import misplacement, speed_difference, tip_path, widest_window
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.swing_gripper.handover_geometry import (
+    misplacement,
+    speed_difference,
+    tip_path,
+    widest_window,
+)
 
 EPS = 2.0**-52
 

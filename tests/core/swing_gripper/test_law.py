@@ -20,9 +20,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, law
-from gearlink.core.errors import NoSolution
-from gearlink.core.swing_gripper.law import PHASES, SixPhaseLaw
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.swing_gripper.law import PHASES, SixPhaseLaw
+from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED, law
 
 EPS = 2.0**-52
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "swing_gripper.json").read_text())

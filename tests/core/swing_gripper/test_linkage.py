@@ -23,10 +23,10 @@ from oracles.gripper import CASES, TABLE, machine, mirrored, turned
 from oracles.vector_loop import exact_angles
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.swing_gripper.loop import closed_form_error, two_ways
-from gearlink.core.swing_gripper.swing import DEAD_POINT, clear_turn, require_swing
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.swing_gripper.loop import closed_form_error, two_ways
+from gearlink.core.machines.swing_gripper.swing import DEAD_POINT, clear_turn, require_swing
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 
 EPS = 2.0**-52
 DEGREES = np.arange(0.0, 360.0, 1.0)

@@ -19,9 +19,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.swing_gripper.axes import links
-from gearlink.core.swing_gripper.passes import Passes
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.swing_gripper.axes import links
+from gearlink.core.machines.swing_gripper.passes import Passes
 
 Data = dict[str, Any]
 Lines = dict[str, tuple[Any, Any, float]]

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.cams.laws import law
-from gearlink.core.swing_gripper.handover_geometry import drum_center
-from gearlink.core.swing_gripper.law import SixPhaseLaw
-from gearlink.core.swing_gripper.linkage import GripperLinkage
-from gearlink.core.swing_gripper.mechanism import links_of
+from gearlink.core.machines.swing_gripper.handover_geometry import drum_center
+from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
+from gearlink.core.machines.swing_gripper.mechanism import links_of
+from gearlink.core.parts.cams.laws import law
 
 DEGREES = np.arange(0.0, 360.0, 7.5)
 ARM = 300.0, math.radians(125.0)

@@ -14,7 +14,7 @@ from oracles.gripper_register import GripperByHand
 from oracles.gripper_register_contact import roller_contact
 from scipy.optimize import brentq
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.base.errors import NoSolution
 
 SOURCES: dict[str, Any] = {
     key: {"plus_minus": 0.01}

@@ -17,7 +17,7 @@ import pytest
 from oracles.gripper import CASES, machine
 from sweeps import mostly_slow
 
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.base.errors import MissingSection, NoSolution
 
 
 def sized(limit: float, **keys: Any):

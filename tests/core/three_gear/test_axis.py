@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 from axes import agree, bits_stand_alone, by_path, sampled
 
-from gearlink.core.explore.chunks import chunk_of, together
-from gearlink.core.explore.front import Found
-from gearlink.core.explore.preparing import problem
-from gearlink.core.explore.problem import Problem
-from gearlink.core.study.spec import StudySpec
+from gearlink.core.studies.explore.chunks import chunk_of, together
+from gearlink.core.studies.explore.front import Found
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.explore.problem import Problem
+from gearlink.core.studies.study.spec import StudySpec
 
 CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}
 QUANTITIES = [

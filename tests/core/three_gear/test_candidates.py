@@ -5,7 +5,7 @@ import math
 import pytest
 from factory import design
 
-from gearlink.core.candidates import modules
+from gearlink.core.base.candidates import modules
 
 TASKS = [
     pytest.param("synth dwell", "standing_feed", {}, marks=pytest.mark.slow),  # a window for each row

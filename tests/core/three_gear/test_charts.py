@@ -17,10 +17,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
-from gearlink.core.three_gear.symmetric import charts
-from gearlink.core.three_gear.symmetric import family as symmetric_family
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.machines.three_gear.symmetric import charts
+from gearlink.core.machines.three_gear.symmetric import family as symmetric_family
 
 _CASES: dict[str, Any] = {
     case["id"]: case

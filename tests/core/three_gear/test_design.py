@@ -21,9 +21,9 @@ import pytest
 from oracles.three_gear import Drive
 from sweeps import mostly_slow
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.three_gear.names import MESHES
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.three_gear.names import MESHES
+from gearlink.core.parts.gears.mesh.pair import GearPair
 
 ROOT = Path(__file__).parents[3]
 CASES = json.loads((ROOT / "tests" / "reference" / "contract" / "analyze.json").read_text())

@@ -14,14 +14,20 @@ import mpmath
 import pytest
 from sweeps import ALL
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar, solve
-from gearlink.core.three_gear.dwell.dwells import back_step, dwell_angle, dwell_positions, motion
-from gearlink.core.three_gear.dwell.momentary_dwell import momentary_linkage, tangency
-from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed, speed_extremes
-from gearlink.core.three_gear.symmetric.back_step import back_step_angle
-from gearlink.core.three_gear.symmetric.back_step import dwell_angle as closed_dwell_angle
-from gearlink.core.three_gear.symmetric.family import frame_ratio_for_back_step, symmetric_linkage
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_angle, dwell_positions, motion
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_linkage, tangency
+from gearlink.core.machines.three_gear.motion import (
+    GearTrain,
+    output_acceleration,
+    output_angle,
+    output_speed,
+    speed_extremes,
+)
+from gearlink.core.machines.three_gear.symmetric.back_step import back_step_angle
+from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle as closed_dwell_angle
+from gearlink.core.machines.three_gear.symmetric.family import frame_ratio_for_back_step, symmetric_linkage
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

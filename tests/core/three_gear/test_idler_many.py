@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.three_gear.many import symmetric as many
-from gearlink.core.three_gear.many.idler import Tried, smallest_idlers
+from gearlink.core.machines.three_gear.many import symmetric as many
+from gearlink.core.machines.three_gear.many.idler import Tried, smallest_idlers
 
 N = 1.0 + np.geomspace(1e-3, 50.0, 4000)  # of 1 tooth to 1000, up to 400 to 8
 

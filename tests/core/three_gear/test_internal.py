@@ -19,16 +19,13 @@ import pytest
 from factory import changed, design, worked
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import standstills
-from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.three_gear.dwell import internal_dwell
-from gearlink.core.three_gear.dwell.dwells import back_step, dwell_positions
-from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
-from gearlink.core.three_gear.families import internal as internal_families
-from gearlink.core.three_gear.families.external import back_step_of, ripple, solved
-from gearlink.core.three_gear.motion import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell import internal_dwell
+from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_positions
+from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
+from gearlink.core.machines.three_gear.families import internal as internal_families
+from gearlink.core.machines.three_gear.families.external import back_step_of, ripple, solved
+from gearlink.core.machines.three_gear.motion import (
     GearTrain,
     forward,
     mean_ratio,
@@ -37,7 +34,10 @@ from gearlink.core.three_gear.motion import (
     output_speed,
     speed_extremes,
 )
-from gearlink.core.three_gear.sweep import output_motion
+from gearlink.core.machines.three_gear.sweep import output_motion
+from gearlink.core.parts.linkages import standstills
+from gearlink.core.parts.linkages.checks import check_linkage
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 
@@ -329,8 +329,8 @@ def test_speeds_of_an_output_that_turns_against_the_crank() -> None:
 
 def test_drawn_teeth_roll_in_mesh() -> None:
     """Over a turn each drawn gear turns as the kinematics say, and the places of the teeth agree at the pitch point."""
-    from gearlink.cli.scenes.three_gear_four_bar import build
-    from gearlink.core.gears.outline.mesh_phase import ring_turn
+    from gearlink.cli.views.scenes.three_gear_four_bar import build
+    from gearlink.core.parts.gears.outline.mesh_phase import ring_turn
 
     fraction = np.linspace(0.0, 1.0, 25)
     links = {"crank": 8, "frame": 24}
@@ -388,7 +388,7 @@ def test_tolerances_of_a_ring_are_answered(
 
 
 def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
-    from gearlink.core.three_gear.many.axis import axis
+    from gearlink.core.machines.three_gear.many.axis import axis
 
     ring = made("analyze", dwell=None, links={"crank": 22, "frame": 53}).spec
     assert axis(ring, "analyze", ["links.crank"], ["frame_length"], []) is None

@@ -13,11 +13,11 @@ import pytest
 from factory import design
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.data import PLACES
-from gearlink.core.gears.train.names import TRAIN_QUANTITIES
-from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
-from gearlink.core.three_gear.dwell.by_roots import ByRoots
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.dwell.by_roots import ByRoots
+from gearlink.core.parts.gears.data import PLACES
+from gearlink.core.parts.gears.train.names import TRAIN_QUANTITIES
 
 GEARS = {"module": 2.5, "crank": 24, "idler": 28, "output": 60}
 DRAWN = {

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from oracles.symmetric import momentary_frame_ratio
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.three_gear.dwell.momentary_dwell import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
     eccentricity_range,
     least_eccentricity,
     momentary_crank_angle,
@@ -26,8 +26,14 @@ from gearlink.core.three_gear.dwell.momentary_dwell import (
     tangency_range,
     wrap,
 )
-from gearlink.core.three_gear.motion import GearTrain, gear_gap, output_acceleration, output_speed, speed_extremes
-from gearlink.core.three_gear.symmetric.family import symmetric_linkage
+from gearlink.core.machines.three_gear.motion import (
+    GearTrain,
+    gear_gap,
+    output_acceleration,
+    output_speed,
+    speed_extremes,
+)
+from gearlink.core.machines.three_gear.symmetric.family import symmetric_linkage
 
 CASES = {
     case["id"]: case

@@ -15,10 +15,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar.position import FourBar, solve
-from gearlink.core.three_gear.motion import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.motion import (
     GearTrain,
     acceleration_extremes,
     gear_gap,
@@ -29,6 +27,8 @@ from gearlink.core.three_gear.motion import (
     output_speed,
     speed_extremes,
 )
+from gearlink.core.parts.linkages.checks import check_linkage
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 CASES = {
     case["id"]: case

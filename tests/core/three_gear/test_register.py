@@ -18,10 +18,10 @@ from factory import design
 from oracles.three_gear_chain import Errors, output_error
 from oracles.three_gear_gains import Drive, register_gains
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.three_gear.motion import GearTrain, output_acceleration
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 GAINS = [case for case in CASES if case["input"]["what"] == "drive-gains"]

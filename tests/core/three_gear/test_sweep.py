@@ -9,13 +9,17 @@ import math
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.three_gear.dwell.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
-from gearlink.core.three_gear.many import symmetric as symmetric_many
-from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
-from gearlink.core.three_gear.sweep import momentary_dwells, output_motion
-from gearlink.core.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+    momentary_crank_angle,
+    momentary_frame_length,
+    tangency_range,
+)
+from gearlink.core.machines.three_gear.many import symmetric as symmetric_many
+from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
+from gearlink.core.machines.three_gear.sweep import momentary_dwells, output_motion
+from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
 TURN = np.arange(360) * (math.tau / 360)

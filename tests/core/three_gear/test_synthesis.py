@@ -22,8 +22,8 @@ from oracles.three_gear import Drive
 from pydantic import ValidationError
 from sweeps import examples
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.three_gear.symmetric import back_step as symmetric_back_step
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "synth.json").read_text())
 EQUAL = {"module": 2.0, "crank": 40, "output": 40}
@@ -155,7 +155,7 @@ def test_speeds_of_the_band_at_their_mean(low, high, assembly):
 @pytest.mark.parametrize("teeth", [(20, 20, 60), (20, 33, 17), (60, 30, 20), (40, 17, 40)])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_momentary_dwell_is_a_double_root_of_the_speed(teeth, share, assembly):
-    from gearlink.core.three_gear.dwell.momentary_dwell import eccentricity_range
+    from gearlink.core.machines.three_gear.dwell.momentary_dwell import eccentricity_range
 
     low, high = eccentricity_range(*(1.25 * z for z in teeth))
     gears = dict(zip(("crank", "idler", "output"), teeth, strict=True)) | {"module": 2.5}
@@ -497,7 +497,7 @@ def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
 
 def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
     """However many checks ask for them; a trial, which nobody reads, seeks no words for its refusal either."""
-    from gearlink.core.three_gear.synthesis import base as synthesis
+    from gearlink.core.machines.three_gear.synthesis import base as synthesis
 
     tried = []
 
@@ -518,7 +518,7 @@ def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
 
 def test_few_trials_seek_the_idler_of_unequal_gears():
     """Each idler of theirs is a search of its own, hundreds of a design; trials of equal gears go on after them."""
-    from gearlink.core.remedies.bench import Bench
+    from gearlink.core.base.remedies.bench import Bench
 
     equal = factory.design("standing_feed", command="synth dwell")
     given = factory.design("standing_feed", command="synth dwell", gears__output=41, gears__idler=45)

@@ -15,13 +15,13 @@ import numpy as np
 import pytest
 from sweeps import ALL
 
-from gearlink.core.design import in_unit
-from gearlink.core.linkages.fourbar import position as fourbar
-from gearlink.core.linkages.fourbar.lengths import Lengths, solve
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.nomenclature import term
-from gearlink.core.three_gear.as_made.one import TolerancedDrive
-from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.base.design import in_unit
+from gearlink.core.base.nomenclature import term
+from gearlink.core.machines.three_gear.as_made.one import TolerancedDrive
+from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar.lengths import Lengths, solve
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 NEAR = 1e-11
 NAMES = (

@@ -21,12 +21,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles.symmetric import momentary_frame_ratio
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
-from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.symmetric import window_dwell
-from gearlink.core.three_gear.symmetric.back_step import crank_angle_for_window, dwell_angle, window_limit
-from gearlink.core.three_gear.symmetric.family import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.machines.three_gear.symmetric import window_dwell
+from gearlink.core.machines.three_gear.symmetric.back_step import crank_angle_for_window, dwell_angle, window_limit
+from gearlink.core.machines.three_gear.symmetric.family import (
     frame_ratio_for_back_step,
     symmetric_linkage,
 )

@@ -15,9 +15,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.tolerance.correlation import together
-from gearlink.core.tolerance.laws import Law
-from gearlink.core.tolerance.sampling import estimate, replications
+from gearlink.core.studies.tolerance.correlation import together
+from gearlink.core.studies.tolerance.laws import Law
+from gearlink.core.studies.tolerance.sampling import estimate, replications
 
 NUMBERS = json.loads((Path(__file__).parents[2] / "reference/statistics.json").read_text(encoding="utf-8"))
 FIELDS = ("form", "lower", "upper", "mean", "sigma", "mode")

@@ -10,9 +10,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.register.samples import sampled_share
-from gearlink.core.tolerance.budget import Contribution, budget, normal_band
-from gearlink.core.tolerance.shares import COMPUTED_BY
+from gearlink.core.studies.register.samples import sampled_share
+from gearlink.core.studies.tolerance.budget import Contribution, budget, normal_band
+from gearlink.core.studies.tolerance.shares import COMPUTED_BY
 
 COVERED = math.erf(3.0 / math.sqrt(2.0))  # 99.73 %
 CANDY: dict[str, Any] = {

@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.study.faults import WrongStudy
-from gearlink.core.tolerance.iso_286 import standard_tolerance
-from gearlink.core.tolerance.laws import Law, normal_between
-from gearlink.core.tolerance.sampling import replication
-from gearlink.core.tolerance_study import allocation
-from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, drawn_yield, normal_yield
+from gearlink.core.studies.study.faults import WrongStudy
+from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
+from gearlink.core.studies.tolerance.laws import Law, normal_between
+from gearlink.core.studies.tolerance.sampling import replication
+from gearlink.core.studies.tolerance_study import allocation
+from gearlink.core.studies.tolerance_study.allocation import Graded, Requirement, choices, drawn_yield, normal_yield
 
 GRADES = range(5, 11)
 SIZES = (40.0, 150.0)

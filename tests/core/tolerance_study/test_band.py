@@ -12,8 +12,8 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.three_gear import motion
-from gearlink.core.tolerance_study.band import SHARES, courses
+from gearlink.core.machines.three_gear import motion
+from gearlink.core.studies.tolerance_study.band import SHARES, courses
 
 CANDY: dict[str, Any] = {
     "kind": "three-gear-four-bar",

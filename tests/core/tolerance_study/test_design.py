@@ -12,13 +12,13 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.study.faults import WrongStudy
-from gearlink.core.tolerance.iso_286 import standard_tolerance
-from gearlink.core.tolerance.laws import Law
-from gearlink.core.tolerance_study import corners
-from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
-from gearlink.core.tolerance_study.samples import evaluated
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.studies.study.faults import WrongStudy
+from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
+from gearlink.core.studies.tolerance.laws import Law
+from gearlink.core.studies.tolerance_study import corners
+from gearlink.core.studies.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
+from gearlink.core.studies.tolerance_study.samples import evaluated
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 CANDY = {
@@ -260,8 +260,8 @@ def test_too_many_sources_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     assert made.problem.coordinates == 9
     assert np.isfinite(made.raw("yield"))
     for most in (
-        "gearlink.core.tolerance_study.design.MOST_WITH_INDICES",
-        "gearlink.core.tolerance.sources.MOST_COORDINATES",
+        "gearlink.core.studies.tolerance_study.design.MOST_WITH_INDICES",
+        "gearlink.core.studies.tolerance.sources.MOST_COORDINATES",
     ):
         monkeypatch.setattr(most, 8)
         with pytest.raises(WrongStudy) as found:

@@ -17,13 +17,13 @@ import pytest
 from pydantic import ValidationError
 from sweeps import mostly_slow
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS
-from gearlink.core.spec_paths import put
-from gearlink.core.three_gear.as_made.meshes import over_sorted
-from gearlink.core.tolerance.shares import SEEN
-from gearlink.core.tolerance_study import samples
-from gearlink.core.tolerance_study.samples import judged
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.spec_paths import put
+from gearlink.core.machines.three_gear.as_made.meshes import over_sorted
+from gearlink.core.studies.tolerance.shares import SEEN
+from gearlink.core.studies.tolerance_study import samples
+from gearlink.core.studies.tolerance_study.samples import judged
 
 SAMPLES = 8
 

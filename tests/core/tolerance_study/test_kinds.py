@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS
-from gearlink.core.tolerance_study.samples import judged_replication
-from gearlink.core.tolerance_study.shares import problem_of, text_of
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.studies.tolerance_study.samples import judged_replication
+from gearlink.core.studies.tolerance_study.shares import problem_of, text_of
 
 NARROW = {"plus_minus": 0.003}
 STUDIES: dict[str, tuple[list[str], str]] = {

@@ -16,8 +16,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.law.balancing import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.law.balancing import (
     drive_balancing_ratio,
     drive_torque_peak,
     inertia_torque_peak,
@@ -25,7 +25,7 @@ from gearlink.core.wide_swing.law.balancing import (
     speed_sweep,
     stroke_time,
 )
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, force
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, force
 
 ROUNDING = 1e-14
 CASES = {

@@ -11,9 +11,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.wide_swing import bodies
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing import bodies
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 SECTION = {"center_distance": 200, "roller_radius": 8, "shaft_radius": 25}
 
@@ -142,7 +142,7 @@ def test_device_and_rod_against_dense_rows() -> None:
 
 
 def bodies_drive(crank: float, rod: float, middle: float, offset: float) -> Any:
-    from gearlink.core.wide_swing.slider import SliderDrive
+    from gearlink.core.machines.wide_swing.slider import SliderDrive
 
     return SliderDrive(crank, rod, middle, offset)
 

@@ -18,13 +18,13 @@ import pytest
 from pydantic import ValidationError
 from sweeps import mostly_slow
 
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.remedies.ways import REFUSAL
-from gearlink.core.report import remedy_words
-from gearlink.core.spec_paths import changed, replaced, value_at
-from gearlink.core.wide_swing import remedies
-from gearlink.core.wide_swing.design import WideSwingDesign
-from gearlink.core.wide_swing.slider import SliderDrive
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.remedies.ways import REFUSAL
+from gearlink.core.base.report import remedy_words
+from gearlink.core.base.spec_paths import changed, replaced, value_at
+from gearlink.core.machines.wide_swing import remedies
+from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.slider import SliderDrive
 
 CASES = {
     case["id"]: case["outputs_float"]

@@ -16,9 +16,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.wide_swing.law.device import (
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.law.device import (
     DeviceGeometry,
     Pneumatic,
     Spring,
@@ -28,6 +27,7 @@ from gearlink.core.wide_swing.law.device import (
     least_pivot_ratio_spring_material,
     spring_rate,
 )
+from gearlink.core.numerics.roots import bracketed_root
 
 ROUNDING = 1e-15
 CASES = {

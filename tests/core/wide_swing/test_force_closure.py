@@ -15,10 +15,10 @@ import pytest
 from oracles.unloading_limits import pendulum_stretch_ratio
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.spec_paths import replaced
-from gearlink.core.wide_swing.design import WideSwingDesign
-from gearlink.core.wide_swing.spec import WideSwingSpec
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec_paths import replaced
+from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.spec import WideSwingSpec
 
 CAM = {"center_distance": 200.0, "roller_radius": 8.0}
 DRIVE = {"crank": 60.0, "coupler": 180.0, "rocker": 96.0, "frame": 192.0}

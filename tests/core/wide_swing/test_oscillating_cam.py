@@ -17,11 +17,11 @@ import numpy as np
 import pytest
 from oracles.unloading_limits import pendulum_stretch_ratio
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
-from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
+from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 EXPECTED = next(
     case["outputs_float"]

@@ -16,9 +16,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
-from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw, reference_inertia
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw, reference_inertia
 
 EXPECTED = next(
     case["outputs_float"]

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.cams.cam import WideSwingCam
-from gearlink.core.wide_swing.cams.slider_cam import HalfLaw, SliderCam
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
-from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
+from gearlink.core.machines.wide_swing.cams.slider_cam import HalfLaw, SliderCam
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
 
 GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
 DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))
@@ -148,8 +148,8 @@ def test_film_turns_the_cam_under_the_roller() -> None:
     The nearest of points h apart stands up to t = h/2 beside the touch, and so t^2/(2 r_p) rho/(rho - r_p) farther
     from the roller's centre, rho that of the pitch curve.
     """
-    from gearlink.cli.scenes.scene import Body
-    from gearlink.cli.scenes.wide_swing_cam import Cycle, build
+    from gearlink.cli.views.scenes.scene import Body
+    from gearlink.cli.views.scenes.wide_swing_cam import Cycle, build
 
     made = design("wide_swing_slider_cam")
     fraction = np.array([0.05, 0.12, 0.3, 0.38, 0.55, 0.62, 0.8, 0.88])

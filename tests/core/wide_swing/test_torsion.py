@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
-from gearlink.core.wide_swing.torsion import TorsionResponse, acceleration_series, dynamic_coefficient
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.torsion import TorsionResponse, acceleration_series, dynamic_coefficient
 
 EXPECTED = next(
     case["outputs_float"]

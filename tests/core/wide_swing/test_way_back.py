@@ -9,10 +9,10 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.spec_paths import replaced
-from gearlink.core.wide_swing.design import WideSwingDesign
-from gearlink.core.wide_swing.remedies import candidates
-from gearlink.core.wide_swing.way_back import need, ratio
+from gearlink.core.base.spec_paths import replaced
+from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.remedies import candidates
+from gearlink.core.machines.wide_swing.way_back import need, ratio
 
 SHORT = {"drive__crank": 60.0, "drive__coupler": 180.0, "drive__frame": 192.0, "unloader__reserve": 0.25}
 

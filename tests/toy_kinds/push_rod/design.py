@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearlink.core.clearance.reach import reaches
-from gearlink.core.design import Design, Outline
-from gearlink.core.loads.design import LoadsDesign, loads_outline
-from gearlink.core.real_speed import RealSpeed
-from gearlink.core.report import Table
-from gearlink.core.results import cached_property
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.real_speed import RealSpeed
+from gearlink.core.base.report import Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.studies.clearance.reach import reaches
+from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
 
 class PushRod(RealSpeed, Design):

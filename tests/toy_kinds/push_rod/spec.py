@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gearlink.core.loads.spec import Body, Loads
-from gearlink.core.spec import Deferred, DrivenSpec, Length, LoadLimits, SignedLength, Spec
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, SignedLength, Spec
+from gearlink.core.studies.loads.spec import Body, Loads
 
 
 class PushRodMasses(Spec):

@@ -10,9 +10,9 @@ import math
 
 import pytest
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.gears.tooth.involute import involute
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.tooth.involute import involute
 
 
 @pytest.mark.parametrize("teeth", [(20, 60), (48, 62), (36, 90), (25, 80)])

@@ -20,9 +20,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from sweeps import ALL, examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.tooth import teeth
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.tooth import teeth
 
 EPS = 2.0**-52
 ALPHA = math.radians(20.0)

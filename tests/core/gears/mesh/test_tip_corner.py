@@ -12,17 +12,17 @@ import numpy as np
 import pytest
 
 import gearlink
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.contact import PathOfContact
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.mesh.pair_sweep import GearPairs
-from gearlink.core.gears.mesh.tip_corner import TipCorner
-from gearlink.core.gears.mesh.tip_corner_sweep import TipCorners
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.outline.ring_profile import RingProfile
-from gearlink.core.gears.outline.tooth_profile import ToothProfile
-from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Points
+from gearlink.core.parts.gears.mesh.contact import PathOfContact
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs
+from gearlink.core.parts.gears.mesh.tip_corner import TipCorner
+from gearlink.core.parts.gears.mesh.tip_corner_sweep import TipCorners
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
+from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
 
 EXTERNAL = {"module": 1, "pressure_angle": 10, "teeth": [32, 63], "profile_shift": [0.587, 0.427]}
 RING = {

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from matplotlib.path import Path
 from sweeps import examples
 
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.outline.ring_profile import RingProfile
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
 
 PAIRS = st.builds(
     lambda m, z1, z2, x1, x2: GearPair.from_shift(m, (z1, z2), (x1, x2)),

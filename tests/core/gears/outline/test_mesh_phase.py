@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 
-from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.gears.outline.mesh_phase import driven_turn, ring_turn
-from gearlink.core.gears.outline.ring_profile import RingProfile
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
 
 _CHORD = 1e-3
 

@@ -18,8 +18,8 @@ from factory import design
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.outline.ring_profile import RingProfile
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 
 DEEP, SHARP = 2e-6, 2e-4
 DATA = {"kind": "gear-pair", "module": 2, "teeth": [21, -67], "profile_shift": [0.3, -0.3]}

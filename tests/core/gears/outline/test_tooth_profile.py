@@ -16,11 +16,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, half_tooth, outline, tooth_space
-from gearlink.core.gears.tooth.involute import involute
-from gearlink.core.gears.tooth.teeth import min_shift_no_undercut
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, half_tooth, outline, tooth_space
+from gearlink.core.parts.gears.tooth.involute import involute
+from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut
 
 EPS = 2.0**-52
 ALPHA = math.radians(20.0)

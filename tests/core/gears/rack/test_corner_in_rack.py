@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import gearlink
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.rack.geometry import RackGeometry
-from gearlink.core.gears.rack.mesh import RackMesh
-from gearlink.core.gears.rack.rating import RackData
-from gearlink.core.gears.rack.tip_corner import CornerInRack
-from gearlink.core.gears.tooth.tools import RackTool
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.rack.mesh import RackMesh
+from gearlink.core.parts.gears.rack.rating import RackData
+from gearlink.core.parts.gears.rack.tip_corner import CornerInRack
+from gearlink.core.parts.gears.tooth.tools import RackTool
 
 
 def rolled(rack: RackMesh) -> float:

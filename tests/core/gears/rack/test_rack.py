@@ -14,13 +14,13 @@ import pytest
 from factory import design
 from matplotlib.path import Path
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.measures.backlash import Backlash
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
-from gearlink.core.gears.rack.geometry import RackGeometry
-from gearlink.core.gears.rack.profile import RackProfile
-from gearlink.core.gears.tooth.tools import RackTool
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.measures.backlash import Backlash
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
+from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.rack.profile import RackProfile
+from gearlink.core.parts.gears.tooth.tools import RackTool
 
 CHORD = 1e-4
 DATA = {"kind": "gear-pair", "module": 2, "teeth": [20, "rack"]}

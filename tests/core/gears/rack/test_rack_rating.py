@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.drawing_names import RATING
-from gearlink.core.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.drawing_names import RATING
+from gearlink.core.parts.gears.rack.geometry import RackGeometry
 
 DATA: dict[str, Any] = {
     "kind": "gear-pair",

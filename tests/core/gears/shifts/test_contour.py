@@ -14,14 +14,14 @@ from typing import Any
 import pytest
 from sweeps import ALL
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.drawing_checks import corner_in_fillet
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.shifts import contour as kernel
-from gearlink.core.gears.shifts.contour import BlockingContour
-from gearlink.core.gears.shifts.contour_lines import Line, value_of
-from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.drawing_checks import corner_in_fillet
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.shifts import contour as kernel
+from gearlink.core.parts.gears.shifts.contour import BlockingContour
+from gearlink.core.parts.gears.shifts.contour_lines import Line, value_of
+from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
 
 CASES = json.loads((Path(__file__).parents[3] / "reference" / "gears.json").read_text())["cases"]
 

@@ -16,11 +16,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.along_path import AlongPath
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.shifts.candidates import strength_of
-from gearlink.core.gears.shifts.shift_split import Diagonal
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.along_path import AlongPath
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.shifts.candidates import strength_of
+from gearlink.core.parts.gears.shifts.shift_split import Diagonal
 
 CASES = json.loads((Path(__file__).parents[3] / "reference" / "gears.json").read_text())["cases"]
 SHARES = [case for case in CASES if case["name"].startswith("equal-")]

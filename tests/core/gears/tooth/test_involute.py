@@ -15,9 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.tooth import involute_sweep
-from gearlink.core.gears.tooth.involute import inverse_involute, involute, involute_rise, rise_of_involute
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.gears.tooth import involute_sweep
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute, involute_rise, rise_of_involute
 
 ANGLES = [(1e-8, 1e-4), (1e-4, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.14), (1.14, 1.55)]
 DECADES = [(-12.0, -6.0), (-6.0, -2.0), (-2.0, 0.0), (0.0, 0.31), (0.31, 1.5), (1.5, 12.0)]

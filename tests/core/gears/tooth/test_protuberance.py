@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.gears.mesh.pair_sweep import RackCutRoots
-from gearlink.core.gears.outline.tooth_profile import ToothProfile, half_tooth
-from gearlink.core.gears.tooth.root_fillet import RackCutRoot
-from gearlink.core.gears.tooth.tools import RackTool
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.pair_sweep import RackCutRoots
+from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, half_tooth
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
+from gearlink.core.parts.gears.tooth.tools import RackTool
 
 DEPTH = 4e-4
 

@@ -14,13 +14,13 @@ import pytest
 from factory import design
 from pydantic import ValidationError
 
-from gearlink.core.errors import NoSolution
-from gearlink.core.gears.drawing_names import RATING
-from gearlink.core.gears.keys.pair import PairKeys
-from gearlink.core.gears.train.keys import TrainKeys
-from gearlink.core.gears.train.meshed import QUANTITIES
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.mechanism.joints import meshes_of
-from gearlink.core.spec_paths import changed
+from gearlink.core.parts.gears.drawing_names import RATING
+from gearlink.core.parts.gears.keys.pair import PairKeys
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.gears.train.meshed import QUANTITIES
 
 DRAWN = {
     "tool": {"rounding": 0.3},

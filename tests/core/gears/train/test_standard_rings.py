@@ -12,9 +12,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.gears.train.single_mesh import MESH_CHECKS, mesh_checks
-from gearlink.core.kinds import KINDS
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks
 
 LIMITS = KINDS["gear-pair"].spec_model().model_validate(
     {"kind": "gear-pair", "module": 1, "teeth": [20, 30], "profile_shift": [0, 0]}

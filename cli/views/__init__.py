@@ -1,0 +1,1 @@
+"""Pictures: figures, scenes, films, the page."""

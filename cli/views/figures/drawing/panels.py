@@ -1,0 +1,349 @@
+"""Panels that several figures share: named phases over a turn, legends outside the curves, cams to scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+from unicodedata import east_asian_width
+
+from gearlink.cli.views.figures.drawing import failing, style
+from gearlink.cli.views.scenes.colors import PHASE_TINTS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+
+_A4 = (8.27, 11.69)
+
+CAM_COLORS = (style.BLUE, style.RED)
+CAM_LINES: tuple[Any, Any] = ("-", style.LONG)
+"""Main and return cam differ in their lines as well, for grey print."""
+
+_LEGEND: dict[str, Any] = {
+    "frameon": False,
+    "fontsize": 7.5,
+    "borderpad": 0.1,
+    "borderaxespad": 0.2,
+    "handlelength": 2.8,
+    "columnspacing": 1.2,
+}
+_NAME_SIZE = 7.5
+_BESIDE = 60.0
+"""Points that numbers and words beside a panel take."""
+_LETTERS, _WIDE_LETTERS = 70, 45
+"""Letters of a title's line, and of one that has Chinese ones."""
+_LINE = 112
+"""Characters of a legend that fill the width of a page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A named stretch of a turn [deg]; it may begin before 0 or end after 360."""
+
+    name: str
+    start: float
+    end: float
+
+    def within_turn(self) -> list[tuple[float, float]]:
+        """The stretch in [0, 360], in two parts where it passes the end of the turn."""
+        start = self.start % 360.0
+        end = start + (self.end - self.start)
+        return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
+
+
+def page(title: str, share: float = 1.0) -> Figure:
+    """A figure as wide as a page, and as high as a share of it."""
+    width, height = _A4
+    letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
+    made = style.figure(width, share * height, fill(title.replace("$", r"\$"), letters))
+    engine: Any = made.get_layout_engine()
+    across, up = style.MARGIN / width, style.MARGIN / (share * height)
+    engine.set(rect=(across, up, 1.0 - 2.0 * across, 1.0 - 2.0 * up), w_pad=0.03, h_pad=0.05)
+    return made
+
+
+def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
+    """Shade the phases in all axes, and name them along the top of the first."""
+    names: list[tuple[float, str]] = []
+    crowded = False
+    for phase in phases:
+        parts = phase.within_turn()
+        for start, end in parts:
+            for each in axes:
+                style.stretch(each, start, end, color=PHASE_TINTS[phase.name], linewidth=0, zorder=0)
+        start, end = max(parts, key=lambda part: part[1] - part[0])
+        names.append((0.5 * (start + end), phase.name))
+        crowded |= _width_in_degrees(phase.name) > end - start
+    top = axes[0].secondary_xaxis("top")
+    top.set_xticks([place for place, _ in names], [name for _, name in names], fontsize=_NAME_SIZE)
+    top.tick_params(length=0, pad=2)
+    top.spines["top"].set_visible(False)
+    if crowded:
+        for label in top.get_xticklabels():
+            label.set(rotation=35, ha="left", va="bottom", rotation_mode="anchor")
+
+
+def _width_in_degrees(name: str) -> float:
+    """Width of a phase's name on axes that fill a page, with some space round it."""
+    return (len(name) + 1) * 0.6 * _NAME_SIZE / 72.0 / (_A4[0] - 1.2) * 360.0
+
+
+def heading(axes: Axes, title: str) -> None:
+    """The title of a panel, on the left, so that a legend finds room beside it."""
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
+
+
+def legend_above(axes: Axes, columns: int = 5) -> None:
+    """The legend above the right end of the panel, outside the curves; below the heading where they would meet."""
+    labels = axes.get_legend_handles_labels()[1]
+    title = str(axes.get_title(loc="left"))
+    room = _LINE * _share_of_page(axes)
+    columns = next((n for n in range(columns, 1, -1) if _width_of_legend(labels, n) <= room), 1)
+    rows = max(1, math.ceil(len(labels) / columns))
+    if title and 1.4 * len(title) + _width_of_legend(labels, columns) > room:
+        axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0 + 12.0 * (rows - 1))
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=columns,
+        **_LEGEND,
+    )
+
+
+def _width_of_legend(labels: Sequence[str], columns: int) -> int:
+    """Characters across a legend in so many columns, the first of them longer by one, its lines and gaps counted."""
+    rows, longer = divmod(len(labels), columns)
+    ends = [column * rows + min(column, longer) for column in range(columns + 1)]
+    return sum(max(len(label) for label in labels[i:j]) + 9 for i, j in pairwise(ends) if i < j)
+
+
+def _share_of_page(axes: Axes) -> float:
+    """Part of the page's width that the panel's columns of the grid have, its margins not counted."""
+    place = axes.get_subplotspec()
+    if place is None:
+        return 1.0
+    grid = place.get_gridspec()
+    ratios: Any = grid.get_width_ratios() or [1.0] * grid.ncols
+    return float(sum(ratios[place.colspan.start : place.colspan.stop]) / sum(ratios))
+
+
+def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
+    """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=columns,
+        **_LEGEND,
+    )
+    rows = math.ceil(len(legend.get_texts()) / columns)
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
+
+
+def legend_below(axes: Axes, columns: int = 1, *, labelled: bool = False) -> None:
+    """The legend of a drawing below its tick labels, and below the label of its axis where it has one."""
+    from matplotlib.transforms import ScaledTranslation
+
+    down = ScaledTranslation(0.0, -0.53 if labelled else -0.29, axes.figure.dpi_scale_trans)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes + down,
+        ncols=columns,
+        frameon=False,
+        fontsize=7.5,
+        borderaxespad=0.0,
+    )
+
+
+def drawing(axes: Axes, title: str) -> None:
+    """A drawing to scale among other panels; its unit stands in the heading, where no legend crosses it."""
+    style.drawing(axes)
+    heading(axes, f"{title} [mm]")
+    axes.set_xlabel("")
+    _few_ticks(axes, 7)
+
+
+def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "") -> None:
+    """A marked extreme of a curve over a turn, with its value."""
+    axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
+    left, right = axes.get_xlim()
+    words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
+    share, half = (degrees - left) / (right - left), _half_width(axes, words)
+    side = "right" if share > 1.0 - half else "left" if share < half else "center"
+    look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
+    shift = ({"left": 3, "center": 0, "right": -3}[side], 5 if above else -5)
+    axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
+
+
+def _half_width(axes: Axes, words: str) -> float:
+    """Half the width of small words, as a share of the panel's."""
+    across = 72.0 * (_A4[0] - 1.6) * _share_of_page(axes) - _BESIDE
+    return min(0.5, 0.5 * 0.6 * _NAME_SIZE * len(words) / across)
+
+
+def legend_beside(axes: Axes, drawing: Axes) -> None:
+    """The legend of a drawing in an empty panel of its own."""
+    axes.set_axis_off()
+    handles, labels = drawing.get_legend_handles_labels()
+    axes.legend(handles, labels, loc="upper left", frameon=False, fontsize=8, borderaxespad=0.0, handlelength=2.8)
+
+
+def small_ticks(axes: Axes) -> None:
+    """Tick labels and axis labels of a panel among several."""
+    axes.tick_params(labelsize=8)
+    axes.xaxis.label.set_fontsize(8.5)
+    axes.yaxis.label.set_fontsize(8.5)
+    _few_ticks(axes, 6)
+
+
+def _few_ticks(axes: Axes, most: int) -> None:
+    axes.ticklabel_format(scilimits=(-3, 5))
+    for axis in (axes.xaxis, axes.yaxis):
+        few_ticks(axis, most)
+    axes.yaxis.get_offset_text().set_horizontalalignment("right")  # beside a legend under the heading
+    axes.yaxis.OFFSETTEXTPAD = 5  # points above a number at the end of the axis
+
+
+def few_ticks(axis: Axis, most: int = 6) -> None:
+    """Round numbers along an axis, as many whatever its length, which the layout changes after it has measured them."""
+    from gearlink.cli.views.figures.drawing.ticks import RoundNumbers
+
+    axis.get_offset_text().set_fontsize(7)
+    axis.set_major_locator(RoundNumbers(most))
+
+
+def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
+    """Curves over one turn; panels above others go without a label of the x axis."""
+    style.curves(axes, xlabel, ylabel)
+    small_ticks(axes)
+    style.full_turn(axes, 30)
+    if not xlabel:
+        axes.tick_params(labelbottom=False)
+
+
+def _turn_angles() -> Any:
+    import numpy as np
+
+    return np.arange(721) * 0.5
+
+
+def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: str) -> None:
+    """Pressure angle of each cam over the cam angle, its extreme and the limit [deg]."""
+    import numpy as np
+
+    degrees = _turn_angles()
+    turn_panel(axes, "pressure\nangle [deg]", xlabel)
+    heading(axes, "Pressure angle")
+    for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
+        values = np.degrees(cam.pressure_angle(np.radians(degrees)))
+        worst = cam.max_pressure_angle
+        place = math.degrees(worst.place)
+        sign = math.copysign(1.0, float(np.interp(place, degrees, values)))
+        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {place:.4g}°"
+        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, degrees, values, np.abs(values) > limit, "above the limit")
+        axes.plot([place], [sign * math.degrees(worst.value)], "o", color=color, markersize=4.5)
+    for sign in (1.0, -1.0):
+        named = f"limit ±{limit:g}°" if sign > 0.0 else None
+        axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=named)
+    _legend_of_cams(axes)
+
+
+def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
+    """Curvature of each pitch curve over the cam angle, and the curvature of the roller, which undercuts."""
+    import numpy as np
+
+    degrees = _turn_angles()
+    turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel)
+    heading(axes, "Curvature")
+    for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
+        least = cam.min_curvature_radius
+        values = cam.curvature(np.radians(degrees))
+        label = f"{cam.name}, ρ ≥ {least.value:.5g} mm"
+        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, degrees, values, values * cam.roller_radius >= 1.0, "undercut")
+        if math.isfinite(least.value):
+            axes.plot([math.degrees(least.place)], [1.0 / least.value], "o", color=color, markersize=4.5)
+    for radius in sorted({cam.roller_radius for cam in cams}):
+        axes.axhline(
+            1.0 / radius,
+            color=style.BLACK,
+            linewidth=0.9,
+            linestyle=(0, (5, 3)),
+            label=f"undercut: 1/roller radius {radius:g} mm",
+        )
+    _legend_of_cams(axes)
+
+
+def _legend_of_cams(axes: Axes) -> None:
+    """A row, or two where a cam fails."""
+    legend_above(axes, 5 if len(axes.get_legend_handles_labels()[1]) < 4 else 3)
+
+
+def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:
+    """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
+    import numpy as np
+
+    pitch, profile = cam.points(np.radians(_turn_angles()))
+    pitch, profile = pitch + axis, profile + axis
+    roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
+    style.area(axes, profile, color=color, alpha=0.08, linewidth=0)
+    words = f"{cam.name}, profile"
+    axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, linestyle=line, label=words, zorder=3)
+    _cut(axes, cam, profile)
+    dashes: Any = (0, (5, 3))
+    axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
+    style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
+    axes.plot([roller.real], [roller.imag], "+", color=color, markersize=7, zorder=5)
+    return roller
+
+
+def _cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
+    """In red, where the roller cuts into the profile: the pitch curve is more sharply convex than the roller."""
+    import numpy as np
+
+    lost = cam.curvature(np.radians(_turn_angles())) * cam.roller_radius >= 1.0
+    if lost.any():
+        where = np.where(lost | np.roll(lost, 1) | np.roll(lost, -1), profile, np.nan)
+        look: Any = {"color": style.WRONG, "linewidth": 3.5, "zorder": 7, "gid": "undercut"}
+        axes.plot(where.real, where.imag, **look, label=f"{cam.name}, undercut")
+
+
+def base_circles(axes: Axes, cams: Sequence[DiscCam], axis: complex = 0j) -> None:
+    """The base circle of each cam: the largest that its profile does not cut into."""
+    radii = {f"{cam.min_radius:.5g}": cam.min_radius for cam in cams}
+    colors = CAM_COLORS if len(radii) > 1 else (style.GREY,)
+    for (text, radius), color in zip(radii.items(), colors, strict=True):
+        dots: Any = (0, (1, 2))
+        style.circle(axes, axis, radius, color=color, linewidth=1.0, linestyle=dots, zorder=2)
+        axes.plot([], [], color=color, linewidth=1.0, linestyle=dots, label=f"base circle, {text} mm")
+
+
+def cam_shaft(axes: Axes, axis: complex, radius: float) -> None:
+    """The shaft of the cams, where the file gives its radius [mm]."""
+    if radius > 0.0:
+        style.circle(axes, axis, radius, color=style.BLACK, linewidth=0.9)
+        axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {radius:g} mm")
+
+
+def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, shaft_radius: float = 0.0) -> None:
+    """The cam axis with an arrow in the sense of rotation, clear of the shaft."""
+    import numpy as np
+
+    least, most = (
+        pick(getattr(cam, name) for cam in cams) for pick, name in ((min, "min_radius"), (max, "max_radius"))
+    )
+    radius = max(0.45 * least, 0.5 * (shaft_radius + least), 0.15 * most)
+    axes.plot([axis.real], [axis.imag], "+", color=style.BLACK, markersize=12, zorder=6)
+    axes.plot([axis.real], [axis.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=6, zorder=6)
+    arc = axis + radius * np.exp(1j * np.radians(90.0 + sense * np.linspace(-70.0, 65.0, 61)))
+    axes.plot(arc.real, arc.imag, color=style.BLACK, linewidth=1.2, zorder=6)
+    end = complex(arc[-1])
+    style.arrow(axes, end, 0.12 * radius * 1j * sense * (end - axis) / radius, style.BLACK)

@@ -1,0 +1,171 @@
+"""Positions of a scene on the axes of a sheet: the bodies of the mechanism, to which the sheet adds its dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.scenes.lettering import on_disc, shifts
+from gearlink.cli.views.scenes.scene import Body, Chain, Line, Part, Points, Scene, placed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from matplotlib.axes import Axes
+
+    from gearlink.core.numerics.arrays import Reals
+
+_POINTS = 0.68
+"""Width of a line in points for a pixel of its width in a film."""
+_REACH, _REACH_POINTS = 0.042, 11.5
+"""Distance of letters from their points, in sizes of the drawing and in points."""
+_SHORT = 5
+"""Letters that go into a circle: of more it would be as large as a gear."""
+
+
+AHEAD = 1e-5
+"""So far ahead in the loop is the position that tells in which sense a gear turns."""
+
+
+def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> None:
+    """A position of a scene with its letters; what only a film needs is left out.
+
+    Parameters
+        ahead : Scene or None - the same a moment later: then arrows show in which sense gears and input turn
+    """
+    shown = _position(scene, i)
+    for k, part in enumerate(shown.parts):
+        if isinstance(part, Chain):
+            style.link(axes, [complex(joint[0]) for joint in part.joints], part.color, _POINTS * part.width)
+        else:
+            _outline(axes, part, 2.0 + k / len(shown.parts))
+    for mark in shown.marks:
+        if mark.pivot:
+            style.pivot(axes, complex(mark.point[0]))
+    if ahead is not None:
+        for center, radius, sense, color in turning(shown, _position(ahead, 0)):
+            _sense(axes, shown, center, radius, sense, color)
+    _words(axes, shown)
+
+
+def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene]) -> None:
+    """Links and gears at the first input angle of a loop, lightly half a loop later."""
+    scene = build(design, np.array([0.0, 0.5]))
+    first, other = scene.readouts[0].values
+    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
+    draw(axes, scene, ahead=build(design, np.array([AHEAD])))
+    lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
+
+
+def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]:
+    """Axis, radius [mm], sense and colour of what turns in a scene: its gears, and the first link on a fixed pivot."""
+    found = []
+    for body, later in zip(shown.parts, ahead.parts, strict=True):
+        if isinstance(body, Body) and isinstance(later, Body) and body.pitch:
+            # A ring is two bodies: the rim that has its pitch circle, and after it the line of its teeth.
+            step = float(later.turn[0] - body.turn[0])
+            if abs(step) > 1e-3 * AHEAD:
+                ring = body.repeats == 0 and bool(np.abs(body.outline).max() > 1.15 * body.pitch)
+                found.append((complex(body.place[0]), (1.0 if ring else 0.78) * body.pitch, step, body.color))
+    chains = [(a, b) for a, b in zip(shown.parts, ahead.parts, strict=True) if isinstance(a, Chain) and a.marked]
+    for chain, later_chain in chains[:1]:
+        assert isinstance(later_chain, Chain), "the same parts a moment later"
+        (start, end), (fixed, moved) = chain.joints[:2], later_chain.joints[:2]
+        arm = complex(end[0] - start[0])
+        if abs(complex(fixed[0] - start[0])) < 1e-9 * abs(arm):
+            step = float(np.angle(complex(moved[0] - fixed[0]) / arm))
+            found.append((complex(start[0]), 0.5 * abs(arm), step, chain.color))
+    return [(center, radius, 1 if step > 0.0 else -1, color) for center, radius, step, color in found if step]
+
+
+def _sense(axes: Axes, shown: Scene, center: complex, radius: float, sense: int, color: str) -> None:
+    """An arc with an arrow about an axis, where it keeps clear of links and pivots."""
+    half = min(0.5, 0.09 * _size(shown) / radius)
+    arc = radius * np.exp(1j * sense * np.linspace(-half, half, 25))
+    ways = np.exp(2j * np.pi * np.arange(24) / 24)
+    joints = [np.array([joint[0] for joint in part.joints]) for part in shown.parts if isinstance(part, Chain)]
+    links = [a + (b - a) * np.linspace(0.0, 1.0, 41) for chain in joints for a, b in pairwise(chain)]
+    marks = [np.array([mark.point[0] for mark in shown.marks])]
+    taken = np.concatenate([*links, *marks]) if links or shown.marks else np.array([center])
+    room = [float(np.abs((center + arc * way)[:, None] - taken[None, :]).min()) for way in ways]
+    points = center + arc * ways[int(np.argmax(room))]
+    axes.plot(points.real, points.imag, color=color, linewidth=1.1, zorder=3.9, gid="sense")
+    style.arrow(axes, complex(points[-2]), complex(points[-1] - points[-2]), color)
+
+
+def lightly(axes: Axes, scene: Scene, i: int, color: str = style.GREY, name: str = "_", line: Any = "-") -> None:
+    """Another position of a scene: its links, its sliders, and the pitch circles of gears whose axes have moved."""
+    for part in _position(scene, i).parts:
+        if isinstance(part, Chain) and part.marked:
+            joints = [complex(joint[0]) for joint in part.joints]
+            style.link(axes, joints, color, 0.5 * _POINTS * part.width, label=name, zorder=3.6, linestyle=line)
+            name = "_"
+    for body in scene.parts:
+        if not isinstance(body, Body) or body.shows_turn or np.array_equal(placed(body, i), placed(body, 0)):
+            continue
+        if body.pitch and body.place[i] != body.place[0]:
+            look = {"color": color, "linewidth": 0.8, "alpha": 0.7, "linestyle": style.DASHED}
+            style.circle(axes, complex(body.place[i]), body.pitch, **look, zorder=3.4)
+        elif body.repeats == 1 and not body.pitch:
+            points = placed(body, i)
+            axes.plot(points.real, points.imag, color=color, linewidth=0.9, zorder=3.5)
+
+
+def _position(scene: Scene, i: int) -> Scene:
+    """One position of a scene, without what shows the turning."""
+    here = slice(i, i + 1)
+    parts: list[Part] = []
+    for part in scene.parts:
+        if isinstance(part, Line):
+            parts.append(part)
+        elif isinstance(part, Chain):
+            parts.append(replace(part, joints=tuple(joint[here] for joint in part.joints)))
+        elif not part.shows_turn:
+            parts.append(replace(part, place=part.place[here], turn=part.turn[here]))
+    return Scene(parts=tuple(parts), marks=tuple(replace(mark, point=mark.point[here]) for mark in scene.marks))
+
+
+def _outline(axes: Axes, part: Body | Line, order: float) -> None:
+    """A body filled, a line as it is; the pitch circle of a gear with it."""
+    points = placed(part, 0) if isinstance(part, Body) else part.points
+    look: dict[str, Any] = {"linewidth": _POINTS * part.width, "label": part.name or "_", "zorder": order}
+    if isinstance(part, Line):
+        dashes = style.DASHED if part.dashed else "-"
+        axes.plot(points.real, points.imag, color=part.color, **{**look, "zorder": 3.2}, linestyle=dashes)
+    elif part.fill:
+        gid = f"body-{part.label}" if part.label else None
+        style.area(axes, points, facecolor=part.fill, edgecolor=part.color, gid=gid, **look)
+    elif not part.pitch:
+        axes.plot(points.real, points.imag, color=part.color, **look)
+    if isinstance(part, Body) and part.pitch:
+        center, dashes = complex(part.place[0]), {"linestyle": style.CHAIN, "zorder": 3.1}
+        style.circle(axes, center, part.pitch, color=part.color, linewidth=0.9, gid=f"pitch-{part.label}", **dashes)
+
+
+def _words(axes: Axes, shown: Scene) -> None:
+    """The letters of the joints, and the words on bodies: on a gear in a ring on its pitch circle."""
+    reach = _REACH * _size(shown)
+    beside, on = shifts(shown, reach, lambda body: body.pitch or on_disc(body))
+    for mark, shift in zip(shown.marks, beside, strict=True):
+        away = _REACH_POINTS * shift / reach
+        style.letter(axes, complex(mark.point[0]), mark.text, (away.real, away.imag))
+    labelled = [part for part in shown.parts if isinstance(part, Body) and part.label]
+    for body, shift in zip(labelled, on, strict=True):
+        at = complex(body.place[0]) + shift
+        shape = "circle,pad=0.2" if len(body.label) <= _SHORT else "round,pad=0.3"
+        box = {"boxstyle": shape, "facecolor": "white", "edgecolor": body.color, "linewidth": 1.2}
+        look: dict[str, Any] = {"fontsize": 8, "ha": "center", "va": "center", "zorder": 6}
+        axes.text(at.real, at.imag, body.label, bbox=box if body.pitch else None, **look)
+
+
+def _size(shown: Scene) -> float:
+    """The greater side of the drawing [mm]."""
+    reached: list[Points] = [placed(part, 0) for part in shown.parts if isinstance(part, Body)]
+    reached += [joint for part in shown.parts if isinstance(part, Chain) for joint in part.joints]
+    reached += [part.points for part in shown.parts if isinstance(part, Line)]
+    sides = [[part for p in reached for part in (side(p).min(), side(p).max())] for side in (np.real, np.imag)]
+    return float(max(max(side) - min(side) for side in sides))

@@ -1,0 +1,228 @@
+"""The motion of a flatbed cylinder press: twelve positions of both chains, travel and speed, kinematic diagram."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.views.scenes.flatbed_press import LEVEL, UPRIGHT, Machine, bed_chain, build, cylinder_chain
+from gearlink.cli.views.scenes.scene import TURN, Chain, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.machines.flatbed_press.design import FlatbedPress
+
+POSITIONS = 12
+HIGHLIGHTED = 2
+BED, CYLINDER, LEAST = style.BLUE, style.GREEN, style.RED
+
+_ROWS = 720
+
+
+def draw(command: str, design: FlatbedPress) -> Figure:
+    """Both chains in twelve positions, the whole machine, displacement and velocity over the input angle."""
+    made = panels.page(f"{design.spec.name}: {command}")
+    rows: Any = made.add_gridspec(4, 1, height_ratios=(3.7, 3.5, 1.7, 1.9))
+    bed_positions(made.add_subplot(rows[0]), design)
+    middle: Any = rows[1].subgridspec(1, 2, width_ratios=(1.0, 1.6))
+    cylinder_positions(made.add_subplot(middle[0]), design)
+    machine(made.add_subplot(middle[1]), design)
+    curves = [made.add_subplot(rows[2]), made.add_subplot(rows[3])]
+    _curves(curves, design)
+    return made
+
+
+def machine(axes: Axes, design: FlatbedPress) -> None:
+    """The whole press at an input angle of 60 deg, but for its cams."""
+    style.drawing(axes)
+    panels.heading(axes, f"Kinematic diagram at input angle {30 * HIGHLIGHTED}°")
+    axes.set_xlabel("")
+    scene_axes.draw(axes, build(design, np.array([HIGHLIGHTED / POSITIONS]), cams=False))
+
+
+def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
+    """The press in twelve positions, and last where a chain has its least transmission angle."""
+    from gearlink.core.machines.flatbed_press.chains import least_transmission_input
+
+    return Machine(design, np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN))
+
+
+def bed_positions(axes: Axes, design: FlatbedPress) -> None:
+    """A-B-C-D-E-F in twelve positions; the speeds of the bed in lanes below the slide line."""
+    panels.drawing(axes, f"Bed chain in {POSITIONS} positions, 30° apart, to scale")
+    at, linkage = _at_positions(design, design.bed), design.bed.linkage
+    a, b, _, d, _, f = (joint[:-1] for joint in at.bed_joints)
+    for center, radius in ((a, linkage.crank), (d, linkage.rocker), (d, design.bed.slider_crank_length)):
+        style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
+    axes.axhline(at.slide, color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
+    _overlay(axes, bed_chain(at.bed_joints), at, design.min_transmission_angle_bed)
+    _numbers(axes, list(b), complex(a[0]), 0.16 * linkage.crank)
+    velocity = LEVEL * at.velocity("carriage", "F")[:-1]
+    _lanes(axes, list(f), 2.0 * design.input_speed * velocity.real, at.slide - 0.22 * design.bed.slider_crank_length)
+
+
+def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
+    """G-H-M-N in twelve positions, with the velocity of M."""
+    panels.drawing(axes, "Cylinder chain")
+    chain = design.cylinder
+    at = _at_positions(design, chain)
+    g, _, m, n = (joint[:-1] for joint in at.cylinder_links)
+    for center, radius in ((g, chain.linkage.crank), (n, chain.linkage.rocker)):
+        style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
+    _overlay(axes, cylinder_chain(at.cylinder_links), at, design.min_transmission_angle_cylinder)
+    velocity = UPRIGHT * at.velocity("MN", "M")[:-1] * design.input_speed
+    tips = _arrows(axes, m, velocity, 0.75 * chain.linkage.rocker, "M", (0.86, 0.05))
+    _numbers(axes, list(tips), complex(n[0]), 0.09 * chain.linkage.rocker)
+    panels.legend_below(axes)
+
+
+def _overlay(axes: Axes, scene: Scene, at: Machine, angle: float) -> None:
+    """All positions thin, one strong with its letters, and the one of the least transmission angle dashed."""
+    (links,) = scene.parts
+    assert isinstance(links, Chain), "a chain alone"
+    *thin, least = np.array(links.joints).T
+    for chain in thin:
+        axes.plot(chain.real, chain.imag, color=links.color, linewidth=0.6, alpha=0.55, zorder=2)
+    look: Any = {"color": LEAST, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 3}
+    words = f"least transmission angle {math.degrees(angle):.5g}° (input {math.degrees(at.phi[-1]):.5g}°)"
+    axes.plot(least.real, least.imag, **look, label=words)
+    _angle_arc(axes, *(complex(point) for point in least[1:4]))
+    scene_axes.draw(axes, scene, HIGHLIGHTED)
+    words = f"position {HIGHLIGHTED} (input {30 * HIGHLIGHTED}°)"
+    axes.plot([], [], color=links.color, linewidth=2.0, label=words)
+
+
+def _angle_arc(axes: Axes, before: complex, joint: complex, after: complex) -> None:
+    """The transmission angle at a joint, acute: between the link and the other or its prolongation."""
+    one, other = before - joint, after - joint
+    if (one * other.conjugate()).real < 0.0:
+        one = -one
+    radius = 0.32 * min(abs(one), abs(other))
+    turn = np.angle(other / one) * np.linspace(0.0, 1.0, 25)
+    arc = joint + radius * (one / abs(one)) * np.exp(1j * turn)
+    axes.plot(arc.real, arc.imag, color=LEAST, linewidth=1.6, zorder=5)
+    start = joint + 1.2 * radius * one / abs(one)
+    axes.plot([joint.real, start.real], [joint.imag, start.imag], color=LEAST, linewidth=0.8, zorder=3)
+
+
+def _numbers(axes: Axes, points: list[complex], center: complex, outwards: float) -> None:
+    """Position numbers beside the points, away from a centre."""
+    for number, point in enumerate(points):
+        place = point + outwards * (point - center) / abs(point - center)
+        axes.text(place.real, place.imag, str(number), fontsize=6.5, ha="center", va="center", zorder=7)
+
+
+def _arrows(
+    axes: Axes, start: Any, velocity: Any, longest: float, subject: str, place: tuple[float, float] = (0.86, 1.04)
+) -> Any:
+    """Velocity vectors to one scale, with a key of a round speed; their tips are returned."""
+    top = float(np.abs(velocity).max())
+    scale = top / longest
+    drawn = velocity / scale
+    quiver = axes.quiver(
+        start.real,
+        start.imag,
+        drawn.real,
+        drawn.imag,
+        angles="xy",
+        scale_units="xy",
+        scale=1.0,
+        color=style.ORANGE,
+        units="dots",
+        width=2.0,
+        headwidth=4.5,
+        headlength=6.0,
+        headaxislength=5.5,
+        zorder=5,
+    )
+    tips = start + drawn
+    axes.update_datalim(np.column_stack([tips.real, tips.imag]))
+    round_speed = _round_below(0.7 * top)
+    key = axes.quiverkey(
+        quiver, *place, round_speed / scale, f"{subject}: {round_speed:g} mm/s", labelpos="W", coordinates="axes"
+    )
+    key.text.set_fontsize(8 if place[1] > 1.0 else 6.5)
+    return tips
+
+
+def _round_below(value: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above a value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max((step * power for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-12)), default=power)
+
+
+def _lanes(axes: Axes, points: list[complex], speed: Any, top: float) -> None:
+    """Velocities of the bed, each in a lane of its own below its slider, for on the line they would hide each other."""
+    stroke = max(p.real for p in points) - min(p.real for p in points)
+    step = 0.062 * stroke
+    start = np.array([complex(p.real, top - i * step) for i, p in enumerate(points)])
+    for number, (point, lane) in enumerate(zip(points, start, strict=True)):
+        axes.plot([point.real] * 2, [point.imag, lane.imag], color=style.GREY, linewidth=0.4, linestyle=":", zorder=1)
+        axes.plot([point.real], [point.imag], "s", color=BED, markersize=3.0, zorder=5)
+        side = -1.0 if speed[number] >= 0.0 else 1.0
+        axes.text(
+            lane.real + side * 0.02 * stroke, lane.imag, str(number), fontsize=6.5, ha="center", va="center", zorder=7
+        )
+    _arrows(axes, start, speed.astype(complex), 0.55 * stroke, "bed")
+    panels.legend_below(axes, 2)
+
+
+def _curves(axes: list[Axes], design: FlatbedPress) -> None:
+    """Travel and speed over the input angle: the table `positions`, its twelve rows marked."""
+    dense = design.table("positions", samples=_ROWS)
+    twelve = design.table("positions", samples=POSITIONS)
+    start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
+    for each, what, ylabel in zip(axes, ("displacement", "velocity"), ("travel [mm]", "speed [mm/s]"), strict=True):
+        panels.turn_panel(each, ylabel, "input angle [deg]" if what == "velocity" else "")
+        for part, color, line in (("cylinder", CYLINDER, style.LONG), ("bed", BED, "-")):
+            index = dense.columns.index(f"{part}_{what}")
+            each.plot(dense.data[0], dense.data[index], color=color, linewidth=1.6, linestyle=line, label=part)
+            each.plot(twelve.data[0], twelve.data[index], "o", color=color, markersize=3.0)
+        if f"compensated_{what}" in dense.columns:
+            with_cam: Any = {"color": BED, "linewidth": 1.1, "linestyle": style.DOTTED, "label": "bed with its cam"}
+            each.plot(dense.data[0], dense[f"compensated_{what}"], **with_cam)
+        each.axhline(0.0, color=style.GREY, linewidth=0.6)
+    panels.heading(axes[0], "Travel of bed and cylinder")
+    panels.heading(axes[1], "Speed")
+    _zone(axes, start, end)
+    _equal_speeds(axes[1], design)
+    _poor_transmission(axes[1], design)
+    time_axes.over_input(axes[1], time_axes.turn_time(design))
+    panels.legend_above(axes[0])
+    panels.legend_above(axes[1])
+
+
+def _zone(axes: list[Axes], start: float, end: float) -> None:
+    label = f"synchronous zone, {start:.4g}° to {end:.4g}°"
+    for each in axes:
+        for left, right in panels.Phase("sync", start, end).within_turn():
+            each.axvspan(left, right, color="#CFE8F7", linewidth=0, zorder=0, label=label if each is axes[0] else None)
+            label = "_"
+
+
+def _poor_transmission(axes: Axes, design: FlatbedPress) -> None:
+    """Where the least transmission angle of a chain falls below its limit."""
+    limit = design.spec.limits.transmission_angle
+    for chain in ("bed", "cylinder"):
+        least, place = (math.degrees(design.raw(f"min_transmission_angle_{chain}{end}")) for end in ("", "_at"))
+        if least < limit:
+            failing.at(axes, place, f"{chain} chain: transmission angle {least:.4g}° at {place:.4g}°")
+
+
+def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
+    """The points at which bed and cylinder have the same speed."""
+    from gearlink.core.machines.flatbed_press.zone import equal_speed_angles
+
+    found = np.array(equal_speed_angles(design.bed, design.cylinder))
+    if not found.size:
+        return
+    speed = design.cylinder.travel(found, 1).first * design.input_speed
+    named = ", ".join(f"{angle:.1f}°" for angle in np.degrees(found[:6])) + (", …" if found.size > 6 else "")
+    axes.plot(
+        np.degrees(found), speed, "D", color="white", markeredgecolor=style.RED, markersize=5, label=f"equal: {named}"
+    )

@@ -1,0 +1,73 @@
+"""Sheets of a geared rocker: the mechanism at both ends of the output's swing, and the swing over a turn."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.views.scenes.geared_rocker import build
+from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WORDS = {
+    "crank_length": "crank AB",
+    "coupler_length": "coupler BC",
+    "rocker_length": "rocker CD",
+    "frame_length": "frame AD",
+    "rocker_swing": "swing of the rocker",
+    "output_swing": "swing of the output",
+    "swing_multiple": "output swing/rocker swing",
+    "naive_multiple": "1 + z2/z5",
+    "min_transmission_angle": "least transmission angle",
+}
+
+
+def draw(command: str, design: GearedRocker) -> Figure:
+    """The sheet of a command on a geared rocker."""
+    title = f"{design.spec.name}: {command}"
+    if command == "gear":
+        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+
+        return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
+    return linkage.sheet(title, design, mechanism, _WORDS, [_angles, linkage.over_crank, _speed, _acceleration])
+
+
+def mechanism(axes: Axes, design: GearedRocker) -> None:
+    """Links and gears to scale at one end of the output's swing, lightly at the other."""
+    panels.heading(axes, "Mechanism at both ends of the output's swing")
+    low, high = sorted(design.extreme_crank_angles, key=design.drive.angle)
+    scene = build(design, np.array([high, low]) / (2.0 * math.pi))
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([high / (2.0 * math.pi) + scene_axes.AHEAD])))
+    scene_axes.lightly(axes, scene, 1, name=f"other end, crank angle {math.degrees(low):.5g}°")
+
+
+def _angles(axes: Axes, design: GearedRocker) -> None:
+    """Output and rocker, each from its place at crank angle 0."""
+    linkage.chart(axes, "Angles from crank angle 0", "angle [deg]")
+    linkage.standstills(axes, design.extreme_crank_angles)
+    axes.plot(*linkage.over_turn(design, "output_angle"), color=style.ORANGE, linewidth=1.6, label="output")
+    turns, rocker = linkage.over_turn(design, "rocker_angle")
+    axes.plot(turns, rocker - rocker[0], color=style.BLACK, linewidth=1.2, label="rocker")
+    panels.legend_above(axes, 2)
+
+
+def _speed(axes: Axes, design: GearedRocker) -> None:
+    linkage.chart(axes, "Output speed", "speed ratio")
+    linkage.standstills(axes, design.extreme_crank_angles)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes.plot(*linkage.over_turn(design, "speed_ratio"), color=style.ORANGE, linewidth=1.6)
+    time_axes.in_time(axes, design.angular_speed, 1, "rad")
+
+
+def _acceleration(axes: Axes, design: GearedRocker) -> None:
+    linkage.chart(axes, "Output acceleration", "acceleration ratio\n[1/rad]")
+    linkage.standstills(axes, design.extreme_crank_angles)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes.plot(*linkage.over_turn(design, "acceleration_ratio"), color=style.ORANGE, linewidth=1.6)
+    time_axes.in_time(axes, design.angular_speed, 2, "rad")

@@ -1,0 +1,99 @@
+"""Sheet of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and near its dwell."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
+from gearlink.cli.views.scenes.hypocycloid_dwell import build
+from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WORDS = {
+    "cusps": "cusps of the curve",
+    "carrier_length": "carrier AB",
+    "rod_length": "rod MF",
+    "stroke": "stroke of the slider",
+    "dwell_ripple": "range of the slider in the dwell",
+    "dwell_carrier_angle": "dwell wanted",
+    "tolerance_carrier_angle": "widest dwell within the tolerance",
+    "min_transmission_angle": "least transmission angle",
+}
+
+
+def draw(command: str, design: HypocycloidDwell) -> Figure:
+    """The sheet of a command on a hypocycloid dwell."""
+    if command == "gear":
+        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+
+        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(signed_pair(design.mesh), "", ("2", "ring"))])
+    return linkage.sheet(
+        f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified, _transmission]
+    )
+
+
+def mechanism(axes: Axes, design: HypocycloidDwell) -> None:
+    """The mechanism at an end of its dwell, its links apart; lightly in mid-dwell and at the other end."""
+    slider, half = design.slider, 0.5 * design.dwell_carrier_angle
+    panels.heading(axes, f"Mechanism at the end of the dwell, carrier angle {math.degrees(half):.5g}°")
+    scene = build(design, np.array([half, 0.0, -half]) / (2.0 * math.pi))
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([half / (2.0 * math.pi) + scene_axes.AHEAD])))
+    scene_axes.lightly(axes, scene, 1, name="mid-dwell and start of the dwell")
+    scene_axes.lightly(axes, scene, 2)
+    arc = np.array([slider.point(t) for t in np.linspace(-half, half, 121)])
+    axes.plot(arc.real, arc.imag, color=style.RED, linewidth=2.4, label="arc of the dwell", zorder=3.3)
+    circle = slider.point(0.0) + slider.rod - slider.rod * np.exp(1j * np.linspace(-0.6, 0.6, 121))
+    look = {"color": style.RED, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 3.2}
+    axes.plot(circle.real, circle.imag, **look, label="circle about mid-dwell's F")
+
+
+def _mark(axes: Axes, design: HypocycloidDwell, words: str | None = None) -> None:
+    half = math.degrees(0.5 * design.dwell_carrier_angle)
+    axes.axvspan(-half, half, **linkage.DWELL, label=words)
+
+
+def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], list[float]]:
+    """Carrier angle [deg] and deviation [mm] about mid-dwell."""
+    degrees = [half * (i / 200.0 - 1.0) for i in range(401)]
+    return degrees, [design.slider.deviation(math.radians(x)) for x in degrees]
+
+
+def _turn(axes: Axes, design: HypocycloidDwell) -> None:
+    linkage.chart(axes, "Slider over a turn", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
+    _mark(axes, design, "dwell wanted")
+    axes.plot(*_deviations(design, 180.0), color=style.BLUE, linewidth=1.6)
+    panels.legend_above(axes, 1)
+    axes.set_xlim(-180.0, 180.0)
+    axes.set_xticks(range(-180, 181, 60))
+
+
+def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
+    """The dwell and a little beside it, with the band of the tolerance."""
+    linkage.chart(axes, "Dwell, magnified", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
+    _mark(axes, design)
+    reach = max(design.dwell_carrier_angle, design.tolerance_carrier_angle or 0.0)
+    degrees, values = _deviations(design, math.degrees(0.55 * reach))
+    axes.plot(degrees, values, color=style.BLUE, linewidth=1.6)
+    tolerance, angle = design.spec.dwell.tolerance, design.tolerance_carrier_angle
+    if tolerance is not None and angle is not None:
+        low, high = design.slider.deviation_range(angle)
+        for edge, words in ((low, None), (high, f"band of ±{tolerance:g} mm")):
+            axes.axhline(edge, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
+        panels.legend_above(axes, 1)
+
+
+def _transmission(axes: Axes, design: HypocycloidDwell) -> None:
+    """Angle between the rod and the normal of the slide line."""
+    degrees = np.arange(-360, 361) * 0.5
+    angles = [90.0 - abs(math.degrees(design.slider.rod_angle(math.radians(x)))) for x in degrees.tolist()]
+    linkage.transmission(axes, design, degrees, np.array(angles), "carrier angle [deg]", turn=False)
+    _mark(axes, design)
+    axes.set_xlim(-180.0, 180.0)
+    axes.set_xticks(range(-180, 181, 60))

@@ -1,0 +1,138 @@
+"""Sheet of a register budget: the error along the stretch for both torque signs, and its sources."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.views.figures.drawing import panels, style, time_axes
+from gearlink.core.studies.tolerance.budget import at_worst
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.studies.register.design import RegisterDesign
+    from gearlink.core.studies.tolerance.budget import Budget, Row
+
+_LINES = ("-", style.DASHED)
+_COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.BLACK, style.SKY)
+
+
+def draw(design: RegisterDesign) -> Figure:
+    """The sheet: along the stretch, as a whole and by source, over the cycle, and what is greatest."""
+    along = design.input_angles.size > 1
+    panels_of = (_stretch, _along, _cycle, _sources) if along else (_cycle, _sources)
+    made = panels.page(f"{design.spec.name}: register", 0.3 * len(panels_of) + 0.1)
+    grid = made.add_gridspec(len(panels_of), 1)
+    for place, draw_one in enumerate(panels_of):
+        draw_one(made.add_subplot(grid[place]), design)
+    return made
+
+
+def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
+    """The budgets to draw, each with its name: one where the flank does not matter."""
+    from gearlink.core.studies.register.design import are_alike
+
+    one, other = design.budgets
+    return [("", one)] if are_alike(one, other) else [(" torque +1", one), (" torque −1", other)]
+
+
+def _stretch(axes: Axes, design: RegisterDesign) -> None:
+    """Band and worst case relative to the start of the stretch."""
+    import numpy as np
+
+    degrees = np.degrees(design.input_angles)
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    for (name, found), line in zip(_signs(design), _LINES, strict=False):
+        axes.plot(degrees, found.band, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
+        axes.plot(degrees, found.worst, color=style.ORANGE, linestyle=line, linewidth=1.1, label=f"worst{name}")
+    if design.section.tolerance is not None:
+        limit = design.section.tolerance
+        axes.axhline(limit, color=style.RED, linewidth=1.2, linestyle=style.CHAIN, label="allowed")
+    words: str | None = "torque turns"
+    for flip in design.flips or ():
+        place = math.degrees(flip)
+        place += 360.0 * math.ceil((degrees[0] - place) / 360.0)
+        if place <= degrees[-1]:
+            axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label=words)
+            words = None
+    axes.set_xlim(degrees[0], degrees[-1])
+    _in_time(axes, design)
+    _from_zero(axes)
+    panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 4)
+
+
+def _along(axes: Axes, design: RegisterDesign) -> None:
+    """The greatest sources along the stretch, each at its limit, relative to its start."""
+    import numpy as np
+
+    degrees = np.degrees(design.input_angles)
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    both = [design.contributions(design.input_angles, sign) for sign in (1, -1)][: len(_signs(design))]
+    costs = [{one.source: one.limit * at_worst(one, 0) for one in found} for found in both]
+    order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
+    for name, color in zip(order, _COLORS, strict=False):
+        for cost, line in zip(costs, _LINES, strict=False):
+            axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
+    axes.set_xlim(degrees[0], degrees[-1])
+    _in_time(axes, design)
+    _from_zero(axes)
+    shown = f", the {len(_COLORS)} greatest of {len(order)}" if len(order) > len(_COLORS) else ""
+    dashed = "; dashed: torque −1" if len(costs) > 1 else ""
+    panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
+
+
+def _cycle(axes: Axes, design: RegisterDesign) -> None:
+    """Absolute error over the whole cycle."""
+    import numpy as np
+
+    table = design.table_cycle()
+    signs, degrees, band = (np.asarray(table[name]) for name in ("torque_sign", "input_angle", "band"))
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    names = _signs(design)
+    for sign, (name, _), line in zip((1, -1), names, _LINES, strict=False):
+        here = signs == sign
+        axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
+    style.full_turn(axes)
+    _in_time(axes, design)
+    _from_zero(axes)
+    known = "" if np.isfinite(band).all() else "; without cam nothing is known outside the zone"
+    panels.legend_under_heading(axes, f"Over the cycle, absolute{known}", 4)
+
+
+def _from_zero(axes: Axes) -> None:
+    """The y axis from 0 to a little above what is drawn."""
+    axes.set_ylim(0.0, 1.05 * axes.dataLim.y1 or None)
+
+
+def _in_time(axes: Axes, design: Any) -> None:
+    """The input angle in time, at the speed of the design that is budgeted."""
+    time_axes.over_input(axes, time_axes.turn_time(design.design))
+
+
+def _sources(axes: Axes, design: RegisterDesign) -> None:
+    """Three sigma of every source, and its mean, where the whole is greatest."""
+    style.curves(axes, "3 sigma and mean where the whole is greatest [mm]", "")
+    panels.small_ticks(axes)
+    found = _signs(design)
+    order = sorted(found[0][1].rows, key=_width)
+    height = 0.8 / len(found)
+    for i, (name, one) in enumerate(found):
+        width = {row.source: _width(row) for row in one.rows}
+        places = [j + (i - 0.5 * (len(found) - 1)) * height for j in range(len(order))]
+        color = (style.BLUE, style.SKY)[i]
+        label = name.strip() or None
+        axes.barh(places, [width[row.source] for row in order], height=height, color=color, label=label)
+    axes.set_yticks(range(len(order)), [row.source for row in order])
+    if len(found) > 1:
+        panels.legend_under_heading(axes, "By source", 2)
+    else:
+        panels.heading(axes, "By source")
+
+
+def _width(row: Row) -> float:
+    return 3.0 * row.sigma + abs(row.mean)

@@ -1,0 +1,214 @@
+"""Figures of a three-gear four-bar: the mechanism in its dwell, and its output over a turn; its meshes for `gear`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gearlink.cli.views.figures.drawing import failing, linkage, panels, style, time_axes
+from gearlink.cli.views.figures.three_gear_mechanism import mechanism, words
+from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def draw(command: str, design: ThreeGearFourBar) -> Figure:
+    """The figure of a command on a three-gear four-bar."""
+    title = f"{design.spec.name}: {command}"
+    if command == "gear":
+        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+
+        names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
+        meshes = zip(design.meshes.values(), names, strict=True)
+        return mesh_figure(title, [Mesh(signed_pair(mesh), *name) for mesh, name in meshes])
+    charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
+    if command == "analyze":
+        charts += [_acceleration, _transmission]
+    return linkage.sheet(title, design, mechanism, words(design), charts)
+
+
+# The motion
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A marked stretch of the turn [deg], from `start` over `width`; a momentary dwell has none."""
+
+    start: float
+    width: float
+
+
+def _dwell(design: ThreeGearFourBar) -> Stretch | None:
+    """phi13 from the start of the back-step; a point for a momentary dwell."""
+    if design.back_step is not None and design.dwell_angle is not None:
+        return Stretch(math.degrees(design.back_step.start), math.degrees(design.dwell_angle))
+    places = design.dwell_crank_angles
+    return Stretch(math.degrees(places[0]), 0.0) if places else None
+
+
+def _mark(axes: Axes, design: ThreeGearFourBar, label: bool = False) -> None:
+    """The dwell tinted, the back-step hatched, lines at the standstills."""
+    dwell = _dwell(design)
+    if dwell is None:
+        return
+    if dwell.width:
+        linkage.shade(axes, linkage.DWELL, dwell.start, dwell.width, "dwell φ₁₃" if label else None)
+    if design.back_step is not None:
+        width, words = math.degrees(design.back_step.crank_angle), "back-step φ₁₂" if label else None
+        linkage.shade(axes, linkage.BACKWARD, dwell.start, width, words)
+    linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)
+
+
+def _output(axes: Axes, design: ThreeGearFourBar) -> None:
+    linkage.chart(axes, "Output angle", "output angle [deg]")
+    _mark(axes, design, label=True)
+    x, y = linkage.over_turn(design, "output_angle", linkage.TURN * design.mean_ratio)
+    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="output-angle")
+    axes.plot(
+        [0.0, linkage.TURN],
+        [0.0, linkage.TURN * design.mean_ratio],
+        color=style.GREY,
+        linewidth=0.9,
+        linestyle=style.DOTTED,
+        label="mean",
+    )
+    panels.legend_above(axes, 2)
+
+
+def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
+    """The output about its dwell, counted from its place at the start of it."""
+    import numpy as np
+
+    from gearlink.core.machines.three_gear.motion import output_angle
+    from gearlink.core.machines.three_gear.sweep import output_motion
+
+    dwell = _dwell(design)
+    assert dwell is not None, "drawn only where the output stands still"
+    width = dwell.width or 60.0
+    low = dwell.start - (0.25 * width if dwell.width else 0.5 * width)
+    high = dwell.start + (1.25 * width if dwell.width else 0.5 * width)
+    if (window := _window(design, dwell.start)) is not None:
+        room = 0.08 * window.width
+        low, high = min(low, window.start - room), max(high, window.start + window.width + room)
+    degrees = np.linspace(low, high, 401)
+    at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
+    output = output_motion(design.linkage, design.train, np.radians(degrees)).output_angle - at_start
+    style.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]")
+    panels.small_ticks(axes)
+    panels.heading(axes, "Dwell, magnified")
+    axes.plot(degrees, np.degrees(output), color=style.BLUE, linewidth=1.6, gid="magnified")
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    _tolerance(axes, design, at_start, dwell.start)
+    if dwell.width:
+        _back_step_marks(axes, design, dwell)
+    else:
+        axes.axvline(dwell.start, color=style.GREY, linewidth=0.8, linestyle=style.DASHED)
+        axes.plot([dwell.start], [0.0], "o", color=style.RED, markersize=4.5)
+        axes.annotate(
+            f"{dwell.start % linkage.TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
+        )
+    axes.set_xlim(low, high)
+
+
+def _window(design: ThreeGearFourBar, near: float) -> Stretch | None:
+    """The dwell within a tolerance, in the turn [deg] that starts half a turn before a place."""
+    found = design.tolerance_dwell
+    if found is None:
+        return None
+    start = math.degrees(found.start)
+    turns = math.floor((start - near) / linkage.TURN + 0.5)
+    return Stretch(start - linkage.TURN * turns, math.degrees(found.crank_angle))
+
+
+def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> None:
+    """phi12 and phi13 shaded, the places 1, 2 and 3, and how far the output steps back."""
+    step = design.back_step
+    assert step is not None, "a dwell of some width comes from a back-step"
+    width, back = math.degrees(step.crank_angle), math.copysign(math.degrees(step.angle), design.mean_ratio)
+    axes.axvspan(dwell.start, dwell.start + dwell.width, **linkage.DWELL)
+    axes.axvspan(dwell.start, dwell.start + width, **linkage.BACKWARD)
+    lift = math.copysign(6.0, back)
+    marks = ((1, 0.0, 0.0, "center", lift), (2, width, -back, "center", -lift), (3, dwell.width, 0.0, "right", lift))
+    for number, after, level, side, lift in marks:
+        axes.plot([dwell.start + after], [level], "o", color=style.RED, markersize=4.5, zorder=5)
+        axes.annotate(
+            f"{number}: {(dwell.start + after) % linkage.TURN:.5g}°",
+            (dwell.start + after, level),
+            (0 if side == "center" else -3, lift),
+            textcoords="offset points",
+            ha=side,
+            va="bottom" if lift > 0 else "top",
+            fontsize=7.5,
+        )
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, -2.2 * back, 0.9 * back), max(high, -2.2 * back, 0.9 * back))
+
+
+def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: float) -> None:
+    """The band that the tolerance dwell keeps to, where there is one."""
+    found, window = design.tolerance_dwell, _window(design, near)
+    if found is None or window is None or design.output_tolerance is None:
+        return
+    from gearlink.core.machines.three_gear.motion import output_angle
+
+    start = math.radians(window.start)
+    shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
+    middle = math.degrees(found.output_angle + shift - at_start)
+    band = math.degrees(design.output_tolerance)
+    axes.fill_between(
+        [window.start, window.start + window.width],
+        middle - band,
+        middle + band,
+        color=style.GREEN,
+        alpha=0.25,
+        linewidth=0,
+        label=f"within ±{band:g}° over {window.width:.5g}°",
+    )
+    panels.legend_above(axes, 1)
+
+
+def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
+    linkage.chart(axes, "Speed ratio", "output speed/\ncrank speed")
+    _mark(axes, design)
+    x, y = linkage.over_turn(design, "speed_ratio")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
+    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="speed-ratio")
+    extremes = design.speed_extremes
+    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
+    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
+    axes.margins(y=0.25)
+    time_axes.in_time(axes, design.angular_speed, 1, "rad")
+    panels.legend_above(axes, 3)
+
+
+def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
+    linkage.chart(axes, "Acceleration ratio", "output acceleration/\n(crank speed)²")
+    _mark(axes, design)
+    x, y = linkage.over_turn(design, "acceleration_ratio")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    axes.plot(x, y, color=style.PURPLE, linewidth=1.6, gid="acceleration-ratio")
+    extremes = design.acceleration_extremes
+    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
+    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
+    axes.margins(y=0.25)
+    time_axes.in_time(axes, design.angular_speed, 2, "rad")
+
+
+def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
+    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]")
+    _mark(axes, design)
+    x, y = linkage.over_turn(design, "transmission_angle")
+    limit = design.spec.limits.transmission_angle
+    axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
+    failing.past(axes, x, y, y < limit, "below the limit")
+    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
+    least = math.degrees(design.min_transmission_angle)
+    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"least {least:.5g}°")
+    axes.set_ylim(0.0, 92.0)
+    axes.set_yticks(range(0, 91, 15))
+    panels.legend_above(axes, 3)

@@ -1,0 +1,138 @@
+"""Sheet of a tolerance study: histograms with their limits, what contributes to each, and the output over the cycle."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.views.figures.drawing import panels, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.studies.tolerance_study.band import Course
+    from gearlink.core.studies.tolerance_study.design import ToleranceStudy
+
+_MOST = 4
+_MOST_BINS = 60
+_NOTHING = 1e-12  # of the motion
+_LETTERS = 39  # below a histogram
+
+
+def draw(study: ToleranceStudy) -> Figure:
+    """The sheet: a row for each quantity, those of the requirements first, and one for each output over the cycle."""
+    names, courses = study.varying[:_MOST], [one for one in study.courses if _scatters(one)]
+    height = max(1, len(names)) + len(courses)
+    made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * height)
+    grid = made.add_gridspec(height, 2, width_ratios=[1.25, 1.0])
+    for row, name in enumerate(names):
+        _histogram(made.add_subplot(grid[row, 0]), study, name)
+        _contributions(made.add_subplot(grid[row, 1]), study, name)
+    if not names:
+        axes = made.add_subplot(grid[0, :])
+        axes.axis("off")
+        axes.text(0.5, 0.5, "nothing scatters", ha="center", va="center")
+    for i, course in enumerate(courses, start=max(1, len(names))):
+        _course(made.add_subplot(grid[i, :]), course)
+    return made
+
+
+def _scatters(course: Course) -> bool:
+    """Whether an output leaves its place at all: one that a law prescribes has no band."""
+    import numpy as np
+
+    return bool(np.nanmax(np.abs(course.percentiles)) > _NOTHING * np.ptp(course.nominal))
+
+
+def _course(axes: Axes, course: Course) -> None:
+    """Percentiles of an output over the cycle, about that of the nominal design."""
+    places, (low, five, middle, most, high) = _closed(course)
+    over, unit = course.units
+    style.curves(
+        axes, f"{course.over.replace('_', ' ')} [{over}]", f"off nominal [{unit}]" if unit != "1" else "off nominal"
+    )
+    panels.small_ticks(axes)
+    far = bool((low == low).any())
+    if far:
+        axes.fill_between(places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
+    axes.fill_between(places, five, most, color=style.SKY, alpha=0.8, linewidth=0, label="90 %")
+    axes.plot(places, middle, color=style.BLUE, linewidth=1.2, label="50 %")
+    for line in (low, high) if far else (five, most):
+        axes.plot(places, line, color=style.BLUE, linewidth=0.6)
+    if course.reference is not None:
+        axes.axvline(
+            course.reference, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="the dwell begins"
+        )
+    axes.set_xlim(places[0], places[-1])
+    if over == "deg" and course.period == 360.0:
+        style.full_turn(axes)
+    panels.legend_under_heading(axes, f"{course.output}: designs as made over the cycle", 4)
+
+
+def _closed(course: Course) -> tuple[Any, Any]:
+    """Places and percentiles, those of a cycle up to its end, where it begins again."""
+    import numpy as np
+
+    if course.period is None:
+        return course.places, course.percentiles
+    return np.append(course.places, course.period), np.hstack((course.percentiles, course.percentiles[:, :1]))
+
+
+def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
+    """Density of a quantity, its nominal value, its quantiles and its limits."""
+    import numpy as np
+
+    values = study.result.values[name]
+    values = values[~np.isnan(values)]
+    unit = study.units[name]
+    style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
+    panels.small_ticks(axes)
+    axes.ticklabel_format(axis="x", useOffset=False)
+    bins = min(_MOST_BINS, math.ceil(2.0 * math.cbrt(len(values))))  # more show the few samples, not the density
+    axes.hist(values, bins=bins, density=True, histtype="stepfilled", color=style.SKY)  # one patch for sixty
+    axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
+    low, _, high = study.result.spreads[name].quantiles
+    for place, label in ((low.value, "0.135 and 99.865 %"), (high.value, None)):
+        axes.axvline(place, color=style.BLUE, linewidth=1.0, linestyle=style.DASHED, label=label)
+    for i, limit in enumerate(one for one in study.limits(name) if one is not None):
+        axes.axvline(limit, color=style.RED, linewidth=1.6, linestyle=style.CHAIN, label=None if i else "limit")
+    axes.set_yticks([])
+    _numbers_that_fit(axes)
+    panels.legend_under_heading(axes, _headline(study, name), 3)
+
+
+def _numbers_that_fit(axes: Axes) -> None:
+    """So few numbers below a histogram that all of their digits have room: 154.2075 takes that of two short ones."""
+    words = axes.xaxis.get_major_formatter().format_ticks(axes.get_xticks().tolist())
+    panels.few_ticks(axes.xaxis, max(2, min(6, _LETTERS // (2 + max(map(len, words))))))
+
+
+def _headline(study: ToleranceStudy, name: str) -> str:
+    spread = study.result.spreads[name]
+    unit = study.units[name]
+    return f"{name}: sigma {style.number(spread.sigma.value, 3, scale=0.0)} {unit}".removesuffix(" 1")
+
+
+def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
+    """Shares of the variance: total Sobol' indices where they were asked for, else by the slopes."""
+    table = study.table_contributions()
+    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
+    rows = [row for row in rows if row["quantity"] == name]
+    kind = "total" if rows[0]["total"] is not None else "linear"
+    shares: list[tuple[str, Any, Any]] = [(row["source"], row[kind], row["total_pm"]) for row in rows]
+    what = "total Sobol' index" if kind == "total" else "share of the variance"
+    style.curves(axes, what, "")
+    panels.small_ticks(axes)
+    panels.heading(axes, "Contributions")
+    if any(share is None for _, share, _ in shares):
+        axes.axis("off")
+        words = "the quantity has a kink here:\nno linear shares; ask for --sobol"
+        axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=8, transform=axes.transAxes)
+        return
+    shares.sort(key=lambda row: row[1])
+    error = [row[2] for row in shares] if kind == "total" else None
+    places = range(len(shares))
+    axes.barh(places, [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    axes.set_yticks(places, [row[0] for row in shares])
+    axes.set_xlim(0.0, None)

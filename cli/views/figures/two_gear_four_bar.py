@@ -1,0 +1,94 @@
+"""Sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a turn."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.views.scenes.two_gear_four_bar import build
+from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WORDS = {
+    "crank_length": "crank AB",
+    "coupler_length": "coupler BC",
+    "rocker_length": "rocker CD",
+    "frame_length": "frame AD",
+    "gear_ratio": "gear ratio, −z2/z5 (ring: z2/z5)",
+    "standstill_coupler_ratio": "w2/w1 at a standstill",
+    "dwell_teeth_ratio": "greatest z5/z2 with a standstill",
+    "dwell_crank_angles": "standstills",
+    "back_step_angle": "back-step of the output",
+    "min_transmission_angle": "least transmission angle",
+}
+
+
+def draw(command: str, design: TwoGearFourBar) -> Figure:
+    """The sheet of a command on a two-gear four-bar."""
+    title = f"{design.spec.name}: {command}"
+    if command == "gear":
+        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+
+        return mesh_figure(title, [Mesh(signed_pair(design.mesh), "", ("2", "5"))])
+    charts: list[linkage.Panel] = [
+        _output,
+        linkage.over_crank,
+        partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),
+        partial(_curve, title="Coupler speed", ylabel="w2/w1", name="coupler_ratio"),
+        partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
+    ]
+    return linkage.sheet(title, design, mechanism, _WORDS, charts)
+
+
+def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
+    """Links and gears to scale where the output stands, or is slowest; the pitch point lies on the line CD there."""
+    places = design.dwell_crank_angles
+    phi = places[0] if places else design.speed_ratio_min_at
+    words = "standstill" if places else "least output speed"
+    panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
+    scene = build(design, np.array([phi / (2.0 * math.pi)]))
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([phi / (2.0 * math.pi) + scene_axes.AHEAD])))
+    pole, d = cmath.rect(design.mesh.reference_radius[1], phi), complex(design.frame_length)
+    axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
+    joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
+    look = {"color": style.RED, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 3.8}
+    axes.plot([joint.real, far.real], [joint.imag, far.imag], **look, label="from D through the pitch point")
+
+
+def _curve(axes: Axes, design: TwoGearFourBar, title: str, ylabel: str, name: str) -> None:
+    linkage.chart(axes, title, ylabel)
+    _marks(axes, design)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes.plot(*linkage.over_turn(design, name), color=style.BLUE, linewidth=1.6)
+    if name == "coupler_ratio":
+        stands = design.standstill_coupler_ratio
+        axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
+        panels.legend_above(axes, 1)
+    time_axes.in_time(axes, design.angular_speed, 2 if name == "acceleration_ratio" else 1, "rad")
+
+
+def _output(axes: Axes, design: TwoGearFourBar) -> None:
+    linkage.chart(axes, "Output angle", "output angle [deg]")
+    _marks(axes, design, label=True)
+    gained = linkage.TURN * design.mean_ratio
+    axes.plot(*linkage.over_turn(design, "output_angle", gained), color=style.BLUE, linewidth=1.6, label="output")
+    look = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.DOTTED}
+    axes.plot([0.0, linkage.TURN], [0.0, gained], **look, label="mean")
+    panels.legend_above(axes, 2)
+
+
+def _marks(axes: Axes, design: TwoGearFourBar, label: bool = False) -> None:
+    """Back-steps hatched, standstills as lines."""
+    for i, step in enumerate(design.back_steps):
+        start, end = math.degrees(step.start), math.degrees(step.end)
+        linkage.shade(axes, linkage.BACKWARD, start, end - start, "back-step" if label and i == 0 else None)
+    linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)

@@ -1,0 +1,203 @@
+"""What a picture of a mechanism is made of: rigid bodies, chains of links, fixed lines, over the positions of a loop.
+
+A sheet draws one position or a few of it, a film all of them. Tracks are arrays over the positions; points are complex
+numbers in mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.cli.views.scenes.colors import BLACK, GREY, pale
+
+Reals: TypeAlias = NDArray[np.float64]
+# Complex, or real where all lies on the x axis.
+Points: TypeAlias = NDArray[np.inexact[Any]]
+
+TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """An outline that moves as one piece.
+
+    outline : (M,) points in the body's own frame
+    place, turn : (N,) tracks of its origin and of the direction of its x axis [rad]
+    repeats : after a turn by 2 pi/repeats the outline looks the same; 1 without such a symmetry, 0 for a circle
+    label, name : words on the body, and in a legend
+    pitch : radius of the pitch circle of a gear [mm]
+    shows_turn : there to show how far something has turned; left out where nothing moves
+    """
+
+    outline: Points
+    place: Points
+    turn: Reals
+    repeats: int = 1
+    color: str
+    fill: str = ""
+    width: float = 1.2
+    label: str = ""
+    name: str = ""
+    pitch: float = 0.0
+    shows_turn: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chain:
+    """Links from joint to joint, each joint a track; drawn with a circle at every joint."""
+
+    joints: tuple[Points, ...]
+    color: str = BLACK
+    width: float = 3.5
+    marked: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """A line that stands still."""
+
+    points: Points
+    color: str = GREY
+    width: float = 1.0
+    dashed: bool = False
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """Letters at a point that may move, or a fixed pivot."""
+
+    point: Points
+    text: str = ""
+    pivot: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A curve of the chart: its values over the loop, and at each position."""
+
+    label: str
+    color: str
+    y: Reals
+    now: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """A stretch of the chart that has a name: a dwell, a phase."""
+
+    name: str
+    start: float
+    end: float
+    color: str = "#CFE8F7"
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A chart below the mechanism with a point that runs along."""
+
+    xlabel: str
+    ylabel: str
+    x: Reals
+    now: Reals
+    curves: tuple[Curve, ...]
+    bands: tuple[Band, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Readout:
+    """A value that is shown with every position."""
+
+    label: str
+    unit: str
+    values: Reals
+
+
+Part: TypeAlias = Body | Chain | Line
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """All of a picture; parts are drawn in their order."""
+
+    parts: tuple[Part, ...]
+    marks: tuple[Mark, ...] = ()
+    chart: Chart | None = None
+    readouts: tuple[Readout, ...] = ()
+
+
+def track(value: Any, fraction: Reals) -> Points:
+    """A point, standing or moving, as a track."""
+    return np.broadcast_to(np.asarray(value, dtype=np.complex128), fraction.shape)
+
+
+def letters(pivots: str, **points: Points) -> tuple[Mark, ...]:
+    """Marks of joints by their letters; those named first are pivots of the frame."""
+    return tuple(Mark(point, name, name in pivots) for name, point in points.items())
+
+
+def placed(body: Body, i: int) -> Points:
+    """The outline of a body in a position."""
+    return np.asarray(body.place[i] + body.outline * np.exp(1j * body.turn[i]))
+
+
+def circle(radius: float, count: int = 72) -> Points:
+    """A closed circle about the origin."""
+    return np.asarray(radius * np.exp(1j * TURN * np.arange(count + 1) / count))
+
+
+def fixed_circle(center: complex, radius: float, name: str = "") -> Line:
+    """A dashed circle that stands still."""
+    return Line(points=center + circle(radius, 120), dashed=True, name=name)
+
+
+def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Body:
+    """A line that stands still in front of what is drawn before it."""
+    level = np.zeros_like(fraction)
+    return Body(outline=points, place=track(0.0, fraction), turn=level, color=color, width=1.5, name=name)
+
+
+def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...]:
+    """Stretches of a loop, name, start, end and colour each.
+
+    One that passes the end of the loop is two bands, the longer one with the name.
+
+    Example
+        >>> [(band.name, band.start, band.end) for band in bands([("dwell", 300.0, 400.0, "#cccccc")])]
+        [('dwell', 300.0, 360.0), ('', 0.0, 40.0)]
+        >>> [(band.name, band.start, band.end) for band in bands([("dwell", 345.0, 445.0, "#cccccc")])]
+        [('', 345.0, 360.0), ('dwell', 0.0, 85.0)]
+    """
+    found = []
+    for name, start, end, color in stretches:
+        first = start % 360.0
+        last = first + end - start
+        over = max(0.0, last - 360.0)
+        first_is_longer = 360.0 - first >= over
+        found.append(Band(name if first_is_longer else "", first, min(last, 360.0), color))
+        if over:
+            found.append(Band("" if first_is_longer else name, 0.0, over, color))
+    return tuple(found)
+
+
+def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str) -> Body:
+    """A plain disc, such as a roller: it looks the same at every turn."""
+    at, level = track(place, fraction), np.zeros_like(fraction)
+    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0)
+
+
+def block(place: Points, width: float, height: float, color: str, label: str = "", *, fill: str = "") -> Body:
+    """A rectangle about a moving point."""
+    corners = 0.5 * (np.array([-1.0, 1.0, 1.0, -1.0, -1.0]) * width + 1j * np.array([-1, -1, 1, 1, -1]) * height)
+    level = np.zeros(len(place))
+    return Body(outline=corners, place=place, turn=level, color=color, fill=fill or pale(color), label=label)
+
+
+def loop(samples: int = 181) -> Reals:
+    """Fractions of the loop for a chart, both ends included."""
+    return np.linspace(0.0, 1.0, samples)

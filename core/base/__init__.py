@@ -1,0 +1,1 @@
+"""What every kind of file is: designs, reports, kinds, remedies, words; no mechanics."""

@@ -1,0 +1,395 @@
+"""What every kind of design shares: results by name, computed when asked for and never twice.
+
+A design's results are `cached_property`s written in terms of each other, in mm and radians; the names
+are those of `gearlink.core.base.nomenclature`. Asking for one computes what it needs and nothing else. A design holds
+no other state, so there is no order in which things must be called.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import count
+from operator import index
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+
+from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.base.nomenclature import term
+from gearlink.core.base.remedies.bench import Bench, commands_of, with_remedies
+from gearlink.core.base.remedies.ways import Way
+from gearlink.core.base.report import Check, Quantity, Remedy, Report, Table, TableInParts
+from gearlink.core.base.results import cached_property, step
+from gearlink.core.base.rows import FEWEST_ROWS, MOST_ROWS, Rows
+
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.motion import Motion
+
+_PART_SIZES = (65_521, 65_537)
+
+
+class Outline(NamedTuple):
+    """What a command shows of a design: names of quantities, checks and tables."""
+
+    quantities: tuple[str, ...] = ()
+    checks: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+
+
+class Found(NamedTuple):
+    """What a design adds to its file so that it is complete: a key by its path, its value, and where that is from.
+
+    A value is in the units of design files; a dict is a section, None leaves a key out that is answered.
+    """
+
+    path: str
+    value: Any
+    why: str = ""
+
+
+class Kin(Protocol):
+    """The designs of one file: what makes that of any command which it asks for."""
+
+    def of(self, command: str) -> Design:
+        """The design that serves a command, the same one each time while it is in use."""
+
+    def changed(self, spec: Any) -> Kin:
+        """The designs of another file of the kind."""
+
+
+def placed(path: str) -> Any:
+    """A quantity whose value stands elsewhere on the design.
+
+    Parameters
+        path : str - from the design on, "slider_crank.crank_length", "fastest.0.speed"; None on the way makes the
+            quantity None
+    Returns
+        quantity : property, to be annotated with the type of the value
+    """
+
+    way = tuple(int(name) if name.isdecimal() else name for name in path.split("."))
+
+    def value(design: Any) -> Any:
+        found = design
+        for place in way:
+            if found is None:
+                return None
+            found = getattr(found, place) if isinstance(place, str) else found[place]
+        return found
+
+    return property(value, doc=f"Stands at `{path}`.")
+
+
+class UnknownName(GearlinkError):
+    """A quantity, table or command was asked for that this design does not have."""
+
+    def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
+        shown = f"named {named(name)}" if isinstance(name, str) else f"by {type(name).__name__}: names are text"
+        super().__init__(f"this design has no {what} {shown}")
+        self.what, self.name, self.known = what, name, tuple(known)
+
+
+class Design:
+    """Base of the design classes.
+
+    `outlines` says what each command shows, `extra_tables` what can be added, `ways` how a file may be changed where
+    a check fails. A design that `advises` says in the words of a failing check what would help; one that does not judge
+    `warnings` leaves out findings that can only warn. Where `checks_need_search` a design is the result of a search:
+    where files alone are checked it is made ready, not searched.
+    """
+
+    kind: ClassVar[str]
+    outlines: ClassVar[dict[str, Outline]]
+    extra_tables: ClassVar[tuple[str, ...]] = ()
+    page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
+    ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
+    requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
+    """Keys of what the machine has to do: a remedy that changes one asks for less, and is sought last."""
+    derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
+    advises = True
+    kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself
+    warnings = True
+    checks_need_search: ClassVar[bool] = False
+
+    def __init__(self, spec: Any) -> None:
+        self.spec = spec
+
+    @property
+    def cost(self) -> float:
+        """What judging the design takes, as far as that is known, that of most being 1 (0.7 ms): by what there is to
+        compute, not by a clock. As many changes are tried for a finding as take a tenth of a second or so."""
+        return 1.0
+
+    @cached_property
+    def moving(self) -> Motion:
+        """Its links and joints over the input, of a kind that moves."""
+        from gearlink.core.base.kinds import KINDS
+
+        return KINDS[self.kind].motion_of(self)
+
+    def outline(self, command: str) -> Outline:
+        """The outline of a command."""
+        return self.outlines[command]
+
+    @classmethod
+    def judged(cls, command: str, _spec: Any, /) -> tuple[str, ...]:
+        """Names of all checks that a command may judge of designs with the sections of a spec."""
+        return cls.outlines[command].checks
+
+    @classmethod
+    def tables_of_page(cls, _command: str, _spec: Any, /) -> tuple[str, ...]:
+        """The extra tables that the page of `report` shows of a command."""
+        return cls.page_tables
+
+    @classmethod
+    def quantity_names(cls) -> tuple[str, ...]:
+        """Every quantity that can be asked for, each once."""
+        return _quantities_of(cls)  # type: ignore[arg-type]  # mypy takes a class for unhashable
+
+    @classmethod
+    def table_names(cls) -> tuple[str, ...]:
+        """Every table that any command shows or that can be asked for."""
+        return _tables_of(cls)  # type: ignore[arg-type]
+
+    def raw(self, name: str) -> Any:
+        """The value of a quantity in mm and radians, or None where it does not apply."""
+        return object.__getattribute__(self, name)
+
+    if not TYPE_CHECKING:  # types know the attributes that the classes name, and no others
+
+        def __getattr__(self, name: str) -> Any:
+            """A quantity that the class has no attribute for, that of a mesh: only `raw` knows its place."""
+            if hasattr(type(self), name) or name not in self.quantity_names():
+                return object.__getattribute__(self, name)  # raises what is missing
+            return self.raw(name)
+
+    def __dir__(self) -> list[str]:
+        """What a class has, and every quantity."""
+        return sorted({*super().__dir__(), *self.quantity_names()})
+
+    def quantity(self, name: str) -> Quantity | None:
+        """A quantity in the units of the design files; None where it does not apply to this design."""
+        if name not in self.quantity_names():
+            raise UnknownName("quantity", name, self.quantity_names())
+        value = self.raw(name)
+        if value is None:
+            return None
+        entry = term(name)
+        return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
+
+    def needs(self, _name: str, /) -> str:
+        """In words, what the file must give for a quantity that is None; empty where nothing is missing."""
+        return ""
+
+    def rests_on(self, _name: str, /) -> str:
+        """In words, the inputs of a quantity that a reader may take for computed; empty where there are none."""
+        return ""
+
+    def table(self, name: str, *, samples: int | None = None) -> Table:
+        """A table by name, in the units of the design files.
+
+        Parameters
+            name : str
+            samples : int - rows per turn or stroke, 2 to ten million; without it the table's own number of rows
+        Raises
+            UnknownName
+            GearlinkError - for a number of rows that no table has
+        """
+        if name not in self.table_names():
+            raise UnknownName("table", name, self.table_names())
+        rows = None if samples is None else _rows(samples)
+        with step(f"{type(self).__name__}.table_{name}"):
+            table: Table = getattr(self, f"table_{name}")(rows)
+        return table
+
+    def _require_names(self, quantities: Sequence[str], tables: Sequence[str]) -> None:
+        """Refuse a name that the design does not have before a search begins."""
+        for what, names, known in (
+            ("quantity", quantities, self.quantity_names()),
+            ("table", tables, self.table_names()),
+        ):
+            if wrong := [name for name in names if name not in known]:
+                raise UnknownName(what, wrong[0], known)
+        for name in tables:
+            self.require_table(name)
+
+    def require_table(self, _name: str, /) -> None:
+        """Refuse a table that needs a section which the file does not have, before anything is computed.
+
+        Raises
+            MissingSection
+        """
+
+    def table_in_parts(self, name: str, samples: int) -> Table:
+        """A table by name that holds some ten thousand of its rows at a time, where they can be computed so."""
+        # Two primes above the turns of any table, the length of none: one leaves a last part neither full nor empty.
+        size = next(prime for prime in _PART_SIZES if samples % prime)
+
+        def parts() -> Iterator[Table]:
+            for first in count(0, size):
+                part = self.table(name, samples=Rows.part(samples, first, size))
+                yield part
+                if part.length != size:  # the last, or one that is whole
+                    return
+
+        first = next(parts())
+        return first if first.length != size else TableInParts(name, first.columns, first.units, first.data, parts)
+
+    def check(self, name: str) -> list[Check]:
+        """The findings of a check by name; a check that does not apply to this design gives none."""
+        method = "check_" + name.replace("-", "_")
+        with step(f"{type(self).__name__}.{method}"):
+            found: Check | Iterable[Check] = getattr(self, method)()
+            return [found] if isinstance(found, Check) else list(found)
+
+    def completion(self) -> Iterable[Found]:
+        """What completes the file: the links that a synthesis found in place of its task."""
+        return ()
+
+    def as_found(self) -> Iterable[Found]:
+        """What completes the file for samples of the design as made: its links, and what still judges them."""
+        return self.completion()
+
+    @property
+    def given(self) -> Any:
+        """The spec of the file, where the design goes on with one that it has completed."""
+        return self.spec
+
+    @cached_property
+    def _benches(self) -> dict[frozenset[str], Bench]:
+        return {}
+
+    def bench(self, command: str) -> Bench:
+        """Where changes of this design are tried for the findings of a command, and of those that hold with it."""
+        commands = frozenset(commands_of(self, command))
+        if commands not in self._benches:
+            self._benches[commands] = Bench(self, command)
+        return self._benches[commands]
+
+    def varied(self, spec: Any) -> Design:
+        """The design of another file, with the results of this one that the change leaves as they are."""
+        return type(self)(spec)
+
+    def findings(self, command: str, check: str) -> tuple[Check, ...]:
+        """The findings of a check by name; those that fail have a remedy, where one was found that the files of
+        `command` and of every other command that the design asks for can take."""
+        return with_remedies(self, command, tuple(self.check(check)))
+
+    def ways_of(self, check: str) -> Iterable[Way]:
+        """How the file may be changed where a check does not hold."""
+        return self.ways.get(check, ())
+
+    def candidates(self, _check: str, /) -> Iterable[Remedy]:
+        """Remedies of a check from closed forms; they are tried before the `ways`."""
+        return ()
+
+    def require(self, command: str) -> None:
+        """Compute the decisive quantities of a command: where no mechanism exists, one of them says so.
+
+        Raises
+            NoSolution
+        """
+        names = tuple(self.decisive(command))
+        self.prepare(names)
+        for name in names:
+            self.raw(name)
+
+    def require_named(self) -> None:
+        """Refuse what the sections of a command name and the design does not have; nothing more is computed.
+
+        Raises
+            NoSolution, WrongStudy - at the name
+        """
+
+    def prepare(self, quantities: Iterable[str], /) -> None:
+        """Compute what these quantities share, where that takes less than one after the other; refuse nothing."""
+
+    def decisive(self, command: str) -> Iterable[str]:
+        """The quantities of a command that may say that no mechanism exists."""
+        return (name for name in self.outline(command).quantities if name.rpartition(".")[2] not in self.derived)
+
+    def report(
+        self,
+        command: str,
+        *,
+        quantities: Sequence[str] = (),
+        tables: Sequence[str] = (),
+        samples: int | None = None,
+        only: bool = False,
+        findings_only: bool = False,
+        in_parts: bool = False,
+    ) -> Report:
+        """The report of a command.
+
+        Parameters
+            command : str - "synth dwell", "press", ...
+            quantities : names - give these alone, without checks and tables of the command
+            tables : names - tables to give besides those of the command
+            samples : int - rows of the tables per turn or stroke; without it each table's own number
+            only : bool - give the named tables alone
+            findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
+                the same, since a mechanism that does not exist has none, its tables are not
+            in_parts : bool - compute the rows of long tables while they are read
+        Raises
+            UnknownName - for a name that the design does not have
+            NoSolution - where no mechanism exists
+        """
+        quantities, tables = _several(quantities), _several(tables)
+        self._require_names(quantities, tables)
+        if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
+            raise UnknownName("command", command, tuple(self.outlines))
+        outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
+        asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
+        found: Iterable[Quantity | None] = ()
+        if findings_only:
+            self.require(command)
+        else:
+            self.prepare(outline.quantities)
+            found = [self.quantity(name) for name in outline.quantities]
+        checks = [check for name in outline.checks for check in self.findings(command, name)]
+        return Report(
+            kind=self.kind,
+            name=self.spec.name,
+            command=command,
+            quantities=tuple(quantity for quantity in found if quantity is not None),
+            checks=tuple(check for check in checks if check.status != "pass" or not findings_only),
+            tables=tuple(
+                self.table_in_parts(name, samples) if in_parts and samples else self.table(name, samples=samples)
+                for name in asked
+            ),
+        )
+
+
+def _several(names: Sequence[str]) -> Sequence[str]:
+    """Names, of which a single one may stand alone."""
+    return (names,) if isinstance(names, str) else names
+
+
+def _rows(samples: Any) -> int:
+    """A number of rows as Python's own, in which products do not overflow; what is none is refused."""
+    try:
+        rows = samples if isinstance(samples, int) else index(samples)
+    except TypeError:
+        rows = 0
+    if FEWEST_ROWS <= rows <= MOST_ROWS:
+        return rows
+    shown = samples if isinstance(samples, (int, float)) else type(samples).__name__
+    raise GearlinkError(f"samples is the number of rows, a whole one from {FEWEST_ROWS} to {MOST_ROWS}, not {shown}")
+
+
+@cache
+def _quantities_of(kind: type[Design]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for outline in kind.outlines.values() for name in outline.quantities))
+
+
+@cache
+def _tables_of(kind: type[Design]) -> tuple[str, ...]:
+    shown = [name for outline in kind.outlines.values() for name in outline.tables]
+    return tuple(dict.fromkeys([*shown, *kind.extra_tables]))
+
+
+def in_unit(value: Any, unit: str) -> Any:
+    """A value in the unit of design files: radians to degrees where it is an angle; pairs and lists become lists."""
+    if isinstance(value, (list, tuple)):
+        return [in_unit(item, unit) for item in value]
+    return math.degrees(value) if unit == "deg" and value is not None else value

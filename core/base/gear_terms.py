@@ -1,0 +1,89 @@
+"""The words of gear pairs, part of the nomenclature; names follow ISO 21771, ISO 6336, DIN 3967 and DIN 21773."""
+
+from __future__ import annotations
+
+from gearlink.core.base.term import Term
+
+GEAR_PAIR = {
+    "working_pressure_angle": Term("alpha_wt", "deg", "working pressure angle", "ISO 21771"),
+    "center_distance": Term("a_w", "mm", "centre distance", "ISO 21771"),
+    "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
+    "shift_sum": Term("x1+x2", "1", "sum of the profile shift coefficients", "ISO 21771"),
+    "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
+    "tip_shortening": Term("dy", "1", "tip shortening coefficient, shift sum - y", "ISO 21771"),
+    "contact_ratio": Term("eps_alpha", "1", "transverse contact ratio (nominal)", "ISO 21771"),
+    "profile_shift": Term("x", "1", "profile shift coefficient", "ISO 21771"),
+    "reference_radius": Term("r", "mm", "reference radius m z/2", "ISO 21771"),
+    "base_radius": Term("r_b", "mm", "base radius", "ISO 21771"),
+    "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
+    "tip_radius": Term("r_a", "mm", "tip radius", "ISO 21771"),
+    "root_radius": Term("r_f", "mm", "root radius", "ISO 21771"),
+    "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle (normal section)", "ISO 21771"),
+    "tip_pressure_angle": Term("alpha_a", "deg", "pressure angle at the tip", "ISO 21771"),
+    "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
+    "min_shift_no_undercut": Term("x_min", "1", "least shift without undercut (rack tool)", "ISO 21771"),
+    "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
+    "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
+    "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),
+    "transverse_pressure_angle": Term("alpha_t", "deg", "transverse pressure angle", "ISO 21771"),
+    "base_helix_angle": Term("beta_b", "deg", "helix angle on the base circle", "ISO 21771"),
+    "overlap_ratio": Term("eps_beta", "1", "overlap ratio", "ISO 21771"),
+    "total_contact_ratio": Term("eps_gamma", "1", "total contact ratio", "ISO 21771"),
+    "usable_contact_ratio": Term("eps_use", "1", "transverse contact ratio over what the tools leave of the involutes"),
+    "path_of_contact": Term("g_alpha", "mm", "length of the path of contact", "ISO 21771"),
+    "form_radius": Term("r_Ff", "mm", "root form radius, where the flank ends", "ISO 21771"),
+    "used_root_radius": Term("r_Nf", "mm", "radius at which contact reaches the root (nominal)", "ISO 21771"),
+    "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mate's root", "ISO 21771"),
+    "specific_sliding_tip": Term("zeta_a", "1", "specific sliding at the tip", "ISO 21771"),
+    "sliding_factor": Term("K_g", "1", "sliding over pitch line speed, at A and at E", "ISO 21771"),
+    "pin_diameter": Term("D_M", "mm", "measuring ball or pin", "DIN 21773"),
+    "measure_over_balls": Term("M_dK", "mm", "measure over two balls, of a ring between them", "DIN 21773"),
+    "measure_over_pins": Term("M_dR", "mm", "measure over two pins, of a ring between them", "DIN 21773"),
+    "chordal_thickness": Term("s_c", "mm", "chordal tooth thickness on the reference circle", "DIN 21773"),
+    "chordal_height": Term("h_c", "mm", "height of that chord below the tip", "DIN 21773"),
+    "generating_shift": Term("x_E", "1", "generating shift of each gear, least and greatest", "DIN 3960"),
+    "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, least and greatest"),
+    "measure_limits": Term("M_dK min, max", "mm", "measure over balls of each gear, least and greatest"),
+    "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, least and greatest", "DIN 3967"),
+    "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, least and greatest", "DIN 3967"),
+    "backlash_angle": Term("j_phi", "deg", "free turn of each gear, least and greatest"),
+    "output_play": Term(
+        "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; least and greatest"
+    ),
+    "tangential_force": Term("F_t", "N", "force on the reference circle", "ISO 6336-1"),
+    "zone_factor": Term("Z_H", "1", "zone factor", "ISO 6336-2"),
+    "elasticity_factor": Term("Z_E", "1", "elasticity factor, in sqrt(N/mm^2)", "ISO 6336-2"),
+    "contact_ratio_factor": Term("Z_eps", "1", "contact ratio factor", "ISO 6336-2"),
+    "helix_angle_factor_contact": Term(
+        "Z_beta", "1", "helix angle factor of the flank, 1/sqrt(cos beta)", "ISO 6336-2"
+    ),
+    "single_contact_factor": Term("Z_B, Z_D", "1", "single pair tooth contact factors", "ISO 6336-2"),
+    "nominal_contact_stress": Term("sigma_H0", "N/mm^2", "nominal contact stress at the pitch point", "ISO 6336-2"),
+    "contact_stress": Term("sigma_H", "N/mm^2", "contact stress; K factors not computed, 1 unless given", "ISO 6336-2"),
+    "safety_pitting": Term("S_H", "1", "safety against pitting; K factors not computed, 1 unless given", "ISO 6336-2"),
+    "root_chord": Term("s_Fn", "mm", "thickness of the root section", "ISO 6336-3"),
+    "bending_moment_arm": Term("h_Fe", "mm", "lever of the load above the root section", "ISO 6336-3"),
+    "root_fillet_radius": Term("rho_F", "mm", "radius of the fillet at the root section", "ISO 6336-3"),
+    "form_factor": Term("Y_F", "1", "form factor", "ISO 6336-3"),
+    "stress_correction_factor": Term("Y_S", "1", "stress correction factor", "ISO 6336-3"),
+    "helix_angle_factor_bending": Term("Y_beta", "1", "helix angle factor of the root", "ISO 6336-3"),
+    "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3, IACS UR M56"),
+    "deep_tooth_factor": Term("Y_DT", "1", "deep tooth factor of accurate gears", "ISO 6336-3, IACS UR M56"),
+    "load_reversal_factor": Term("Y_d", "1", "factor of teeth that are bent both ways, an idler's", "IACS UR M56.3.9"),
+    "tip_form_factor": Term("Y_Fa", "1", "form factor for load at the tip (method C)", "ISO 6336-3:1996"),
+    "tip_stress_correction_factor": Term(
+        "Y_Sa", "1", "stress correction factor for load at the tip (method C)", "ISO 6336-3:1996"
+    ),
+    "contact_ratio_factor_bending": Term(
+        "Y_eps", "1", "contact ratio factor of method C, with Y_Fa and Y_Sa alone", "ISO 6336-3:1996"
+    ),
+    "nominal_root_stress": Term("sigma_F0", "N/mm^2", "nominal root stress", "ISO 6336-3"),
+    "root_stress": Term("sigma_F", "N/mm^2", "root stress; K factors not computed, 1 unless given", "ISO 6336-3"),
+    "safety_bending": Term(
+        "S_F", "1", "safety against breaking at the root; K factors not computed, 1 unless given", "ISO 6336-3"
+    ),
+    "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
+    "radial_assembly_margin": Term(
+        "s_rad", "mm", "room for a pinion that goes into its ring along the line of centres"
+    ),
+}

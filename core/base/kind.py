@@ -1,0 +1,133 @@
+"""What is said of a kind of file, and what that gives: its spec model, its designs; imported when wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakValueDictionary
+
+if TYPE_CHECKING:
+    from gearlink.core.base.design import Design
+    from gearlink.core.base.design_axis import Maker
+    from gearlink.core.mechanism.motion import Motion
+
+_SHARED = {
+    "explore": "studies.explore.exploration:Exploration",
+    "tolerance": "studies.tolerance_study.design:ToleranceStudy",
+}
+"""Commands that are no kind's own."""
+
+
+class Kind(NamedTuple):
+    """All that is said of a kind; places are "module:name", below `folder` or below gearlink (cli).
+
+    Fields
+        name, summary : str - as `kind` in a file has it; the kind in a few words
+        folder : str - of core, in which the kind stands
+        spec : str - the model of the design file
+        commands : dict - class of the design by command; "": one that serves all kinds
+        motion : str - what gives the motion of a design, of which all that is generic is made; "": nothing moves
+        codes : str - module of the rules of its checks; "": those of the libraries are enough
+        array : str - its array form, which computes many designs at once; "": none
+        samples : str - array form of the designs as made, for `tolerance`; "": each is computed alone
+        outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
+        register_at : str - where `register` looks where the file does not say
+        picture, scene : str - what draws its own commands, what builds its film; "": what any motion has
+        profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
+        rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
+        sheets : dict - what gives the content of a sheet, by its name; "": it has not the one that any motion has
+        worked : str - stem of the worked design to begin with, where it is not called as the kind
+    """
+
+    name: str
+    summary: str
+    folder: str
+    spec: str
+    commands: Mapping[str, str]
+    motion: str = ""
+    codes: str = "codes"
+    array: str = ""
+    samples: str = ""
+    outputs: Mapping[str, tuple[str, ...]] = {}
+    register_at: str = ""
+    picture: str = ""
+    scene: str = ""
+    profiles: str = ""
+    parts: tuple[str, ...] = ()
+    rexs: tuple[str, ...] | None = None
+    sheets: Mapping[str, str] = {}
+    worked: str = ""
+
+    @property
+    def all_sheets(self) -> dict[str, str]:
+        """What gives the content of each sheet: that of the motion stands for itself."""
+        of_motion = {"motion": "cli.views.figures.sheets.motion_sheet:of_motion"} if self.motion else {}
+        return {name: place for name, place in {**of_motion, **self.sheets}.items() if place}
+
+    def spec_model(self) -> Any:
+        """The pydantic model of the kind's design file."""
+        return self._own(self.spec)
+
+    def design(self, command: str, spec: Any) -> Design:
+        """The design of a spec, of the class that the command needs."""
+        return FileDesigns(self, spec).of(command)
+
+    def class_for(self, command: str, spec: Any) -> Any:
+        """The class that serves a command on a spec: that of a synthesis where the file leaves its links to it."""
+        return self.design_class(spec.sized_by(command) or command)
+
+    def design_class(self, command: str) -> Any:
+        """The class that serves a command."""
+        place = self.commands[command]
+        return self._own(place) if place else load(f"core.{_SHARED[command]}")
+
+    def motion_of(self, design: Design) -> Motion:
+        """The motion of a design of this kind."""
+        found: Motion = self._own(self.motion)(design)
+        return found
+
+    def axis_maker(self) -> Maker | None:
+        """What makes the kind's array form, where it has one."""
+        found: Maker | None = self._own(self.array) if self.array else None
+        return found
+
+    def samples_maker(self) -> Any:
+        """What makes the array form of a nominal design as made; None where it has none."""
+        return self._own(self.samples) if self.samples else None
+
+    def _own(self, place: str) -> Any:
+        return load(f"core.{self.folder}.{place}")
+
+
+class FileDesigns:
+    """The designs of one file: commands of one class share theirs, and so do remedies that look at other commands.
+
+    They last as long as something else holds them.
+    """
+
+    def __init__(self, kind: Kind, spec: Any) -> None:
+        self._kind, self._spec = kind, spec
+        self._made: WeakValueDictionary[Any, Design] = WeakValueDictionary()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FileDesigns, (self._kind, self._spec)
+
+    def of(self, command: str) -> Design:
+        """The design that serves a command."""
+        cls = self._kind.class_for(command, self._spec)
+        design = self._made.get(cls)
+        if design is None:
+            design = self._made[cls] = cls(self._spec)
+            design.kin = self
+        return design
+
+    def changed(self, spec: Any) -> FileDesigns:
+        """The designs of another file of the kind."""
+        return FileDesigns(self._kind, spec)
+
+
+def load(place: str) -> Any:
+    """What stands at a place below gearlink, "package.module:name"."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(f"gearlink.{module}"), name)

@@ -1,0 +1,95 @@
+"""The words of gear-linkages, of motion at real speed and of sliders."""
+
+from __future__ import annotations
+
+from gearlink.core.base.term import Term
+
+GEAR_LINKAGE: dict[str, Term] = {
+    "i3": Term("i3", "1", "ratio of idler and output gear, -z3/z5", "thesis 4.1"),
+    "crank_teeth": Term("z1", "1", "teeth of the gear fixed to the crank"),
+    "idler_teeth": Term("z3", "1", "teeth of the idler"),
+    "output_teeth": Term("z5", "1", "teeth of the output gear"),
+    "frame_ratio": Term("d", "1", "frame length over crank length", "thesis (4-18), (4-20)"),
+    "crank_length": Term("l1", "mm", "crank"),
+    "coupler_length": Term("l2", "mm", "coupler (three gears: centre distance of 1 and 3; six-bar: BC, CD, DE)"),
+    "rocker_length": Term("l3", "mm", "rocker; with three gears the centre distance of gears 3 and 5"),
+    "frame_length": Term("l4", "mm", "frame", "own closed form in place of thesis (4-26)..(4-33)"),
+    "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),
+    "speed_ratio_max": Term("(w5/w1)max", "1", "greatest output speed per input speed", "thesis (4-13)"),
+    "speed_ratio_min": Term("(w5/w1)min", "1", "least output speed per input speed", "thesis (4-13)"),
+    "motion": Term("", "1", "kind of output motion", "thesis 4.2.1"),
+    "dwell_crank_angles": Term("phi(1), phi(2)", "deg", "crank angles of zero output speed", "thesis (4-14)"),
+    "back_step_angle": Term("phi5(1)-phi5(2)", "deg", "back-step of the output", "thesis (4-16), (4-19)"),
+    "back_step_crank_angle": Term("phi12", "deg", "crank angle of the back-step", "thesis (4-15)"),
+    "dwell_angle": Term("phi13", "deg", "crank angle until the output regains its place", "own derivation"),
+    "dwell_angle_approximate": Term("1.5 phi12", "deg", "the thesis's approximation of phi13", "thesis (4-17)"),
+    "min_transmission_angle": Term("mu_min", "deg", "least transmission angle over the turn", "VDI 2142"),
+    "gear_gap": Term("s15", "mm", "tips of the crank (input) and the output gear at the closest", "own derivation"),
+    "nonuniformity": Term("delta", "1", "(max - min)/mean of the speed ratio", "thesis (4-20)"),
+    "tolerance_dwell_angle": Term("phi_tol", "deg", "longest crank angle with the output within +- the tolerance"),
+    "dwell_tolerance": Term("tau", "deg", "half of what the output covers in the dwell, +- about its middle"),
+    "window_limit": Term("phi_lim", "deg", "longest dwell that these gears reach within the tolerance"),
+    "frame_ratio_interval": Term("d_min, d_max", "1", "frame over crank between which window and tolerance are met"),
+    "frame_length_interval": Term("AD_min, AD_max", "mm", "frame between which this crank meets window and tolerance"),
+    "input_speed": Term("n1", "1/min", "speed of the input"),
+    "quartic_k": Term("K", "mm^6", "coefficient of cos^4(beta) for a momentary dwell", "thesis (4-27)"),
+    "quartic_l": Term("L", "mm^6", "coefficient of cos^2(beta) for a momentary dwell", "thesis (4-27)"),
+    "quartic_m": Term("M", "mm^6", "constant term for a momentary dwell", "thesis (4-27)"),
+    "base_angle": Term("beta", "deg", "base angle of the triangle CFE in the standstill", "thesis (4-26)"),
+    "pole_angle": Term("alpha", "deg", "angle of the crank to the line of poles in the standstill", "thesis (4-28)"),
+    "segment_af": Term("AF", "mm", "input axis to the pole of crank gear and idler", "thesis (4-29)"),
+    "segment_fe": Term("FE", "mm", "distance of the two poles", "thesis (4-30)"),
+    "segment_eg": Term("EG", "mm", "pole of idler and output gear to the foot of D", "thesis (4-31)"),
+    "segment_gd": Term("GD", "mm", "output axis to the line of the poles", "thesis (4-32)"),
+    "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which that interval starts"),
+    "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "greatest output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_max_at": Term("", "deg", "crank angle of the greatest output acceleration"),
+    "acceleration_ratio_min": Term("(e5/w1^2)min", "1", "least output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_min_at": Term("", "deg", "crank angle of the least output acceleration"),
+}
+
+REAL_SPEED: dict[str, Term] = {
+    "feed_radius": Term("r_F", "mm", "radius at which the output's angle becomes travel of chain, web or belt"),
+    "feed_per_turn": Term("s_F", "mm", "net travel of what is fed per turn of the input", "thesis 3.3.2"),
+    "feed_back_step": Term("s_12", "mm", "how far what is fed goes back"),
+    "chain_ripple": Term("1-cos(pi/z)", "1", "share by which a chain's speed falls between two teeth"),
+    "feed_velocity_max": Term("v_F,max", "mm/s", "greatest velocity of what is fed"),
+    "feed_velocity_min": Term("v_F,min", "mm/s", "least velocity of what is fed"),
+    "feed_velocity_mean": Term("v_F,m", "mm/s", "mean velocity of what is fed"),
+    "feed_acceleration_max": Term("a_F,max", "mm/s^2", "greatest acceleration of what is fed"),
+    "feed_acceleration_min": Term("a_F,min", "mm/s^2", "least acceleration of what is fed"),
+    "turn_time": Term("T", "ms", "time of an input turn"),
+    "output_speed_max": Term("w5_max", "rad/s", "greatest speed of the output at this input speed"),
+    "output_speed_min": Term("w5_min", "rad/s", "least speed of the output at this input speed"),
+    "output_acceleration_max": Term("e5_max", "rad/s^2", "greatest acceleration of the output at this input speed"),
+    "output_acceleration_min": Term("e5_min", "rad/s^2", "least acceleration of the output at this input speed"),
+    "back_step_time": Term("t12", "ms", "time of the back-step"),
+    "dwell_time": Term("t_d", "ms", "time of the dwell"),
+    "tolerance_dwell_time": Term("t_tol", "ms", "time of the longest dwell within the tolerance"),
+    "motion_time": Term("t_m", "ms", "time of a motion between two dwells"),
+    "driven_speed": Term("w_F", "rad/s", "speed of the driven gear while it moves"),
+    "rocker_speed_at_start": Term("w_R0", "rad/s", "speed of the rocker right after the hardest start"),
+    "slider_velocity_max": Term("v_max", "mm/s", "greatest velocity of the slider at this input speed"),
+    "slider_velocity_min": Term("v_min", "mm/s", "least velocity of the slider at this input speed"),
+    "slider_acceleration_max": Term("a_max", "mm/s^2", "greatest acceleration of the slider at this input speed"),
+    "slider_acceleration_min": Term("a_min", "mm/s^2", "least acceleration of the slider at this input speed"),
+    "forward_time": Term("t_f", "ms", "time of the slider's stroke away from the crank's axis"),
+    "return_time": Term("t_r", "ms", "time of the slider's stroke towards the crank's axis"),
+}
+
+SLIDER: dict[str, Term] = {
+    "velocity_max": Term("v'_max", "mm/rad", "greatest velocity of slider (outwards) or point per input speed"),
+    "velocity_max_at": Term("", "deg", "input angle of the greatest velocity"),
+    "velocity_min": Term("v'_min", "mm/rad", "least velocity per input speed; of a slider the greatest inwards"),
+    "velocity_min_at": Term("", "deg", "input angle of the least velocity"),
+    "acceleration_max": Term(
+        "a'_max", "mm/rad^2", "greatest acceleration of slider or point per square of the input speed"
+    ),
+    "acceleration_max_at": Term("", "deg", "input angle of the greatest acceleration"),
+    "acceleration_min": Term(
+        "a'_min", "mm/rad^2", "least acceleration of slider or point per square of the input speed"
+    ),
+    "acceleration_min_at": Term("", "deg", "input angle of the least acceleration"),
+    "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
+    "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
+}

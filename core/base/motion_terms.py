@@ -1,0 +1,57 @@
+"""Words of the sizes and places of extremes of a motion; places are input angles, of cams cam angles."""
+
+from __future__ import annotations
+
+from gearlink.core.base.term import Term
+
+MOTION_EXTREMES = {
+    "point_speed_max": Term("", "mm/s", "greatest speed of the coupler point at this input speed"),
+    "point_speed_min": Term("", "mm/s", "least speed of the coupler point at this input speed"),
+    "point_acceleration_max": Term("", "mm/s^2", "greatest acceleration of the coupler point at this input speed"),
+    "bed_velocity_max": Term("", "mm/s", "greatest velocity of the bed, the lift of its cam taken off"),
+    "bed_velocity_max_at": Term("", "deg", "angle of the greatest velocity of the bed"),
+    "bed_velocity_min": Term("", "mm/s", "least velocity of the bed, the lift of its cam taken off"),
+    "bed_velocity_min_at": Term("", "deg", "angle of the least velocity of the bed"),
+    "bed_acceleration_max": Term("", "mm/s^2", "greatest acceleration of the bed, the lift of its cam taken off"),
+    "bed_acceleration_max_at": Term("", "deg", "angle of the greatest acceleration of the bed"),
+    "bed_acceleration_min": Term("", "mm/s^2", "least acceleration of the bed, the lift of its cam taken off"),
+    "bed_acceleration_min_at": Term("", "deg", "angle of the least acceleration of the bed"),
+    "cylinder_velocity_max": Term("", "mm/s", "greatest velocity of the cylinder's surface"),
+    "cylinder_velocity_max_at": Term("", "deg", "angle of the greatest velocity of the cylinder's surface"),
+    "cylinder_velocity_min": Term("", "mm/s", "least velocity of the cylinder's surface"),
+    "cylinder_velocity_min_at": Term("", "deg", "angle of the least velocity of the cylinder's surface"),
+    "cylinder_acceleration_max": Term("", "mm/s^2", "greatest acceleration of the cylinder's surface"),
+    "cylinder_acceleration_max_at": Term("", "deg", "angle of the greatest acceleration of the cylinder's surface"),
+    "cylinder_acceleration_min": Term("", "mm/s^2", "least acceleration of the cylinder's surface"),
+    "cylinder_acceleration_min_at": Term("", "deg", "angle of the least acceleration of the cylinder's surface"),
+    "input_velocity_max": Term("", "rad/s", "greatest speed of the input rocker"),
+    "input_velocity_max_at": Term("", "deg", "angle of the greatest speed of the input rocker"),
+    "input_velocity_min": Term("", "rad/s", "least speed of the input rocker"),
+    "input_velocity_min_at": Term("", "deg", "angle of the least speed of the input rocker"),
+    "input_acceleration_max": Term("", "rad/s^2", "greatest acceleration of the input rocker"),
+    "input_acceleration_max_at": Term("", "deg", "angle of the greatest acceleration of the input rocker"),
+    "input_acceleration_min": Term("", "rad/s^2", "least acceleration of the input rocker"),
+    "input_acceleration_min_at": Term("", "deg", "angle of the least acceleration of the input rocker"),
+    "output_velocity_max": Term("", "rad/s", "greatest speed of the output rocker"),
+    "output_velocity_max_at": Term("", "deg", "angle of the greatest speed of the output rocker"),
+    "output_velocity_min": Term("", "rad/s", "least speed of the output rocker"),
+    "output_velocity_min_at": Term("", "deg", "angle of the least speed of the output rocker"),
+    "output_acceleration_max_at": Term("", "deg", "angle of the greatest acceleration of the output"),
+    "output_acceleration_min_at": Term("", "deg", "angle of the least acceleration of the output"),
+    "rocker_speed_max": Term("", "rad/s", "greatest speed of the rocker"),
+    "rocker_speed_max_at": Term("", "deg", "angle of the greatest speed of the rocker"),
+    "rocker_speed_min": Term("", "rad/s", "least speed of the rocker"),
+    "rocker_speed_min_at": Term("", "deg", "angle of the least speed of the rocker"),
+    "rocker_acceleration_max": Term("", "rad/s^2", "greatest acceleration of the rocker"),
+    "rocker_acceleration_max_at": Term("", "deg", "angle of the greatest acceleration of the rocker"),
+    "rocker_acceleration_min": Term("", "rad/s^2", "least acceleration of the rocker"),
+    "rocker_acceleration_min_at": Term("", "deg", "angle of the least acceleration of the rocker"),
+    "min_transmission_angle_bed_at": Term("", "deg", "input angle of the bed chain's least transmission angle"),
+    "min_transmission_angle_cylinder_at": Term(
+        "", "deg", "input angle of the cylinder chain's least transmission angle"
+    ),
+    "max_pressure_angle_at": Term("", "deg", "cam angle of the greatest pressure angle (press: of the main cam)"),
+    "min_curvature_radius_at": Term("", "deg", "cam angle of the least radius of curvature (press: of the main cam)"),
+    "return_max_pressure_angle_at": Term("", "deg", "cam angle of the return cam's greatest pressure angle"),
+    "return_min_curvature_radius_at": Term("", "deg", "cam angle of the return cam's least radius of curvature"),
+}

@@ -1,0 +1,350 @@
+"""The words of gearlink: every quantity's symbol, unit, meaning and source; law for code, tables and documents.
+
+Units are those of the design files; inside the engine an angle is in radians. Names follow ISO 21771 (gears) and
+VDI 2142/2143 (laws of motion, cams).
+"""
+
+from __future__ import annotations
+
+from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.gear_terms import GEAR_PAIR
+from gearlink.core.base.linkage_terms import GEAR_LINKAGE, REAL_SPEED, SLIDER
+from gearlink.core.base.motion_terms import MOTION_EXTREMES
+from gearlink.core.base.term import Term as Term
+
+_SLIDER_CRANK = {
+    "quick_return_ratio": Term("K", "1", "time of the forward over the return stroke", "VDI 2142"),
+    "dead_center_extended": Term("theta_e", "deg", "crank direction from the slide line, stretched: asin(e/(L+r))"),
+    "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
+    "dead_center_extended_at": Term("270 deg - theta_e", "deg", "input angle of the stretched dead centre"),
+    "dead_center_folded_at": Term("90 deg - theta_f", "deg", "input angle of the folded dead centre"),
+    "max_stroke": Term("S_max", "mm", "largest stroke of this rod and offset, 2 sqrt(L(L-|e|))", "own derivation"),
+}
+
+_PRESS = {
+    "initial_crank_angle": Term("phi_AB0", "deg", "direction of AB at the start position", "TY-460 report 2.2"),
+    "sync_start": Term("phi_s", "deg", "input angle at which the synchronous zone starts", "TY-460 report 3.2"),
+    "sync_end": Term("phi_e", "deg", "input angle at which the synchronous zone ends", "TY-460 report 3.2"),
+    "cam_sync_start": Term("theta_s", "deg", "cam angle at the start of the zone", "TY-460 report 3.2"),
+    "cam_sync_end": Term("theta_e", "deg", "cam angle at the end of the zone", "TY-460 report 3.2"),
+    "compensation": Term("h0", "mm", "bed displacement made good by the cam in the zone", "TY-460 report 3.3"),
+    "min_transmission_angle_bed": Term("mu_ABCD", "deg", "least transmission angle of the bed chain", "VDI 2142"),
+    "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "least transmission angle of the cylinder chain"),
+    "cam_base_radius": Term("r_b", "mm", "cam axis to roller centre at zero lift, given or chosen by size"),
+    "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, repaired"),
+    "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),
+    "follower_stroke": Term("h", "mm", "stroke of the follower", "TY-460 report 3.3"),
+    "return_end": Term("theta_r", "deg", "cam angle at which the return ends"),
+    "roller_center_distance": Term("L_s1s2", "mm", "distance of the two roller centres", "TY-460 report 3.6"),
+}
+
+_CAM = {
+    "max_pressure_angle": Term(
+        "alpha_max", "deg", "greatest pressure angle of the main cam (a list: main, return cam)", "VDI 2142"
+    ),
+    "min_curvature_radius": Term(
+        "rho_min", "mm", "least convex radius of the main cam's pitch curve (a list: main, return cam)", "VDI 2142"
+    ),
+    "max_radius": Term("r_max", "mm", "largest radius of the main cam (a list: main, return cam)"),
+    "min_radius": Term("r_min", "mm", "smallest radius of the main cam (a list: main, return cam)"),
+    "return_max_pressure_angle": Term("alpha_max2", "deg", "greatest pressure angle of the return cam", "VDI 2142"),
+    "return_min_curvature_radius": Term(
+        "rho_min2", "mm", "least convex curvature radius of the return cam's pitch curve", "VDI 2142"
+    ),
+    "return_max_radius": Term("r_max2", "mm", "largest radius of the return cam"),
+    "return_min_radius": Term("r_min2", "mm", "smallest radius of the return cam"),
+}
+
+_GRIPPER = {
+    "handover_speed": Term("v_F", "mm/s", "gripper speed at the handover", "swing-gripper paper 2"),
+    "handover_mismatch": Term("dv", "mm/s", "gripper speed less the cylinder's surface speed"),
+    "total_swing": Term("beta_T", "deg", "total swing of the gripper arm", "swing-gripper paper 2"),
+    "spring_torque": Term("T_s,min", "N m", "least spring torque that keeps both rollers on their cams"),
+    "newton_iterations": Term("", "1", "most Newton-Raphson steps at any position of the turn"),
+    "newton_agreement": Term("", "deg", "largest difference of closed form and Newton-Raphson", "own derivation"),
+    "condition_number": Term("1/sin(mu)", "1", "largest condition number of the loop over the swing"),
+    "handover_center": Term("O_t", "mm", "cylinder axis whose pitch circle the tip meets on the line of centres"),
+    "cam_center": Term("O", "mm", "cam axis in the machine's frame"),
+    "closing_torque": Term("T_s", "N m", "torque of the closing spring on each rocker", "own derivation"),
+    "lift_off_speed": Term("n*", "sheets/h", "speed at which a roller leaves its cam", "own derivation"),
+}
+
+_SWING = {
+    "energy_parameter": Term("N", "1", "energy parameter of the unloader", "wide-swing dissertation (6), (11)"),
+    "velocity_peak": Term("B", "1", "peak of the velocity invariant", "wide-swing dissertation (8), (13)"),
+    "acceleration_peak": Term("C", "1", "peak of the acceleration invariant", "wide-swing dissertation (10), (15)"),
+    "min_pivot_ratio": Term("lambda_min", "1", "least pivot ratio that lets the device turn", "dissertation (3), (4)"),
+    "force": Term("P", "N", "force of the pneumatic device, with its reserve", "wide-swing dissertation (6)"),
+    "spring_rate": Term("c_s", "N/mm", "rate of the spring, with its reserve", "wide-swing dissertation (11)"),
+    "rocker_radius": Term("r", "mm", "rocker radius to the roller", "wide-swing dissertation (18), (24)"),
+    "profile_correction": Term("xi", "deg", "angular correction of the profile at the end", "dissertation (19), (25)"),
+    "phase_angle": Term("Phi", "deg", "phase angle of the run-up on the cam", "dissertation (21), (22), (25)"),
+    "start_curvature_radius": Term("R0", "mm", "pitch curvature radius at the start", "dissertation (23), exact"),
+    "iteration_energy_parameter": Term("N_it", "1", "N by the source's own iteration", "dissertation fig. 4"),
+    "iteration_passes": Term("", "1", "passes of that iteration"),
+    "iteration_error": Term("N_it/N - 1", "1", "relative error of that iteration"),
+    "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
+    "largest_profile_correction": Term("xi_max", "deg", "largest angular correction of the stroke", "own derivation"),
+    "start_radius_estimate": Term("R0*", "mm", "the source's estimate of R0", "dissertation (23)"),
+    "middle_radius_estimate": Term("Rm*", "mm", "the source's estimate of R at mid-swing", "dissertation (27)"),
+    "contact_end": Term("k_c", "1", "fraction of the stroke at which the roller leaves the profile", "own derivation"),
+    "contact_force": Term("F", "N", "greatest force of a roller on its cam at the design speed", "own derivation"),
+    "line_of_centers_place": Term("k*", "1", "fraction of the stroke at which the roller passes the line of centres"),
+    "roller_arm_offset": Term("phi*", "deg", "rocker angle from mid-swing at which it does so", "own derivation"),
+    "dwell_force": Term("F_d", "N", "greatest force of a roller on its cam during the rests", "own derivation"),
+    "sectors_external": Term(
+        "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"
+    ),
+    "sectors_internal": Term(
+        "", "deg", "internal profile: driven, arc, free, arc from its stroke on", "own derivation"
+    ),
+    "sectors_return": Term("", "deg", "return cam: driven, arc, free, arc from its stroke on", "own derivation"),
+    "longer_stroke_reserve": Term(
+        "",
+        "1",
+        "force of the device to spare in the longer stroke, as a share of what balances it there: "
+        "(1 + rho)(longer/shorter)^2 - 1",
+        "own derivation",
+    ),
+    "structural_error": Term("", "deg", "greatest error of the function over its interval", "own derivation"),
+    "structural_error_at": Term("", "deg", "input angles at which the error of the function is greatest"),
+    "error_extremes": Term("", "1", "alternating extremes of that size; the best five-bars have eight"),
+    "function_start": Term("phi0", "deg", "input angle at which the function starts", "own derivation"),
+    "output_zero": Term("psi0", "deg", "output angle at which the function starts", "own derivation"),
+    "starts_tried": Term("", "1", "starts that the search went through in its budget"),
+    "first_point_angle": Term("phi_1", "deg", "input angle of the first of the timed points", "own derivation"),
+    "power_peak": Term("max(b c)", "1", "peak of the power invariant", "own derivation"),
+    "drive_torque_peak": Term("M_dr", "N m", "torque of the cam shaft without device and linkage_share", "chapter 5"),
+    "dynamic_coefficient": Term("K_d", "1", "torque with the drive's elasticity over the calculated one", "chapter 5"),
+    "drive_balancing_ratio": Term("K_y2", "1", "torque of the cam shaft without over with the device", "chapter 5"),
+    "slider_stroke": Term("H", "mm", "travel of the slider over the swing", "dissertation (16), (17)"),
+    "reference_inertia": Term("J_ref", "kg m^2", "inertia in the energy parameter, J + m H^2/gamma^2"),
+    "rocker_share": Term("j0", "1", "the rocker's own share in J_ref", "own derivation"),
+    "middle_place": Term("k_mid", "1", "fraction of the stroke at which the rocker passes mid-swing", "own derivation"),
+    "slider_velocity_peak": Term("B_s", "1", "peak of the slider's velocity invariant", "dissertation (16), (17)"),
+    "slider_acceleration_peak": Term("C_s", "1", "peak of the slider's acceleration invariant", "own derivation"),
+    "crank_span": Term("phi_k", "deg", "crank angle between the dead centres of the cam's drive", "own derivation"),
+    "cam_swing": Term("chi", "deg", "swing of an oscillating cam", "dissertation, chapter 4"),
+    "middle_pressure_angle": Term("alpha_m", "deg", "pressure angle that an oscillating cam keeps at mid-swing"),
+}
+
+_MOBILITY = {
+    "link_count": Term("n", "1", "links, the frame among them"),
+    "linkage_mobility": Term("F0", "1", "degrees of freedom of the linkage alone", "thesis 2.1"),
+    "train_count": Term("", "1", "gear trains"),
+    "fixed_ends": Term("R", "1", "end gears fixed to a link, per train", "thesis 2.1"),
+    "mobility_changes": Term("dF", "1", "what each train adds, 1 - R", "thesis 2.1"),
+    "mobility": Term("F", "1", "degrees of freedom of the whole", "thesis 2.1"),
+}
+
+_MUTILATED = {
+    "reduction": Term("i_r", "1", "input turns per turn of the mutilated wheel"),
+    "full_teeth": Term("Z_M", "1", "teeth for which the mutilated wheel has room"),
+    "group_teeth": Term("n", "1", "teeth in a group"),
+    "driven_teeth": Term("Z_F", "1", "teeth of the driven gear"),
+    "stops": Term("", "1", "locking arcs round the driven gear"),
+    "cycle_turns": Term("i_r/g", "1", "input turns per output cycle", "own derivation"),
+    "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
+    "dwell_turns": Term("", "1", "input turns while it stands", "own derivation"),
+    "motion_share": Term("n g/Z_M", "1", "share of the cycle in motion", "own derivation"),
+    "dwell_share": Term("1 - n g/Z_M", "1", "share of the cycle at rest", "own derivation"),
+    "driven_turn": Term("n/Z_F", "1", "turns of the driven gear per group of teeth", "own derivation"),
+    "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),
+    "cycles_to_repeat": Term("", "1", "cycles until the driven gear stands at the same place again"),
+    "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
+    "rocker_swing": Term("", "deg", "swing of the rocker"),
+    "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the hardest start"),
+    "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
+}
+
+_PLANET_LINKAGE = {
+    "planet_teeth": Term("z2", "1", "teeth of the planet"),
+    "coupler_gear_teeth": Term("z2", "1", "teeth of the gear fixed to the coupler"),
+    "gear_ratio": Term("i", "1", "-z2/z5 for an external mesh, z2/z5 in a ring gear", "thesis 2.2.1"),
+    "linkage_kind": Term("", "1", "class of the linkage by Grashof's rule"),
+    "speed_ratio_max_at": Term("", "deg", "crank angle of the greatest output speed"),
+    "speed_ratio_min_at": Term("", "deg", "crank angle of the least output speed"),
+    "coupler_ratio_max": Term("(w2/w1)max", "1", "greatest coupler speed per crank speed", "thesis 2.2.1"),
+    "coupler_ratio_min": Term("(w2/w1)min", "1", "least coupler speed per crank speed", "thesis 2.2.1"),
+    "standstill_coupler_ratio": Term("1 - 1/i", "1", "w2/w1 at which the output stands still", "thesis 2.2.1"),
+    "dwell_teeth_ratio": Term("(z5/z2)max", "1", "greatest z5/z2 with which these links stop the output"),
+    "output_swing": Term("", "deg", "swing of the output between its own extremes", "own derivation"),
+    "swing_multiple": Term("", "1", "output swing over rocker swing", "thesis figure 2-4"),
+    "naive_multiple": Term("1 + z2/z5", "1", "multiple 1 + z2/z5, the turning of the coupler left out"),
+    "extreme_crank_angles": Term("", "deg", "crank angles at which the output reverses", "own derivation"),
+    "swing_residual": Term("", "deg", "swing reached less swing asked for"),
+}
+
+_HYPOCYCLOID = {
+    "cusps": Term("n", "1", "cusps of the curve, ring teeth over planet teeth", "thesis figure 2-5"),
+    "ring_teeth": Term("z_r", "1", "teeth of the ring gear"),
+    "carrier_length": Term("", "mm", "carrier, the centre distance of planet and ring gear"),
+    "point_radius": Term("r", "mm", "pitch radius of the planet, on which the point lies"),
+    "rod_length": Term("L", "mm", "rod from the point to the slider"),
+    "tangent_circle_length": Term("", "mm", "rod of the circle through ends and middle of the dwell", "own derivation"),
+    "osculating_length": Term("4 r (n-1)/(n-2)", "mm", "rod of the circle of curvature in mid-dwell"),
+    "dwell_carrier_angle": Term("", "deg", "carrier angle of the dwell that is wanted"),
+    "dwell_ripple": Term("", "mm", "range of the slider's place in the dwell", "own derivation"),
+    "dwell_deviation_min": Term("", "mm", "least deviation from the place in mid-dwell, inwards positive"),
+    "dwell_deviation_max": Term("", "mm", "greatest deviation from the place in mid-dwell, inwards positive"),
+    "tolerance_carrier_angle": Term("", "deg", "widest carrier angle with the slider within +- the tolerance"),
+    "stroke": Term("S", "mm", "stroke of the slider"),
+    "ripple_share": Term("", "1", "ripple over stroke"),
+}
+
+_FIVE_BAR = {
+    "form": Term("", "1", "path of a coupler point, or output as a function of the input"),
+    "five_bar_ratio": Term("k", "1", "output over input speed of the gears", "thesis figure 2-1"),
+    "coupler_ratio": Term("m", "1", "coupler over input speed, 1 + z5/z2 or 1 - z5/z2", "thesis figure 2-7, a reading"),
+    "period_turns": Term("q", "1", "input turns until everything repeats", "own derivation"),
+    "input_length": Term("a", "mm", "input link AB"),
+    "follower_length": Term("c", "mm", "follower CD"),
+    "output_length": Term("e", "mm", "output link, from the last coupler to its pivot"),
+    "start_directions": Term("", "deg", "directions of BC, CD, DE and FE of a six-bar at input angle 0"),
+    "phase": Term(
+        "delta", "deg", "direction of the output link at input angle 0; of the coupler where a function is generated"
+    ),
+    "assembly": Term("", "1", "assembly, +1 or -1"),
+    "point_along": Term("u", "mm", "coupler point, along B->C"),
+    "point_across": Term("v", "mm", "coupler point, to the left of B->C"),
+    "span_min": Term("", "mm", "least distance that the dyad spans", "own derivation"),
+    "span_min_at": Term("", "deg", "input angle of the least span"),
+    "span_max": Term("", "mm", "greatest distance that the dyad spans", "own derivation"),
+    "span_max_at": Term("", "deg", "input angle of the greatest span"),
+    "min_transmission_angle_at": Term("", "deg", "input angle of the least transmission angle"),
+    "path_width": Term("", "mm", "extent of the path along the frame"),
+    "path_height": Term("", "mm", "extent of the path across the frame"),
+    "phase_step": Term("360/z4", "deg", "step in which the phase can be set a tooth on"),
+    "path_deviation_rms": Term("", "mm", "root mean square of the distances of the table deviations"),
+    "path_deviation_max": Term("", "mm", "greatest distance of the table deviations"),
+    "position_errors": Term("", "deg", "output angle reached less that asked for, at each position"),
+}
+
+_STUDY = {
+    "designs": Term("N", "1", "designs of a study that were computed"),
+    "refused": Term("", "1", "designs of a study without a mechanism, or without one of the objectives"),
+    "feasible": Term("", "1", "designs of a study that satisfy all checks and conditions"),
+    "front_size": Term("", "1", "designs that no other one dominates, equal ones all counted"),
+    "kept": Term("", "1", "boxes of the resolution that hold the front, one design each"),
+    "shown": Term("", "1", "kept designs that a terminal shows, at most 50"),
+    "exhaustive": Term("", "1", "whether all designs were computed, so that the front is exact"),
+    "knee": Term("", "1", "index of the kept design with the least sum of objectives, each scaled from 0 to 1"),
+}
+
+_TOLERANCE = {
+    "yield": Term("Y", "1", "share of the designs as made that pass all checks and requirements"),
+    "yield_low": Term("", "1", "lower end of the yield's 95 % interval"),
+    "yield_high": Term("", "1", "upper end of the yield's 95 % interval"),
+    "samples": Term("N", "1", "designs as made that were computed"),
+    "seed": Term("", "1", "seed of the samples: the same seed gives the same samples"),
+    "no_mechanism": Term("", "1", "share of the designs as made that do not exist"),
+    "dwell_swing": Term("", "deg", "half the range of the output over the nominal dwell, +-"),
+}
+
+_REGISTER = {
+    "worst": Term(
+        "",
+        "mm",
+        "register error where all sources add up, each at its greater limit, for torque sign +1 and -1",
+    ),
+    "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
+    "band": Term("", "mm", "register error to either side that 99.73 % keep, for torque sign +1 and -1"),
+    "dead_band": Term("", "mm", "how far the output jumps where its torque turns: backlash of the meshes"),
+    "flips": Term("", "deg", "input angles at which the torque on the output turns"),
+}
+
+_LOADS = {
+    "input_torque_mean": Term("M_m", "N m", "mean input torque over the period"),
+    "input_torque_rms": Term("M_rms", "N m", "root mean square of the input torque"),
+    "input_torque_max": Term("M_max", "N m", "greatest input torque", "virtual power"),
+    "input_torque_max_at": Term("phi_max", "deg", "input angle of the greatest input torque"),
+    "input_torque_min": Term("M_min", "N m", "least input torque", "virtual power"),
+    "input_torque_min_at": Term("phi_min", "deg", "input angle of the least input torque"),
+    "input_power_mean": Term("P_m", "W", "mean input power"),
+    "input_power_peak": Term("P_max", "W", "greatest input power"),
+    "reflected_inertia_min": Term("J_min", "kg m^2", "least inertia of all links as the input feels it"),
+    "reflected_inertia_max": Term("J_max", "kg m^2", "greatest inertia of all links as the input feels it"),
+    "reflected_inertia_mean": Term("J_m", "kg m^2", "mean over the input angle of the reflected inertia"),
+    "torque_reversals": Term("", "1", "changes of sign of the input torque over the period"),
+    "energy_fluctuation": Term(
+        "dW", "J", "greatest less least surplus of a constant drive torque over the load, masses left out"
+    ),
+    "flywheel_inertia": Term("J_F", "kg m^2", "flywheel at the input for the allowed fluctuation of its speed"),
+    "speed_min": Term("n_min", "1/min", "least speed of the input with its flywheel or motor"),
+    "speed_max": Term("n_max", "1/min", "greatest speed of the input with its flywheel or motor"),
+    "speed_fluctuation": Term("delta", "1", "(greatest - least)/mean speed of the input, the mean of these two"),
+    "motor_torque_rms": Term("M_mot", "N m", "root mean square over the time of the motor's torque"),
+    "motor_torque_peak": Term("M_mot,max", "N m", "greatest torque of the motor; negative where the load drives it"),
+    "shaking_force_max": Term("F_s", "N", "greatest force of the moving masses on the frame"),
+    "shaking_moment_max": Term("M_s", "N m", "greatest moment of the moving masses about the input's pivot"),
+    "peak": Term("F_max", "N", "greatest force of a pin over the period"),
+    "equivalent": Term("P", "N", "equivalent load of a pin over its relative turning, exponent 3 or 10/3", "ISO 281"),
+    "travel": Term("", "1", "relative turns of a pin per input turn, both senses counted"),
+    "life": Term("L_10", "h", "basic rating life of a pin's bearing", "ISO 281"),
+    "bearing_pressure": Term("p", "N/mm^2", "greatest pressure of a pin's plain bearing, F/(b d)"),
+    "counterweight_crank": Term("U_1", "kg mm", "mass moment of the counterweight on the crank"),
+    "counterweight_crank_direction": Term("arg U_1", "deg", "its direction in the crank's coordinates"),
+    "counterweight_rocker": Term("U_3", "kg mm", "mass moment of the counterweight on the rocker"),
+    "counterweight_rocker_direction": Term("arg U_3", "deg", "its direction in the rocker's coordinates"),
+    "balanced_force_max": Term("F_s,bal", "N", "greatest shaking force with the counterweights"),
+    "contact_force_max": Term("N_max", "N", "greatest force between roller and cam"),
+    "contact_force_min": Term("N_min", "N", "least force between roller and cam"),
+    "hertz_pressure_max": Term("p_H", "N/mm^2", "greatest Hertzian pressure of roller and cam", "Hertz, line contact"),
+    "shear_depth": Term("z_tau", "mm", "depth of the greatest shear stress below the cam's surface", "Hertz"),
+    "roller_speed_max": Term("n_r", "1/min", "greatest speed of the roller about its own axis"),
+    "roller_acceleration_max": Term("a_r", "rad/s^2", "greatest angular acceleration of the roller"),
+    "traction_needed": Term("mu_r", "1", "greatest share of the contact force that drives the roller round"),
+    "entrainment_speed_max": Term("u", "mm/s", "greatest speed of both surfaces through the contact of roller and cam"),
+    "cam_torque_max": Term("M_cam", "N m", "greatest torque on the cams about their axis, counter-clockwise"),
+    "cam_torque_min": Term("M_cam,min", "N m", "least torque on the cams about their axis, counter-clockwise"),
+    "cam_torque_rms": Term("M_cam,rms", "N m", "root mean square of the torque on the cams"),
+    "preload_needed": Term("P_min", "N", "least preload that keeps both rollers of a positive drive on their cams"),
+    "natural_frequency": Term("f_n", "Hz", "natural frequency of the output on its drive"),
+    "frequency_ratio": Term("f_n/f", "1", "natural frequency of the output over the frequency of the input"),
+    "rise_periods": Term("n_T", "1", "natural periods in the shortest motion between two dwells", "T_1 f_n"),
+    "residual_amplitude": Term("A", "deg", "vibration that a motion leaves in the dwell after it"),
+    "residual_speed_limit": Term("n_A", "1/min", "least speed at which that passes what is allowed"),
+    "dwell_twist": Term("z_max", "deg", "greatest deflection of the output in its dwells, steady state"),
+    "twisted_ripple": Term("D_z", "deg", "range of the output with its deflection in a dwell"),
+    "tooth_force_max": Term("F_t", "N", "greatest tangential force of a mesh"),
+    "reversals": Term("", "1", "changes of flank of a mesh over the period"),
+    "axial_force_max": Term("F_a", "N", "greatest axial force of helical teeth, F_t tan(beta_w)"),
+    "tilting_moment_max": Term("M_t", "N m", "greatest moment F_a r_w of it on gear 1 and gear 2"),
+    "engagement_energy": Term("E", "J", "energy that the hardest start of a mutilated gear's motion costs"),
+    "massless": Term("", "1", "links that count as without mass and inertia, since the file gives none"),
+    "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
+}
+
+TERMS: dict[str, Term] = {
+    **GEAR_LINKAGE,
+    **REAL_SPEED,
+    **SLIDER,
+    **GEAR_PAIR,
+    **_SLIDER_CRANK,
+    **_PRESS,
+    **_CAM,
+    **_GRIPPER,
+    **_SWING,
+    **_MOBILITY,
+    **_MUTILATED,
+    **_PLANET_LINKAGE,
+    **_HYPOCYCLOID,
+    **_FIVE_BAR,
+    **MOTION_EXTREMES,
+    **_STUDY,
+    **_TOLERANCE,
+    **_REGISTER,
+    **_LOADS,
+}
+
+
+def term(name: str) -> Term:
+    """The entry of a quantity; in a name that carries its mesh, `crank_idler.contact_ratio`, the last part counts.
+
+    Raises
+        GearlinkError - for a name without an entry
+    """
+    try:
+        return TERMS[name.rpartition(".")[2]]
+    except KeyError:
+        raise GearlinkError(f"no nomenclature entry for {name!r}") from None

@@ -1,0 +1,374 @@
+"""Changes of a design are tried: for a check that fails, the keys and the nearest values that repair it.
+
+A kind of design names, for each of its checks, the ways in which a file may be changed: keys, and the step in which
+their values can be built (whole teeth, 0.1 mm, 0.01 of profile shift). Values of that grid are tried from the file's
+own onwards. A remedy is one with which the check passes, no other finding becomes worse, and nothing that the file
+asks for is refused: whoever follows it gets what it says.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import replace
+from itertools import chain, islice
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import (
+    FAILS,
+    HOLDS,
+    PASSES,
+    REFUSAL,
+    Standing,
+    Way,
+    can_be_built,
+    counts,
+    greatest_length,
+    left_of,
+    own_grade,
+    refusal_ways,
+    steps_to_limit,
+    warned,
+)
+from gearlink.core.base.report import Check, Remedy, remedy_words
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed, number_at
+
+if TYPE_CHECKING:
+    from gearlink.core.base.design import Design
+
+BUDGET = 150.0
+"""What the trials for one finding may cost, that of most designs being 1: a tenth of a second or so."""
+_FINDINGS, _REST = 5, 10
+"""All findings together may cost as much as so many; then each has its share of a tenth."""
+_ELSEWHERE = 50.0
+"""What judging commands that another class serves may cost, for all findings together."""
+_MUCH, _OF_WAY = 2.0, 3
+"""A trial that costs so many times as much as the design is dear; values of one way that are worth one."""
+
+
+def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
+    """The findings of a check; those that fail have the best remedy that was found, in data and words."""
+    if all(found.status != "fail" for found in findings):
+        return findings  # what warns may be built: no report waits for its trials
+    bench = design.bench(command)
+    return tuple(_with(bench, found, index) for index, found in enumerate(findings))
+
+
+def _with(bench: Bench, found: Check, index: int) -> Check:
+    remedy = bench.remedy(found, index)
+    if not remedy:
+        return found
+    left = bench.warnings_left(remedy, found, index)
+    price = ["by asking for less"] if bench.asks_less(key for key, _ in remedy) else []
+    price += [f"with a warning left ({', '.join(left)})"] if left else []
+    words = f"{', '.join(price)}: {remedy_words(remedy)}" if price else remedy_words(remedy)
+    return replace(found, message=f"{found.message}; {words}", remedy=remedy)
+
+
+class Bench:
+    """A design on which changes are tried; what was tried once is kept.
+
+    Parameters
+        design, command : the design, and the command whose findings are to be repaired
+        patient : bool - what warns is to be repaired as well
+    """
+
+    def __init__(self, design: Design, command: str, *, patient: bool = False) -> None:
+        self._design = design
+        self._patient = patient
+        self._commands = commands_of(design, command)
+        self._before = Standing(design)
+        self._left = 0.0
+        self._elsewhere_left = _ELSEWHERE * (_FINDINGS if patient else 1)
+        self._paid: dict[Remedy, float] = {}
+        self._spent: dict[Remedy, float] = {}
+        self._trials: dict[Remedy, Standing | None] = {}
+        self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
+        self._grades: dict[tuple[Remedy, str, int], int] = {}
+        self._found: dict[tuple[str, int], Remedy] = {}
+        self._others: dict[tuple[Remedy, str], Standing] = {}
+
+    def remedy(self, found: Check, index: int) -> Remedy:
+        """The best remedy of a finding, the `index`-th of its check; empty where no way leads to one.
+
+        Notes
+            A failing check is to pass and no other finding to become worse; where no way leads there, it may warn and
+            so may others. A check that warns is to pass.
+        """
+        if found.status == "pass" or (found.status == "warn" and not self._patient):
+            return ()
+        if (found.name, index) not in self._found:
+            self._found[found.name, index] = self._sought(found, index)
+        return self._found[found.name, index]
+
+    def _sought(self, found: Check, index: int) -> Remedy:
+        self._begin()
+        for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
+
+            def good(tried: Remedy, wanted: int = wanted) -> bool:
+                return self._grade(tried, found.name, index) >= wanted
+
+            whole = self._whole(chain(self._of_earlier(found.name), self._closed(found.name)), good)
+            for remedy in chain(whole, self._all(found.name, good, index)):
+                if not self._is_affordable_elsewhere(remedy):
+                    break
+                if self._grade_elsewhere(remedy) >= wanted:
+                    return remedy
+        return ()
+
+    def _of_earlier(self, name: str) -> Iterator[Remedy]:
+        """The closed forms of what fails before a check: where one of them repairs both, both name it.
+
+        They are trials of that check, and do not count for this one.
+        """
+        left = self._left
+        with suppress(NoSolution):  # then there are no findings of a command, and none before this one
+            for each in chain.from_iterable(map(self._before.checks, self._commands)):
+                if each == name:
+                    return
+                if any(rank == FAILS for rank in self._before.ranks(each)):
+                    for remedy in self._closed(each):
+                        yield remedy
+                        self._left = left
+
+    def _whole(self, remedies: Iterable[Remedy], good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """Those that are good and with which nothing fails, before those that repair one of several findings."""
+        for remedy in remedies:
+            if not self._is_paid(remedy, -BUDGET):
+                return
+            if not self.asks_less(key for key, _ in remedy) and good(remedy) and self._holds(remedy):
+                yield remedy
+
+    def _begin(self) -> None:
+        """What trials for one finding may cost, those counted that are known from another: what it gets does not
+        depend on others, until all have cost too much."""
+        whole = sum(self._spent.values()) < _FINDINGS * BUDGET
+        self._left = (BUDGET if whole else BUDGET / _REST) - self._before.cost
+        self._paid = {}
+
+    def _pay(self, remedy: Remedy) -> None:
+        """Take from what is left for the finding what a trial costs by now, once."""
+        trial = self._trials[remedy]
+        cost = 0.0 if trial is None else trial.cost
+        self._left -= cost - self._paid.get(remedy, 0.0)
+        self._paid[remedy] = self._spent[remedy] = cost
+
+    def _is_paid(self, remedy: Remedy, down_to: float = 0.0) -> bool:
+        """Whether a trial is paid already for this finding, or can be; closed forms are few, and may overdraw."""
+        return self._left > down_to or remedy in self._paid
+
+    def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
+        """The checks that warn after a remedy: its own, and those that passed before."""
+        if min(self._grade(remedy, found.name, index), self._grade_elsewhere(remedy)) >= PASSES:
+            return ()
+        trial = self._trials[remedy]
+        assert trial is not None
+        left = warned(self._commands, self._before, trial)
+        for command in self._elsewhere:
+            left |= warned((command,), self._other((), command), self._other(remedy, command))
+        own = {found.name: None} if own_grade(self._before, trial, found.name, index) < PASSES else {}
+        return tuple(own | left)
+
+    def detour(self, found: Check, index: int) -> Remedy:
+        """What repairs a finding at the price of others, from where a design may be repaired further."""
+        self._begin()
+
+        def good(remedy: Remedy) -> bool:
+            trial = self._trial(remedy)
+            with suppress(NoSolution):
+                return (
+                    trial is not None
+                    and own_grade(self._before, trial, found.name, index) > 0
+                    and all(map(trial.stands, self._commands))
+                )
+            return False
+
+        return next(self._all(found.name, good, index), ())
+
+    def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
+        """Remedies of a design that is refused: nothing of what its file asks for is refused then, and first those with
+        which nothing of it fails."""
+        ways = tuple(refusal_ways(self._design.given, error.key))
+        for good in (self._holds, self._stands):
+            self._begin()
+            yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
+            yield from (remedy for way in ways for remedy in islice(self._along(way, good), 1))
+
+    def _all(self, name: str, good: Callable[[Remedy], bool], index: int) -> Iterator[Remedy]:
+        """The remedies of a finding that are good, the best first."""
+        for less in (False, True):
+            for remedy in self._closed(name):
+                if not self._is_paid(remedy, -BUDGET):
+                    break
+                if self.asks_less(key for key, _ in remedy) is less and good(remedy):
+                    yield remedy
+            ways = (way for way in self._design.ways_of(name) if self.asks_less(way.keys) is less)
+            for way, first in self._led(ways, good, name, index):
+                yield from islice(self._along(way, good, first), _OF_WAY)
+
+    def _led(
+        self, ways: Iterable[Way], good: Callable[[Remedy], bool], name: str, index: int
+    ) -> Iterator[tuple[Way, int]]:
+        """Ways that bear on a finding, by the first step of each, and the count of steps to try first.
+
+        Notes
+            Where a trial takes long, those whose first step leads to the limit come first, from half the steps on
+            that it seems to take, and ways that seem to lead elsewhere last.
+        """
+        later: list[tuple[Way, int]] = []
+        for way in ways:
+            old = self._numbers(way)
+            step = way.remedy(old, 1) if old else ()
+            known = self._is_paid(step) and not good(step)
+            trial = self._trials.get(step)
+            steps = steps_to_limit(self._before, trial, name, index) if known and trial is not None else 1.0
+            if not old or steps == math.inf:
+                continue
+            if steps is None or self._before.cost <= 1.0:
+                yield way, 1
+            elif 0.0 <= steps <= way.most(old):
+                yield way, max(1, int(0.5 * steps))
+            else:
+                later.append((way, 1))
+        yield from later
+
+    def _numbers(self, way: Way) -> list[float]:
+        """The numbers of the file that a way changes; none where one of them is missing."""
+        values = [number_at(self._design.given, key) for key in way.keys]
+        old = [value for value in values if value is not None]
+        return old if len(old) == len(values) else []
+
+    def asks_less(self, keys: Iterable[str]) -> bool:
+        """Whether keys to be changed say what the machine has to do."""
+        return not self._design.requirements.isdisjoint(keys)
+
+    def _closed(self, name: str) -> Iterator[Remedy]:
+        """The remedies from closed forms, computed one after the other; none more where the next is refused."""
+        kept, more = self._candidates.setdefault(name, ([], iter(self._design.candidates(name))))
+        yield from tuple(kept)
+        with suppress(NoSolution):
+            for remedy in more:
+                kept.append(remedy)
+                yield remedy
+
+    def _along(self, way: Way, good: Callable[[Remedy], bool], first: int = 1) -> Iterator[Remedy]:
+        """The nearest remedy on a way: steps that grow until one is good, then halving back; then those farther on."""
+        old = self._numbers(way)
+        if not old:
+            return
+        bad = 0
+        nearest: Remedy = ()
+        for count in counts(way.most(old), first):
+            remedy = way.remedy(old, count)
+            if not self._is_paid(remedy):
+                return
+            if not good(remedy):
+                bad = bad if nearest else count
+                continue
+            if not nearest:
+                yield (nearest := self._back(way, old, bad, count, good))
+            if remedy != nearest:
+                yield remedy
+
+    def _back(self, way: Way, old: list[float], bad: int, found: int, good: Callable[[Remedy], bool]) -> Remedy:
+        """The nearest that is good, by halving between one that is not and one that is; it may overdraw by a half."""
+        while found - bad > 1 and 2.0 * self._left > -BUDGET:
+            middle = (bad + found) // 2
+            bad, found = (bad, middle) if good(way.remedy(old, middle)) else (middle, found)
+        return way.remedy(old, found)
+
+    # Trials
+
+    def _trial(self, remedy: Remedy) -> Standing | None:
+        """The design after a remedy; None where the file cannot say so, or there is none."""
+        if remedy not in self._trials:
+            given, spec, trial = self._design.given, None, None
+            if remedy and can_be_built(given, remedy, self._greatest):
+                spec = changed(given, remedy)
+            if spec is not None:
+                with suppress(NoSolution):
+                    trial = self._affordable(Standing(self._design.varied(spec)))
+            self._trials[remedy] = trial
+        self._pay(remedy)
+        return self._trials[remedy]
+
+    @cached_property
+    def _greatest(self) -> float:
+        return greatest_length(self._design.given)
+
+    def _affordable(self, trial: Standing) -> Standing | None:
+        """The trial; None where it is dear, and would take more than half of what is left."""
+        assert trial.design is not None
+        trial.design.advises = False
+        return None if trial.cost > max(_MUCH * self._before.cost, 0.5 * self._left) else trial
+
+    def _stands(self, remedy: Remedy) -> bool:
+        trial = self._trial(remedy)
+        return trial is not None and all(map(trial.stands, self._commands))
+
+    def _holds(self, remedy: Remedy) -> bool:
+        trial = self._trial(remedy)
+        return trial is not None and all(trial.holds(command) for command in self._commands)
+
+    def _grade(self, remedy: Remedy, name: str, index: int) -> int:
+        """What a remedy makes of a finding, and leaves of the commands of its class."""
+        key, trial = (remedy, name, index), self._trial(remedy)
+        if trial is None:
+            return 0
+        if key not in self._grades:
+            self._grades[key] = self._graded(trial, name, index)
+        self._pay(remedy)
+        return self._grades[key]
+
+    def _graded(self, trial: Standing, name: str, index: int) -> int:
+        try:
+            grade = own_grade(self._before, trial, name, index)
+        except NoSolution:
+            return 0
+        return min(grade, left_of(self._commands, self._before, trial)) if grade > 0 else 0
+
+    # Commands that other classes serve
+
+    @cached_property
+    def _elsewhere(self) -> tuple[str, ...]:
+        """The commands of the file that another class serves."""
+        design = self._design
+        asked = () if design.kin is None else design.given.commands()
+        return tuple(command for command in asked if command not in design.outlines)
+
+    def _is_affordable_elsewhere(self, remedy: Remedy) -> bool:
+        """Whether the commands of the file that another class serves may be judged once more."""
+        new = [command for command in self._elsewhere if (remedy, command) not in self._others]
+        self._elsewhere_left -= max((self._other(remedy, command).cost for command in new), default=0.0)
+        return self._elsewhere_left >= 0.0
+
+    def _grade_elsewhere(self, remedy: Remedy) -> int:
+        """What a remedy leaves of them: none becomes worse, none is refused that was not."""
+        grade = PASSES
+        for command in self._elsewhere:
+            grade = min(grade, left_of((command,), self._other((), command), self._other(remedy, command)))
+            if grade <= 0:
+                return 0
+        return grade
+
+    def _other(self, remedy: Remedy, command: str) -> Standing:
+        """The design that serves a command after a remedy, none that no longer asks for it; before it without one."""
+        key = (remedy, command)
+        if key not in self._others:
+            kin = self._design.kin
+            assert kin is not None
+            spec, made = changed(self._design.given, remedy) if remedy else self._design.given, None
+            if command in spec.commands():
+                with suppress(NoSolution):
+                    made = (kin.changed(spec) if remedy else kin).of(command)
+            self._others[key] = Standing(made, command)
+        return self._others[key]
+
+
+def commands_of(design: Design, command: str) -> tuple[str, ...]:
+    """The command, and the others that the file asks for and the design's class serves."""
+    asked = (name for name in design.given.commands() if name in design.outlines)
+    return tuple(dict.fromkeys((command, *asked)))

@@ -1,0 +1,295 @@
+"""The result of a command as plain data: quantities with unit and symbol, checks with code and limit, tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Column: TypeAlias = Sequence[Any] | NDArray[Any]
+
+Value = float | int | str | bool | list[float] | list[int] | list[str] | list[float | None] | list[list[float] | None]
+"""What a quantity may be: of some gears or meshes a list, with None where one has none, and a pair of limits each."""
+Status = Literal["pass", "warn", "fail"]
+Side = Literal[">=", "<=", ""]
+"""How a value that passes stands to its limit; no word where the limit is what was asked for, or decides not alone."""
+Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
+"""Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""
+_BLOCK = 4096
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A named result in the unit of the design files (mm, deg, ...)."""
+
+    name: str
+    value: Value
+    unit: str
+    symbol: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One finding: `status` follows from comparing `value` with `limit`; the message says what would repair it."""
+
+    code: str
+    name: str
+    status: Status
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    unit: str = "1"
+    remedy: Remedy = ()
+    side: Side = ">="
+
+
+class Rule(NamedTuple):
+    """A code with its texts, which `gearlink explain` prints; the findings of a check are made from it.
+
+    Fields
+        code : str - "GL301"
+        title : str - a few words
+        what, why : str - what was found, and why it matters
+        remedy : str - what to change
+        formula, source : str - the quantity that was compared, and where it comes from; empty for file errors
+        checks : names of the checks that report with the code; empty for file errors
+        keys : dotted paths of the design file's keys that a finding belongs to, the most telling first
+        side : how a value that passes stands to its limit
+    """
+
+    code: str
+    title: str
+    what: str
+    why: str
+    remedy: str
+    formula: str = ""
+    source: str = ""
+    checks: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()
+    side: Side = ">="
+
+    @property
+    def name(self) -> str:
+        """Name of its check, the first where it has several."""
+        return self.checks[0]
+
+    def check(
+        self,
+        status: Status,
+        message: str,
+        value: float | None = None,
+        limit: float | None = None,
+        unit: str = "1",
+        *,
+        name: str = "",
+        side: Side | None = None,
+    ) -> Check:
+        """A finding of the rule; `name` where it has several checks, `side` where it passes on another than the rule's.
+
+        Raises
+            ArithmeticError - where what passes is not a number: that no comparison holds is no reason to pass
+        """
+        if status == "pass" and value is not None and math.isnan(value):
+            raise ArithmeticError(f"{self.code} {name or self.name} judges what is not a number")
+        return Check(
+            self.code, name or self.name, status, message, value, limit, unit, side=self.side if side is None else side
+        )
+
+    def below(self, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
+        """A finding that fails where `value` < `limit` and warns where it is below `warn`.
+
+        Example
+            >>> angle = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
+            >>> angle.below(42.0, 40.0, 45.0, "deg", "least angle", "lengthen l4").status
+            'warn'
+        """
+        status: Status = "fail" if value < limit else "warn" if value < warn else "pass"
+        text = f"{subject} is {value:.6g} {unit}".removesuffix(" 1")
+        bound = f"{limit:g} {unit}".removesuffix(" 1")
+        if status == "fail":
+            text += f", below the limit {bound}: {remedy}"
+        elif status == "warn":
+            text += f", little above the limit {bound}: {remedy}"
+        return self.check(status, text, value, limit, unit)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Columns of equal length, sequences or one-dimensional arrays; `data[i]` is `columns[i]` in `units[i]`.
+
+    Arrays of `data` are read-only, for a design may keep them; a column by name is the reader's own.
+    """
+
+    name: str
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    data: tuple[Column, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "data", tuple(map(_read_only, self.data)))
+
+    @classmethod
+    def of(cls, name: str, columns: Mapping[str, tuple[Column, str]]) -> Table:
+        """A table from its columns by name, each the data and their unit.
+
+        Example
+            >>> Table.of("law", {"x": ([0.0, 0.5], "1"), "velocity": ([0.0, 2.0], "mm/s")}).units
+            ('1', 'mm/s')
+        """
+        data, units = zip(*columns.values(), strict=True)
+        return cls(name, tuple(columns), units, data)
+
+    def __getitem__(self, column: str) -> NDArray[Any]:
+        """A column by name, as a new array; where all else are numbers, NaN stands for what does not exist.
+
+        Raises
+            KeyError - for a name that is not among the columns
+        """
+        import numpy as np
+
+        if column not in self.columns:
+            raise KeyError(f"no column {column!r}; the columns are {', '.join(self.columns)}")
+        found = np.array(self.data[self.columns.index(column)])
+        if found.dtype == object and all(item is None or isinstance(item, (int, float)) for item in found):
+            return found.astype(float)
+        return found
+
+    def _repr_html_(self) -> str:
+        from gearlink.core.base.notebook import table_as_html
+
+        return table_as_html(self)
+
+    @property
+    def length(self) -> int:
+        """How many rows it has."""
+        return max(map(len, self.data), default=0)
+
+    def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
+        """The rows one after the other, made a few thousand at a time; as `rows`."""
+        for start in range(0, self.length, _BLOCK):
+            yield from zip(*(_plain(column[start : start + _BLOCK]) for column in self.data), strict=True)
+
+    def rows(self) -> list[list[float | str | None]]:
+        """The table turned into rows; None where a value does not exist (infinite or not a number)."""
+        return [list(row) for row in self.each_row()]
+
+    def thinned(self, step: int) -> Table:
+        """The table with every `step`-th row."""
+        return replace(self, data=tuple(column[::step] for column in self.data))
+
+
+@dataclass(frozen=True, slots=True)
+class TableInParts(Table):
+    """A table of any length whose rows are computed while they are read; `data` are those of its first part alone."""
+
+    parts: Callable[[], Iterator[Table]]
+
+    def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
+        """The rows of one part after the other."""
+        for part in self.parts():
+            yield from part.each_row()
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """All that a command says about one design."""
+
+    kind: str
+    name: str
+    command: str
+    quantities: tuple[Quantity, ...] = ()
+    checks: tuple[Check, ...] = ()
+    tables: tuple[Table, ...] = field(default=())
+
+    def _repr_html_(self) -> str:
+        from gearlink.core.base.notebook import report_as_html
+
+        return report_as_html(self)
+
+    @property
+    def ok(self) -> bool:
+        """False where a check fails."""
+        return all(check.status != "fail" for check in self.checks)
+
+
+def _read_only(column: Column) -> Column:
+    """A column as it is, an array as a view that cannot be written to."""
+    if not hasattr(column, "flags") or not column.flags.writeable:
+        return column
+    view: NDArray[Any] = column.view()  # type: ignore[union-attr]  # what has flags is an array
+    view.flags.writeable = False
+    return view
+
+
+def _plain(column: Column) -> Sequence[float | str | None]:
+    """A column's numbers as Python's own, None where they do not exist."""
+    items: Sequence[Any] = column.tolist() if hasattr(column, "tolist") else column
+    try:
+        if all(map(math.isfinite, items)):
+            return items
+    except (TypeError, ValueError, OverflowError):  # words, nothing at a place, integers beyond all floats
+        pass
+    return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
+
+
+def remedy_words(remedy: Remedy) -> str:
+    """A remedy in words.
+
+    Example
+        >>> remedy_words((("gears.crank", 42), ("gears.output", 42)))
+        'set gears.crank to 42 and gears.output to 42'
+    """
+    sets = [f"{key} to {_shown(value)}" for key, value in remedy if value is not None]
+    verbs = [f"set {' and '.join(sets)}"] if sets else []
+    return " and ".join((*verbs, *(f"leave {key} out" for key, value in remedy if value is None)))
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.12g}"
+
+
+def without_noise(value: float, scale: float) -> float:
+    """The value, or 0 where it is below the rounding error of what has the size `scale`.
+
+    A closed form in double precision is off by a few ulp of its largest term; 8 ulp are taken, twice the most that
+    the residuals of the worked designs show.
+
+    Example
+        >>> without_noise(-4.46e-13, 2970.0), without_noise(-4.46e-10, 2970.0)
+        (0.0, -4.46e-10)
+    """
+    return value if abs(value) > 8.0 * math.ulp(scale) else 0.0
+
+
+def safely_below(value: float, digits: int = 5) -> str:
+    """A recommended upper bound, rounded down to so many digits: applied as printed, it holds.
+
+    Example
+        >>> safely_below(16.41765), safely_below(0.000123456, 3)
+        ('16.417', '0.000123')
+    """
+    return _directed(value, digits, math.floor)
+
+
+def safely_above(value: float, digits: int = 5) -> str:
+    """A recommended lower bound, rounded up to so many digits: applied as printed, it holds.
+
+    Example
+        >>> safely_above(2.52430607), safely_above(3.0)
+        ('2.5244', '3')
+    """
+    return _directed(value, digits, math.ceil)
+
+
+def _directed(value: float, digits: int, way: Callable[[float], int]) -> str:
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    places = digits - 1 - math.floor(math.log10(abs(value)))
+    if places < 0:
+        return f"{way(value)}"
+    return f"{way(value * 10**places) / 10**places:.{digits}g}"

@@ -1,0 +1,171 @@
+"""What the spec models share: strictness, and number types that carry their unit into the JSON Schema."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError, core_schema
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
+
+
+class Spec(BaseModel):
+    """A section of a design file: strict, frozen, no unknown keys, finite numbers only."""
+
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
+
+
+class Entries:
+    """Annotates a list of fixed length: what each of its entries is, and a list to show for an example.
+
+    Parameters
+        names : str - "[x, y]"
+        example : str - "[0, -9.81]"; empty: none
+    """
+
+    def __init__(self, names: str, example: str = "") -> None:
+        self.names = names
+        self.example = example
+
+
+MOST_NAME = 200
+"""Characters of a design's name at most: it heads pictures and pages, and names files."""
+
+
+def _fit_to_print(name: str) -> str:
+    if len(name) > MOST_NAME:
+        raise PydanticCustomError("GL108", f"name has {len(name)} characters: shorten it to {MOST_NAME}")
+    if name.isprintable():
+        return name
+    import unicodedata
+
+    if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
+        message = f"name holds the control character U+{ord(wrong):04X}: take it out"
+        raise PydanticCustomError("GL108", message)
+    return name
+
+
+class DesignSpec(Spec):
+    """The keys that every kind of design file has."""
+
+    name: Annotated[str, AfterValidator(_fit_to_print)] = Field(
+        "design",
+        description="what the design is called; default: the file's stem",
+        json_schema_extra={"maxLength": MOST_NAME},
+    )
+
+    def sized_by(self, _command: str) -> str:
+        """The synthesis that sizes the design before a command runs on it; empty where the file is complete for it."""
+        return ""
+
+
+Speed = Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})]
+
+
+class Deferred:
+    """Annotates a section whose model is imported when a file has that section, not before.
+
+    Parameters
+        place : str - "module:Name", below `gearlink.core`, of a model, or of a type made of models
+    """
+
+    def __init__(self, place: str) -> None:
+        self.place = place
+
+    def model(self) -> Any:
+        """The section's model, or type."""
+        module, _, name = self.place.partition(":")
+        return getattr(import_module(f"gearlink.core.{module}"), name)
+
+    @cached_property
+    def _adapter(self) -> TypeAdapter[Any]:
+        from pydantic import TypeAdapter
+
+        model = self.model()
+        return TypeAdapter(model, config=None if isinstance(model, type) else Spec.model_config)
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._validated)
+
+    def _validated(self, value: Any) -> Any:
+        model = self.model()
+        if not isinstance(model, type):
+            return self._adapter.validate_python(value)
+        section: type[BaseModel] = model
+        # A design whose spec is changed and validated anew brings a section that is valid already.
+        return value if isinstance(value, section) else section.model_validate(value)
+
+    def __get_pydantic_json_schema__(self, _schema: Any, handler: Any) -> dict[str, Any]:
+        found: dict[str, Any] = handler(self._adapter.core_schema)
+        return found
+
+
+Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
+SignedLength = Annotated[float, Field(json_schema_extra={"unit": "mm"})]
+Distance = Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})]
+Angle = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+PressureAngle = Annotated[float, Field(gt=0, lt=45, json_schema_extra={"unit": "deg"})]
+AcuteAngle = Annotated[float, Field(ge=0, lt=90, json_schema_extra={"unit": "deg"})]
+Teeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
+Coefficient = Annotated[float, Field(gt=0, le=3, json_schema_extra={"unit": "1"})]
+Ratio = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})]
+Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
+Assembly = Literal[1, -1]
+
+
+class TolerancedSpec(DesignSpec):
+    """The keys of a kind whose sizes may scatter."""
+
+    tolerance: Annotated[Any, Deferred("studies.tolerance.spec:Tolerance")] | None = Field(
+        None, description="how sizes scatter, for the commands tolerance and register"
+    )
+
+
+class DrivenSpec(TolerancedSpec):
+    """The keys of a kind whose input turns at an even speed."""
+
+    input_speed: Speed | None = Field(
+        None, description="speed of the input: with it real speeds, accelerations and times are given"
+    )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear", *(("loads",) if getattr(self, "loads", None) is not None else ()))
+
+
+class LoadLimits(Spec):
+    """Limits of the checks of the loads."""
+
+    torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
+    frequency_ratio: Ratio = Field(10.0, description="natural frequency of the output over that of the input, at least")
+
+
+class GearLimits(Spec):
+    """Limits of the gear checks."""
+
+    undercut: Share = Field(0.05, description="how far the profile shift may lie below x_min")
+    tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
+    contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
+    sliding: Ratio | None = Field(None, description="greatest specific sliding; left out: only above 8 is reported")
+
+
+class DrawingLimits(Spec):
+    """Limits of what only a drawing fixes: backlash and strength of gears."""
+
+    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
+    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
+    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
+
+
+def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
+    """Refuse a slide line that the connecting rod cannot reach."""
+    if abs(offset) >= rod:
+        raise PydanticCustomError(
+            "GL111",
+            "offset {offset} mm is not below the rod's {rod} mm: lengthen the rod or bring the slide line nearer",
+            {"key": key, "offset": f"{offset:g}", "rod": f"{rod:g}"},
+        )

@@ -1,0 +1,1 @@
+"""All that is particular to a machine, a folder each."""

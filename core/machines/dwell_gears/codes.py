@@ -1,0 +1,41 @@
+"""The rules that the checks of the dwell gears judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+START_SHOCK = Rule(
+    "GL310",
+    "start with a shock, and what the model leaves out",
+    "A mutilated gear takes its mate to full speed at once (always a warning).",
+    "The model ends at the pitch circles: the cut tips of the first and last tooth and the locking arcs change "
+    "where exactly motion begins and ends, and the blow limits the speed.",
+    "Let the crank stand at a dead centre (leave start_angle out), keep the speed low, add entry cams.",
+    "speed ratio in motion Z_M/(Z_F i_r)",
+    "own derivation; thesis figure 2-6 gives no formula",
+    ("start-shock",),
+    ("start_angle", "reduction", "gears"),
+    side="<=",
+)
+GAP = Rule(
+    "GL316",
+    "gap does not free the driven gear",
+    "Between the last tooth of a group and the first of the next, some tooth stays in contact, or nearly so.",
+    "The driven gear is held by its locking arc only while no tooth drives it: without that time both fight.",
+    "Take fewer teeth in a group or more full teeth.",
+    "Z_M/g - n + 1 - eps pitches without contact; fails below 0, warns below 1",
+    "own derivation: each tooth is in contact for eps pitches, the teeth beside a gap stand Z_M/g - n + 1 apart",
+    ("gap",),
+    ("gears.group_teeth", "gears"),
+)
+DWELL_QUALITY = Rule(
+    "GL311",
+    "dwell shorter than wanted",
+    "The slider leaves the band of +- dwell.tolerance before the carrier has turned through the dwell.",
+    "The slider does not stand where it should: the ripple of the arc about the rod's circle is too large.",
+    "Allow a larger tolerance, ask for a smaller dwell.angle, or let target find the rod.",
+    "widest carrier angle about mid-dwell with max s - min s <= 2 tolerance",
+    "own derivation; thesis 2.2.2, figure 2-5",
+    ("dwell-quality",),
+    ("dwell.tolerance", "dwell.angle", "rod", "target"),
+)

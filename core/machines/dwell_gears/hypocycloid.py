@@ -1,0 +1,295 @@
+"""Slider that dwells while a point on a planet's pitch circle runs along an arc of its hypocycloid.
+
+A planet of pitch radius r rolls in a ring of n r; a point of its pitch circle draws a hypocycloid of n arcs. Frame:
+ring centre at 0, the slide line the x axis, the middle of one arc on it at carrier angle t = 0:
+
+    x = r [(n - 1) cos t - cos((n - 1) t)],   y = r [(n - 1) sin t + sin((n - 1) t)]
+
+A rod of length L leads from that point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation counts from the
+slider's place at t = 0, positive towards the ring's centre. The kernel's t is the carrier angle from the middle of the
+arc.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.roots import bracketed_root, roots_on
+
+_STEPS_PER_ARC = 48
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class HypocycloidSlider:
+    """Planet, ring and rod.
+
+    Parameters
+        planet_radius : float [mm] - r, pitch radius of the planet
+        cusps : int - n >= 3, ring radius over planet radius
+        rod : float [mm] - L
+    Raises
+        NoSolution - for lengths that are not positive, fewer than three cusps, or a rod too short for the turn
+    Example
+        >>> slider = HypocycloidSlider(1.0, 3, 7.0)
+        >>> round(slider.stroke, 12), round(slider.ripple(math.radians(120.0)), 12)
+        (4.0, 0.022082869931)
+
+    Source
+        thesis 2.2.2, figure 2-5; formulas: own derivation
+    """
+
+    planet_radius: float
+    cusps: int
+    rod: float
+
+    def __post_init__(self) -> None:
+        require_cusps(self.planet_radius, self.cusps)
+        least = widest_offset(self.planet_radius, self.cusps)
+        if not least < self.rod < math.inf:
+            raise NoSolution(
+                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.9g} mm away from the slide "
+                f"line: make it longer than that (tangent-circle {tangent_circle(self.planet_radius, self.cusps):.6g}, "
+                f"osculating {osculating(self.planet_radius, self.cusps):.6g} mm)"
+            )
+
+    def point(self, t: float) -> complex:
+        """The point on the planet [mm]."""
+        return _point(self.planet_radius, self.cusps, t)
+
+    def deviation(self, t: float) -> float:
+        """Slider's place at t = 0 less that at t [mm], positive towards the ring's centre.
+
+        s(0) - s(t) = y^2/(L + sqrt(L^2 - y^2)) - (x - x_0),  x - x_0 = 2 r [sin^2((n-1) t/2) - (n-1) sin^2(t/2)]
+
+        Parameters
+            t : float [rad] - carrier angle from the middle of the arc
+        Returns
+            deviation : float [mm]
+        Notes
+            No difference of large lengths is taken.
+        """
+        y = self.point(t).imag
+        return y * y / (self.rod + math.sqrt(self.rod**2 - y * y)) - _advance(self.planet_radius, self.cusps, t)
+
+    def speed(self, t: float) -> float:
+        """Slider's speed outwards per carrier speed, ds/dt [mm/rad]."""
+        (x_1, y_1), y = self._rates(t), self.point(t).imag
+        return x_1 - y * y_1 / math.sqrt(self.rod**2 - y * y)
+
+    def acceleration(self, t: float) -> float:
+        """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2]."""
+        (_, y_1), (x_2, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        w = math.sqrt(self.rod**2 - y * y)
+        return x_2 - (y_1 * y_1 + y * y_2) / w - (y * y_1) ** 2 / w**3
+
+    def jerk(self, t: float) -> float:
+        """Slider's jerk outwards at constant carrier speed, d3s/dt3 [mm/rad^3].
+
+        w w''' + 3 w' w'' = -(3 y' y'' + y y'''),   w = sqrt(L^2 - y^2)
+        """
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        (_, y_1), (_, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        x_3 = scale * (math.sin(t) - k * k * math.sin(k * t))
+        y_3 = -scale * (k * k * math.cos(k * t) + math.cos(t))
+        w = math.sqrt(self.rod**2 - y * y)
+        w_1 = -y * y_1 / w
+        w_2 = -(y_1 * y_1 + y * y_2 + w_1 * w_1) / w
+        return x_3 - (3.0 * (y_1 * y_2 + w_1 * w_2) + y * y_3) / w
+
+    def _second_rates(self, t: float) -> tuple[float, float]:
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        return scale * (k * math.cos(k * t) - math.cos(t)), -scale * (k * math.sin(k * t) + math.sin(t))
+
+    def _rates(self, t: float) -> tuple[float, float]:
+        k = self.cusps - 1
+        scale = self.planet_radius * k
+        return scale * (math.sin(k * t) - math.sin(t)), scale * (math.cos(k * t) + math.cos(t))
+
+    def rod_angle(self, t: float) -> float:
+        """Angle of the rod to the slide line [rad]."""
+        return math.asin(self.point(t).imag / self.rod)
+
+    @property
+    def max_rod_angle(self) -> float:
+        """Greatest angle of the rod to the slide line over the turn [rad]."""
+        return math.asin(widest_offset(self.planet_radius, self.cusps) / self.rod)
+
+    @cached_property
+    def extremes(self) -> list[tuple[float, float]]:
+        """Carrier angles in [0, pi] where the slider reverses or rests, with 0 and pi, and its deviations there."""
+        count = _STEPS_PER_ARC * self.cusps
+        grid = [math.pi * (i + 0.5) / count for i in range(count)]
+        return [(t, self.deviation(t)) for t in (0.0, *roots_on(self.speed, grid), math.pi)]
+
+    @cached_property
+    def fastest(self) -> tuple[float, float]:
+        """Greatest speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
+        return self._greatest(self.speed, self.acceleration)
+
+    @cached_property
+    def hardest(self) -> tuple[float, float]:
+        """Greatest acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
+        return self._greatest(self.acceleration, self.jerk)
+
+    @cached_property
+    def hardest_inwards(self) -> tuple[float, float]:
+        """Greatest acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
+        value, place = self._greatest(lambda t: -self.acceleration(t), self.jerk)
+        return -value, place
+
+    def _greatest(self, f: Callable[[float], float], slope: Callable[[float], float]) -> tuple[float, float]:
+        count = 2 * _STEPS_PER_ARC * self.cusps
+        grid = [_TURN * (i + 0.5) / count for i in range(count)]
+        value, place = max((f(t), -t) for t in (0.0, math.pi, *roots_on(slope, grid)))
+        return value, -place
+
+    @property
+    def stroke(self) -> float:
+        """Stroke of the slider [mm]."""
+        values = [value for _, value in self.extremes]
+        return max(values) - min(values)
+
+    def deviation_range(self, angle: float) -> tuple[float, float]:
+        """Least and greatest deviation while the carrier turns by an angle about the middle of the arc.
+
+        Parameters
+            angle : float [rad] - whole carrier angle, 0..2 pi
+        Returns
+            least, greatest : float, float [mm]
+        Example
+            >>> least, greatest = HypocycloidSlider(1.0, 3, 7.5).deviation_range(math.radians(120.0))
+            >>> round(least, 12), round(greatest, 12)
+            (-0.035623639735, 0.005358514097)
+        """
+        half = 0.5 * angle
+        values = [value for t, value in self.extremes if t <= half] + [self.deviation(half)]
+        return min(values), max(values)
+
+    def ripple(self, angle: float) -> float:
+        """Range of the deviation over a carrier angle about the middle of the arc [mm]."""
+        least, greatest = self.deviation_range(angle)
+        return greatest - least
+
+    def dwell_angle(self, tolerance: float) -> float:
+        """Widest carrier angle about the middle of the arc in which the slider stays within +- a tolerance of a place.
+
+        Parameters
+            tolerance : float [mm] - half the range that is allowed, > 0
+        Returns
+            angle : float [rad] - whole carrier angle
+        Raises
+            NoSolution - for a tolerance that is not positive, or that lets the whole stroke pass
+        Notes
+            Between two extremes the slider runs one way: the end is a bracketed root, no search.
+        Example
+            >>> round(math.degrees(HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)), 6)
+            140.881311
+        """
+        limit = 0.5 * self.stroke
+        if not 0.0 < tolerance < limit:
+            raise NoSolution(
+                f"tolerance is {tolerance:g} mm; it must be positive and below half the stroke, {limit:.6g} mm"
+            )
+        low = high = 0.0
+        for (t_0, _), (t_1, value) in zip(self.extremes, self.extremes[1:], strict=False):
+            if max(high, value) - min(low, value) > 2.0 * tolerance:
+                edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
+                return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
+            low, high = min(low, value), max(high, value)
+        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole turn: ask for less")
+
+
+def require_cusps(planet_radius: float, cusps: int) -> None:
+    """Refuse a planet without size, and curves that have no arc to dwell on.
+
+    Raises
+        NoSolution - for a radius that is not positive and finite, or fewer than three cusps
+    Source
+        own derivation: with two cusps the curve is a straight line
+    """
+    if not 0.0 < planet_radius < math.inf:
+        raise NoSolution(f"planet radius is {planet_radius:g} mm; it must be positive and finite")
+    if cusps < 3:
+        raise NoSolution(
+            f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight line, with 1 it "
+            "stands: take 3 times or more"
+        )
+
+
+def widest_offset(planet_radius: float, cusps: int) -> float:
+    """Greatest distance of the point from the slide line, below which no rod can follow it [mm].
+
+    y' = 0 at the cusps and where (n - 2) t is an odd multiple of pi
+
+    Example
+        >>> round(widest_offset(1.0, 3), 9), round(widest_offset(1.0, 4), 9)
+        (2.598076211, 2.828427125)
+    """
+    places = [math.pi * k / cusps for k in range(1, 2 * cusps, 2)]
+    places += [math.pi * k / (cusps - 2) for k in range(1, 2 * cusps - 4, 2)]
+    return max(abs(_point(planet_radius, cusps, t).imag) for t in places)
+
+
+def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None) -> float:
+    """Rod length of the circle through the middle of the arc and two points of it, the cusps by default.
+
+    L = (D^2 + y^2)/(2 D),   D = x - x_0 at half the angle
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        angle : float or None [rad] - carrier angle between the two points; None: the whole arc, 2 pi/n
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - where the curve does not bend outwards to those points
+    Notes
+        Over the whole arc of a three-cusped curve no other rod has so small a ripple.
+    Example
+        >>> round(tangent_circle(1.0, 3), 12)
+        7.0
+
+    Source
+        thesis 2.2.2 ("radius of the arc"); own derivation
+    """
+    require_cusps(planet_radius, cusps)
+    half = math.pi / cusps if angle is None else 0.5 * angle
+    y, rise = _point(planet_radius, cusps, half).imag, _advance(planet_radius, cusps, half)
+    if rise <= 0.0 or half <= 0.0:
+        raise NoSolution(
+            f"no circle touches the arc over {math.degrees(2.0 * half):.6g} deg of the carrier: take at most the "
+            f"whole arc, {360.0 / cusps:.6g} deg"
+        )
+    return (rise * rise + y * y) / (2.0 * rise)
+
+
+def osculating(planet_radius: float, cusps: int) -> float:
+    """Rod length of the circle of curvature in the middle of the arc.
+
+    L = 4 r (n - 1)/(n - 2)
+
+    Example
+        >>> osculating(1.0, 3)
+        8.0
+    """
+    require_cusps(planet_radius, cusps)
+    return 4.0 * planet_radius * (cusps - 1) / (cusps - 2)
+
+
+def _point(radius: float, cusps: int, t: float) -> complex:
+    k = cusps - 1
+    return complex(
+        radius * (k * math.cos(t) - math.cos(k * t)),
+        radius * (k * math.sin(t) + math.sin(k * t)),
+    )
+
+
+def _advance(radius: float, cusps: int, t: float) -> float:
+    """x - x_0 without a difference of cosines."""
+    k = cusps - 1
+    return 2.0 * radius * (math.sin(0.5 * k * t) ** 2 - k * math.sin(0.5 * t) ** 2)

@@ -1,0 +1,307 @@
+"""A dwell on an arc of a hypocycloid as a design: planet in a ring gear, rod, slider."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.design import Found, Outline, placed
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
+from gearlink.core.base.remedies.ways import Way, either, up
+from gearlink.core.base.report import Check, Remedy, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed
+from gearlink.core.machines.dwell_gears import hypocycloid, hypocycloid_rod
+from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
+from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
+from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider
+from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.parts.gears.train.meshed import Meshed
+from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
+
+
+class HypocycloidDwell(SliderSpeed, Meshed):
+    """Slider that dwells while a point of the planet runs along an arc about its centre."""
+
+    kind = "hypocycloid-dwell"
+    spec: HypocycloidDwellSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "cusps",
+                "planet_teeth",
+                "ring_teeth",
+                "carrier_length",
+                "point_radius",
+                "rod_length",
+                "tangent_circle_length",
+                "osculating_length",
+                "dwell_carrier_angle",
+                "dwell_ripple",
+                "dwell_deviation_min",
+                "dwell_deviation_max",
+                "tolerance_carrier_angle",
+                "stroke",
+                "ripple_share",
+                "min_transmission_angle",
+                "contact_ratio",
+                *names("velocity", "acceleration"),
+                "input_speed",
+                "turn_time",
+                *SLIDER_SPEEDS,
+                "dwell_time",
+            ),
+            ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
+    }
+
+    ways = {
+        "shaft-clearance": SHAFT_WAYS,
+        "transmission-angle": (up("rod.length"),),
+        "dwell-quality": either("rod.length"),
+        **train_ways(2, Way(("gears.planet", "gears.ring"), 1, "ratio")),
+    }
+
+    requirements = Meshed.requirements | {"dwell.tolerance", "dwell.angle"}
+    extra_tables = ("drawing", "candidates")
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The rods of every rule side by side."""
+        from gearlink.core.machines.dwell_gears.candidates import hypocycloid
+
+        return hypocycloid(self)
+
+    cost = 7.0  # a rod that is sought
+
+    def candidates(self, check: str) -> Iterator[Remedy]:
+        """A rod of another rule, or what the slider does over the dwell that is wanted; a curve with a cusp less."""
+        if check == "dwell-quality" and self.tolerance_carrier_angle is not None:
+            yield from self._better_rods()
+            yield (("dwell.tolerance", math.ceil(501.0 * self.dwell_ripple) / 1000.0),)
+            yield (("dwell.angle", math.floor(10.0 * math.degrees(self.tolerance_carrier_angle)) / 10.0),)
+        if check == "transmission-angle":
+            yield (("gears.ring", self.ring_teeth - self.planet_teeth),)
+
+    def _better_rods(self) -> Iterator[Remedy]:
+        """The rod of the least ripple over the dwell, to tenths and hundredths; or what is sought of it."""
+        rod = self.spec.rod
+        if rod is None:
+            yield (("target.quality", "widest-dwell"),)
+            return
+        spec = changed(self.spec, (("rod", None), ("target", {"quality": "least-ripple"})))
+        try:
+            found = type(self)(spec).rod_length
+        except NoSolution:  # a dwell beyond one arc has no such rod
+            return
+        given: Remedy = () if rod.rule is None else (("rod.rule", None),)
+        yield from ((("rod.length", round(found, digits)), *given) for digits in (1, 2))
+
+    # Gears and rod
+
+    planet_teeth: int = placed("spec.gears.planet")
+    ring_teeth: int = placed("spec.gears.ring")
+
+    @cached_property
+    def cusps(self) -> int:
+        """Cusps of the curve, ring teeth over planet teeth."""
+        planet, ring = self.planet_teeth, self.ring_teeth
+        if ring % planet:
+            near = max(3, round(ring / planet))
+            raise NoSolution(
+                f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close in one turn "
+                f"of the carrier; take a whole multiple, for example {near * planet}",
+                key="gears.ring",
+            )
+        with at_key("gears.ring"):
+            hypocycloid.require_cusps(self.point_radius, ring // planet)
+        return ring // planet
+
+    @property
+    def point_radius(self) -> float:
+        """Pitch radius of the planet, on which the point lies [mm]; of shifted teeth the working one."""
+        if self.own_teeth:
+            return self.distance() * self.planet_teeth / (self.ring_teeth - self.planet_teeth)
+        return self.spec.gears.module * self.planet_teeth / 2.0
+
+    @property
+    def carrier_length(self) -> float:
+        """Centre distance of planet and ring gear [mm]."""
+        return self.distance()
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Planet and ring gear."""
+        return self.planet_teeth, -self.ring_teeth
+
+    @property
+    def tangent_circle_length(self) -> float:
+        """Rod of the circle through the ends and the middle of the dwell [mm]."""
+        with at_key("dwell.angle"):
+            return hypocycloid.tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    @property
+    def osculating_length(self) -> float:
+        """Rod of the circle of curvature [mm]."""
+        return hypocycloid.osculating(self.point_radius, self.cusps)
+
+    @property
+    def dwell_carrier_angle(self) -> float:
+        """Carrier angle of the dwell that is wanted [rad]."""
+        asked = self.spec.dwell.angle
+        return 2.0 * math.pi / self.cusps if asked is None else math.radians(asked)
+
+    @cached_property
+    def rod_length(self) -> float:
+        """Rod [mm], given, by rule or by target."""
+        if self.spec.target is not None:
+            return self._rod_for_target(self.spec.target.quality)
+        rod = self.spec.rod
+        if rod is not None and rod.length is not None:
+            return rod.length
+        rule = None if rod is None else rod.rule
+        if rule == "osculating":
+            return self.osculating_length
+        if rule == "tangent-circle":
+            return self.tangent_circle_length
+        with at_key("dwell.angle"):
+            return hypocycloid_rod.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    def _rod_for_target(self, quality: str) -> float:
+        tolerance = self.spec.dwell.tolerance
+        if quality == "widest-dwell" and tolerance is not None:
+            with at_key("dwell.tolerance"):
+                return hypocycloid_rod.widest_dwell(self.point_radius, self.cusps, tolerance)
+        with at_key("dwell.angle"):
+            return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    def completion(self) -> Iterator[Found]:
+        """The rod in place of the target or the rule."""
+        if self.spec.rod is None or self.spec.rod.rule is not None:
+            yield Found("rod.length", self.rod_length, "found for target" if self.spec.target else "found by rod.rule")
+            yield Found("rod.rule", None)
+            yield Found("target", None)
+
+    # Motion
+
+    @cached_property
+    def slider(self) -> HypocycloidSlider:
+        """The kernel's view of gears and rod."""
+        with at_key("rod" if self.spec.target is None else "target"):
+            return HypocycloidSlider(self.point_radius, self.cusps, self.rod_length)
+
+    stroke: float = placed("slider.stroke")
+
+    @property
+    def dwell_deviation_min(self) -> float:
+        """Least deviation in the dwell [mm]."""
+        return self.slider.deviation_range(self.dwell_carrier_angle)[0]
+
+    @property
+    def dwell_deviation_max(self) -> float:
+        """Greatest deviation in the dwell [mm]."""
+        return self.slider.deviation_range(self.dwell_carrier_angle)[1]
+
+    @property
+    def dwell_ripple(self) -> float:
+        """Range of the slider's place in the dwell [mm]."""
+        return self.dwell_deviation_max - self.dwell_deviation_min
+
+    @property
+    def ripple_share(self) -> float:
+        """Ripple over stroke."""
+        return self.dwell_ripple / self.stroke
+
+    @cached_property
+    def tolerance_carrier_angle(self) -> float | None:
+        """Widest carrier angle within the file's tolerance [rad]."""
+        if self.spec.dwell.tolerance is None:
+            return None
+        with at_key("dwell.tolerance"):
+            return self.slider.dwell_angle(self.spec.dwell.tolerance)
+
+    velocity_max: float = placed("slider.fastest.0")
+    velocity_max_at: float = placed("slider.fastest.1")
+
+    @property
+    def velocity_min(self) -> float:
+        """Greatest velocity inwards, as a negative number [mm/rad]: the motion is its own mirror image."""
+        return -self.slider.fastest[0]
+
+    @property
+    def velocity_min_at(self) -> float:
+        """Carrier angle of it [rad]."""
+        return 2.0 * math.pi - self.slider.fastest[1]
+
+    acceleration_max: float = placed("slider.hardest.0")
+    acceleration_max_at: float = placed("slider.hardest.1")
+    acceleration_min: float = placed("slider.hardest_inwards.0")
+    acceleration_min_at: float = placed("slider.hardest_inwards.1")
+    dwell_time: float | None = per_time("_dwell_reached", -1)
+
+    @property
+    def _dwell_reached(self) -> float:
+        """Carrier angle of the dwell within the tolerance, else of the one that is wanted [rad]."""
+        return self.tolerance_carrier_angle or self.dwell_carrier_angle
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the rod and the normal of the slide line over the turn [rad]."""
+        return 0.5 * math.pi - self.slider.max_rod_angle
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return hypocycloid_layout(self)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
+        from gearlink.core.machines.dwell_gears.hypocycloid_mechanism import outwards
+        from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, turned
+
+        way, point = outwards(self), -self.slider.planet_radius
+        shown = [
+            Shown("deviation", way.scaled(-1.0)),
+            Shown("velocity", way, 1, "slider_velocity"),
+            Shown("acceleration", way, 2, "slider_acceleration"),
+            Shown("rod_angle", turned("rod", sense=-1.0)),
+            Shown("x", coordinate("planet", point)),
+            Shown("y", coordinate("planet", point, 1j)),
+        ]
+        return motion_table("motion", self, shown, samples)
+
+    # Checks
+
+    def check_dwell_quality(self) -> Iterator[Check]:
+        """GL311: the dwell that is reached within the tolerance against the one that is wanted."""
+        tolerance, reached = self.spec.dwell.tolerance, self.tolerance_carrier_angle
+        if tolerance is None or reached is None:
+            return
+        wanted, found = math.degrees(self.dwell_carrier_angle), math.degrees(reached)
+        text = f"the slider stays within +-{tolerance:g} mm for {found:.6g} deg of the carrier, {wanted:.6g} deg wanted"
+        if found >= wanted - 1e-9:
+            yield DWELL_QUALITY.check("pass", text, found, wanted, "deg")
+            return
+        text += f"; over that angle it moves {self.dwell_ripple:.6g} mm"
+        yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
+
+    def check_transmission_angle(self) -> Check:
+        """GL303: the rod against the slide line."""
+        remedy = "lengthen the rod, or take a curve with fewer cusps (fewer ring teeth)"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

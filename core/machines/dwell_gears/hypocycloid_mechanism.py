@@ -1,0 +1,53 @@
+"""The mechanism of a hypocycloid dwell: carrier, planet in a fixed ring, rod, slider."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.mechanism.closures import slider
+from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.joints import Connection, Guide, Mesh, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Course, Input, Motion, Output
+from gearlink.core.mechanism.rates import fixed, standing, steady
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
+    from gearlink.core.numerics.arrays import Reals
+
+
+def motion(design: HypocycloidDwell) -> Motion:
+    """Links and joints over the carrier angle from the middle of the dwell's arc; ring's centre at 0, slider on +x."""
+    geometry = design.slider
+    r, n, rod = geometry.planet_radius, geometry.cusps, geometry.rod
+    tangent = math.tan(signed_pair(design.mesh).working_pressure_angle)
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1) * r})
+        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -r})
+        turn, end = slider(planet.at("M"), rod, 0j, 1.0 + 0j)
+        links = {
+            "carrier": carrier,
+            "planet": planet,
+            "rod": Link(planet.at("M"), turn, {"M": 0.0, "F": rod}),
+            "slider": Link(end, standing(0.0, phi, order=order), {"F": 0.0}),
+        }
+        center = carrier.origin.value
+        connections: list[Connection] = [
+            Pin("O", FRAME, "carrier", center),
+            Pin("planet", "carrier", "planet", planet.origin.value),
+            Pin("M", "planet", "rod", planet.at("M").value),
+            Pin("F", "rod", "slider", end.value),
+            Guide("guide", FRAME, "slider", end.value, 1.0 + 0j),
+            Mesh("mesh_ring", FRAME, "planet", center, carrier.unit, n * r, r, tangent, True, "carrier"),
+        ]
+        return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
+
+    return Motion(make, Input("carrier_angle"), (Output("Slider F, outwards", outwards(design)),))
+
+
+def outwards(design: HypocycloidDwell) -> Course:
+    """The way of the slider outwards from the middle of the dwell [mm]."""
+    return coordinate("slider").less(design.slider.point(0.0).real + design.slider.rod)

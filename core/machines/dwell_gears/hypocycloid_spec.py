@@ -1,0 +1,97 @@
+"""The design file of a slider that dwells on an arc of a hypocycloid."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.spec_parts import LinkageLimits
+
+CarrierAngle = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+
+
+class HypocycloidGears(TrainKeys):
+    """Planet in a fixed ring gear."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("planet", "ring")
+
+    module: Length = Field(description="module")
+    planet: Teeth = Field(description="teeth of the planet; the point lies on its pitch circle")
+    ring: Teeth = Field(description="teeth of the ring gear, a whole multiple of the planet's, at least 3 times")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    def rings(self) -> tuple[bool, ...]:
+        """The second is one."""
+        return False, True
+
+
+class Rod(Spec):
+    """The rod from the point to the slider, by length or by rule."""
+
+    length: Length | None = Field(None, description="length of the rod")
+    rule: Literal["tangent-circle", "osculating", "minimax"] | None = Field(
+        None,
+        description="tangent-circle: through the ends of the dwell and its middle; osculating: circle of curvature; "
+        "minimax: smallest greatest deviation from the place in mid-dwell",
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Rod:
+        if self.length is None and self.rule is None:
+            raise PydanticCustomError("GL106", "give length or rule", {"key": "rule"})
+        if self.length is not None and self.rule is not None:
+            raise PydanticCustomError("GL111", "length and rule exclude each other: give one", {"key": "rule"})
+        return self
+
+
+class HypocycloidDwellSection(Spec):
+    """The dwell that is wanted."""
+
+    angle: CarrierAngle | None = Field(None, description="carrier angle of the dwell; left out: the whole arc")
+    tolerance: Length | None = Field(None, description="+- tolerance of the slider's place")
+
+
+class DwellTarget(Spec):
+    """The rod is found for it."""
+
+    quality: Literal["least-ripple", "widest-dwell"] = Field(
+        description="least-ripple over dwell.angle, or the widest dwell within dwell.tolerance"
+    )
+
+
+class CarrierShaft(Spec):
+    """The shaft of the frame, where it passes through the plane of the gears."""
+
+    O_radius: Length | None = Field(None, description="radius of the carrier's shaft, in the middle of the ring gear")
+
+
+class HypocycloidDwellSpec(DrivenSpec):
+    """Ring gear, planet on a carrier, and a rod from the planet's pitch circle to a slider."""
+
+    kind: Literal["hypocycloid-dwell"]
+    gears: HypocycloidGears
+    rod: Rod | None = None
+    dwell: HypocycloidDwellSection = HypocycloidDwellSection.model_construct()
+    target: DwellTarget | None = None
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: CarrierShaft | None = None
+    loads: Annotated[Any, Deferred("machines.dwell_gears.loads_spec:HypocycloidLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _rod_or_target(self) -> HypocycloidDwellSpec:
+        if self.rod is None and self.target is None:
+            raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})
+        if self.rod is not None and self.target is not None:
+            raise PydanticCustomError(
+                "GL111", "rod and target exclude each other: leave rod out to have it found", {"key": "rod"}
+            )
+        wants_tolerance = self.target is not None and self.target.quality == "widest-dwell"
+        if wants_tolerance and self.dwell.tolerance is None:
+            raise PydanticCustomError("GL106", "widest-dwell needs dwell.tolerance", {"key": "dwell.tolerance"})
+        return self

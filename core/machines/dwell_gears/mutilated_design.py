@@ -1,0 +1,338 @@
+"""A long dwell by a mutilated gear as a design, with the four-bar that its driven gear turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
+
+from gearlink.core.base.design import Found, Outline, placed
+from gearlink.core.base.errors import at_key
+from gearlink.core.base.real_speed import RealSpeed, per_time
+from gearlink.core.base.remedies.ways import Way, down, either, up
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
+from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
+from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK
+from gearlink.core.machines.dwell_gears.mutilated import MutilatedGear, teeth_for_times
+from gearlink.core.parts.gears.checks import GEAR_CHECKS
+from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.parts.gears.train.meshed import Meshed
+from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
+from gearlink.core.parts.linkages.codes import TARGET
+from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
+from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+
+_TURN = 2.0 * math.pi
+_SHOWN_CYCLES = 100
+# A rocker that starts with less than this share of the driven gear's speed starts from rest.
+_AT_REST = 1e-6
+_FOUND = "found for target"
+
+
+_TEETH = (
+    up("gears.full_teeth", step=1),
+    Way(("gears.driven", "gears.group_teeth", "gears.full_teeth"), 1, "ratio"),
+    Way(("gears.driven", "gears.group_teeth"), 1, "ratio"),
+)
+_LINKS = either("links.crank", "links.frame", "links.rocker", "links.coupler")
+
+
+class Start(NamedTuple):
+    """The start of a motion: crank angle [rad], and rocker speed over input speed right after it."""
+
+    crank_angle: float
+    rocker_speed: float
+
+
+def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
+    """The spec with the teeth and the reduction that wanted times ask for."""
+    gears, target = spec.gears, spec.target
+    if target is None or spec.reduction is not None:
+        return spec
+    motion, dwell = spec.wanted_turns()
+    with at_key("target.driven_turn"):
+        share = motion / (motion + dwell)
+        full, group, driven, stops = teeth_for_times(
+            share, target.driven_turn, gears.groups, gears.driven, target.most_teeth
+        )
+    chosen = {"full_teeth": full, "group_teeth": group, "driven": driven, "stops": gears.stops or stops}
+    reduction = gears.groups * (motion + dwell)
+    return spec.model_copy(update={"reduction": reduction, "gears": gears.model_copy(update=chosen)})
+
+
+class MutilatedGearDwell(RealSpeed, Meshed):
+    """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
+
+    kind = "mutilated-gear-dwell"
+    spec: MutilatedGearDwellSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "reduction",
+                "full_teeth",
+                "group_teeth",
+                "driven_teeth",
+                "stops",
+                "cycle_turns",
+                "motion_turns",
+                "dwell_turns",
+                "motion_share",
+                "dwell_share",
+                "driven_turn",
+                "driven_speed_ratio",
+                "cycles_to_repeat",
+                "center_distance",
+                "contact_ratio",
+                "start_crank_angle",
+                "rocker_swing",
+                "rocker_start_speed",
+                "min_transmission_angle",
+                "input_speed",
+                "turn_time",
+                "motion_time",
+                "dwell_time",
+                "driven_speed",
+                "rocker_speed_at_start",
+            ),
+            ("target", "start-shock", "gap", "shaft-clearance", "shaft-seat", "transmission-angle", *GEAR_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
+    }
+
+    ways = {
+        "gap": (down("gears.group_teeth", step=1), up("gears.full_teeth", step=1)),
+        "shaft-clearance": SHAFT_WAYS,
+        "transmission-angle": _LINKS,
+        **train_ways(2, *_TEETH),
+    }
+
+    extra_tables = ("drawing", "candidates")
+
+    def __init__(self, spec: Any) -> None:
+        self.asked = spec
+        super().__init__(_with_teeth(spec))
+
+    @property
+    def given(self) -> Any:
+        """The spec without the teeth that were chosen."""
+        return self.asked
+
+    def completion(self) -> Iterator[Found]:
+        """Teeth and reduction in place of the wanted times, from which they follow."""
+        if self.asked.target is None or self.asked.reduction is not None:
+            return
+        yield Found("reduction", self.reduction, _FOUND)
+        for key in ("full_teeth", "group_teeth", "driven", "stops"):
+            if getattr(self.asked.gears, key) is None:
+                yield Found(f"gears.{key}", getattr(self.spec.gears, key), _FOUND)
+        yield Found("target", None)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The wanted times met by other driven gears and by more groups."""
+        from gearlink.core.machines.dwell_gears.candidates import mutilated
+
+        return mutilated(self)
+
+    @cached_property
+    def mutilated(self) -> MutilatedGear:
+        """The kernel's view of the gears."""
+        with at_key("gears"):
+            teeth = (self.full_teeth, self.group_teeth, self.spec.gears.groups, self.driven_teeth)
+            return MutilatedGear(self.reduction, *teeth, self.stops)
+
+    cycle_turns: float = placed("mutilated.cycle_turns")
+    motion_turns: float = placed("mutilated.motion_turns")
+    dwell_turns: float = placed("mutilated.dwell_turns")
+    motion_share: float = placed("mutilated.motion_share")
+    dwell_share: float = placed("mutilated.dwell_share")
+    driven_turn: float = placed("mutilated.driven_turn")
+    driven_speed_ratio: float = placed("mutilated.speed_ratio")
+    cycles_to_repeat: int = placed("mutilated.cycles_to_repeat")
+
+    @property
+    def mesh(self) -> GearPair:
+        """Wheel and driven gear, where teeth meet."""
+        return cast("GearPair", super().mesh)
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Wheel and driven gear, where teeth meet."""
+        return self.full_teeth, self.driven_teeth
+
+    # The four-bar
+
+    @cached_property
+    def linkage(self) -> FourBar | None:
+        """The four-bar on the driven shaft, where the file has one."""
+        links = self.spec.links
+        if links is None:
+            return None
+        with at_key("links"):
+            linkage = FourBar(links.crank, links.coupler, links.rocker, links.frame, self.spec.assembly)
+            check_linkage(linkage)
+        return linkage
+
+    @cached_property
+    def start_crank_angle(self) -> float | None:
+        """Crank angle of the dwell [rad]."""
+        if self.linkage is None:
+            return None
+        if self.spec.start_angle is not None:
+            return math.radians(self.spec.start_angle)
+        return self._dead_centers(self.linkage)[1]
+
+    @property
+    def rocker_swing(self) -> float | None:
+        """Swing of the rocker between its dead centres [rad]; a drag link has none."""
+        return None if self.linkage is None else rocker_swing(self.linkage)
+
+    @cached_property
+    def hardest_start(self) -> Start | None:
+        """The start of a motion, among those of all cycles, at which the rocker is fastest."""
+        linkage, first = self.linkage, self.start_crank_angle
+        if linkage is None or first is None:
+            return None
+        cycles = range(self.cycles_to_repeat)
+        angles = [first + _TURN * (cycle * self.group_teeth / self.driven_teeth) for cycle in cycles]
+        starts = [Start(angle, self.driven_speed_ratio * solve(linkage, angle, 1).rocker_velocity) for angle in angles]
+        return max(starts, key=lambda start: abs(start.rocker_speed))
+
+    @property
+    def rocker_start_speed(self) -> float | None:
+        """Rocker speed over input speed right after the hardest start, when the driven gear has taken up its own."""
+        return None if self.hardest_start is None else self.hardest_start.rocker_speed
+
+    @property
+    def min_transmission_angle(self) -> float | None:
+        """Least transmission angle of the turn [rad]."""
+        return None if self.linkage is None else self.linkage.min_transmission_angle()
+
+    driven_speed: float | None = per_time("driven_speed_ratio", 1)
+    rocker_speed_at_start: float | None = per_time("rocker_start_speed", 1)
+
+    @property
+    def motion_time(self) -> float | None:
+        """Time of a motion of the driven gear [ms]."""
+        return None if self.turn_time is None else self.turn_time * self.motion_turns
+
+    @property
+    def dwell_time(self) -> float | None:
+        """Time for which it stands [ms]."""
+        return None if self.turn_time is None else self.turn_time * self.dwell_turns
+
+    @staticmethod
+    def _dead_centers(linkage: FourBar) -> tuple[float, float]:
+        """Crank angles where crank and coupler fold and stretch (in a drag link: nearest and farthest C) [rad]."""
+        folded, stretched = joint_to_crank_pivot(
+            linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly
+        )
+        return folded.crank_angle, stretched.crank_angle
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return mutilated_layout(self)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
+        import numpy as np
+
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+
+        count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
+        rows = row_numbers(samples, cycles * count)
+        degrees = 360.0 * self.cycle_turns * np.arange(rows.start, rows.stop) / count
+        gear, rocker = turned("crank").less(self.start_crank_angle or 0.0), turned("rocker")
+        shown = [Shown("driven_angle", gear), Shown("driven_speed_ratio", gear, 1, "driven_speed")]
+        if self.linkage is not None:
+            # The jump of the speed at a start has no acceleration: these are those of the motion.
+            shown += [
+                Shown("rocker_angle", rocker),
+                Shown("rocker_speed_ratio", rocker, 1, "rocker_speed"),
+                Shown("rocker_acceleration_ratio", rocker, 2, "rocker_acceleration"),
+                Shown("transmission_angle", between("coupler", "rocker")),
+            ]
+        return motion_table("motion", self, shown, samples, degrees=degrees)
+
+    reduction: float = placed("spec.reduction")
+    full_teeth: int = placed("spec.gears.full_teeth")
+    group_teeth: int = placed("spec.gears.group_teeth")
+    driven_teeth: int = placed("spec.gears.driven")
+
+    @property
+    def stops(self) -> int:
+        """Locking arcs of the driven gear: one, where neither the file nor wanted times name them."""
+        return self.spec.gears.stops or 1
+
+    # Checks
+
+    def check_target(self) -> Iterator[Check]:
+        """GL307 where times are asked for: whole teeth may miss them."""
+        target = self.spec.target
+        if target is None:
+            return
+        pairs = zip(("motion", "dwell"), self.spec.wanted_turns(), (self.motion_turns, self.dwell_turns), strict=True)
+        for name, asked, got in pairs:
+            off = got / asked - 1.0
+            bad = abs(off) > target.tolerance
+            text = f"the {name} takes {got:.6g} input turns, {asked:.6g} were asked for"
+            if bad:
+                text += f", {100.0 * off:.3g} % off: raise target.most_teeth, or leave gears.driven out"
+            yield TARGET.check("fail" if bad else "pass", text, abs(off), target.tolerance)
+
+    def check_start_shock(self) -> Check:
+        """GL310: the driven gear starts at once at full speed, and the model ends at the pitch circles."""
+        ratio = self.driven_speed_ratio
+        text = (
+            f"the driven gear starts and stops at once with {ratio:.6g} of the input speed; pitch circles do not show "
+            "the cut tips of the first and last tooth, nor the locking arcs: draw them, and add entry cams or springs"
+        )
+        if self.hardest_start is not None:
+            text += f"; {self._start_in_words(self.hardest_start)}"
+        return START_SHOCK.check("warn", text, ratio, 0.0)
+
+    def _start_in_words(self, start: Start) -> str:
+        if abs(start.rocker_speed) <= _AT_REST * self.driven_speed_ratio:
+            which = "" if self.cycles_to_repeat == 1 else " in every cycle"
+            return f"the rocker itself starts from rest, at a dead centre{which}"
+        text = f"the rocker starts with {start.rocker_speed:.4g} of the input speed"
+        if self.cycles_to_repeat == 1:
+            return f"{text}: leave start_angle out, at a dead centre it would start from rest"
+        return (
+            f"{text} where the crank stands at {math.degrees(start.crank_angle) % 360.0:.6g} deg: only a group of "
+            f"{self.driven_teeth} teeth, a whole turn of the driven gear, starts from a dead centre every time"
+        )
+
+    def check_gap(self) -> Check:
+        """GL316: how long no tooth is in contact."""
+        free, subject = (
+            self.mutilated.gap - self.mesh.contact_ratio,
+            "the way of the wheel without contact [pitches]",
+        )
+        remedy = "the locking arc needs it: take fewer teeth in a group or more full teeth"
+        return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
+
+    def check_transmission_angle(self) -> Iterator[Check]:
+        """GL303, where there is a four-bar."""
+        if self.min_transmission_angle is None:
+            return
+        yield transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, "shorten the crank")

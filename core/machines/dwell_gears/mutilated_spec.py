@@ -1,0 +1,137 @@
+"""The design file of a dwell by a mutilated gear."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.spec_parts import LinkageLimits
+from gearlink.core.parts.linkages.spec_sections import FourLinks, PivotShafts
+
+Turns: TypeAlias = Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})]
+Millis: TypeAlias = Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "ms"})]
+
+
+class MutilatedGears(TrainKeys):
+    """The mutilated wheel and the gear that it drives."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("wheel", "driven")
+
+    module: Length = Field(description="module of both")
+    full_teeth: Teeth | None = Field(
+        None, description="teeth for which the wheel's pitch circle has room; chosen where wanted times are given"
+    )
+    group_teeth: Teeth | None = Field(None, description="teeth in a group; chosen where wanted times are given")
+    groups: Teeth = Field(1, description="groups evenly round the wheel")
+    driven: Teeth | None = Field(
+        None, description="teeth of the driven gear; left out with wanted times, they are chosen too"
+    )
+    stops: Teeth | None = Field(
+        None, description="locking arcs evenly round the driven gear; left out: 1, or as wanted times need them"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class MutilatedShafts(PivotShafts):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the shaft at A, of driven gear and crank")
+    W_radius: Length | None = Field(None, description="radius of the shaft of the mutilated wheel, W")
+
+
+class WantedTimes(Spec):
+    """The motion and the dwell that are wanted, in turns of the input or, at input_speed, in time; teeth are chosen."""
+
+    motion_turns: Turns | None = Field(None, description="input turns while the driven gear turns")
+    dwell_turns: Turns | None = Field(None, description="input turns while it stands")
+    motion_time: Millis | None = Field(None, description="in place of motion_turns, at input_speed")
+    dwell_time: Millis | None = Field(None, description="in place of dwell_turns, at input_speed")
+    driven_turn: Turns = Field(1.0, description="turns of the driven gear in a motion, a fraction of whole teeth")
+    most_teeth: Teeth = Field(200, description="most teeth for which the wheel may have room")
+    tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+        0.01, description="greatest miss of either, as a share of it"
+    )
+
+    @model_validator(mode="after")
+    def _one_each(self) -> WantedTimes:
+        for name in ("motion", "dwell"):
+            given = [key for key in (f"{name}_turns", f"{name}_time") if getattr(self, key) is not None]
+            if not given:
+                message = "give {name}_turns, or {name}_time with input_speed"
+                raise PydanticCustomError("GL106", message, {"key": f"{name}_turns", "name": name})
+            if len(given) > 1:
+                message = "{name}_turns and {name}_time exclude each other: give one"
+                raise PydanticCustomError("GL111", message, {"key": given[1], "name": name})
+        return self
+
+
+class MutilatedGearDwellSpec(DrivenSpec):
+    """Reduction, mutilated wheel, driven gear and, on its shaft, the crank of a four-bar."""
+
+    kind: Literal["mutilated-gear-dwell"]
+    reduction: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="input turns per turn of the mutilated wheel; wanted times give it"
+    )
+    target: WantedTimes | None = Field(None, description="motion and dwell that are wanted")
+    gears: MutilatedGears
+    links: FourLinks | None = Field(None, description="the four-bar that the driven gear turns")
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    start_angle: Angle | None = Field(
+        None, description="crank angle at which the crank stands; left out: crank and coupler stretched"
+    )
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: MutilatedShafts | None = None
+    loads: Annotated[Any, Deferred("machines.dwell_gears.loads_spec:MutilatedLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _teeth_or_times(self) -> MutilatedGearDwellSpec:
+        values = {
+            "reduction": self.reduction,
+            "gears.full_teeth": self.gears.full_teeth,
+            "gears.group_teeth": self.gears.group_teeth,
+            "gears.driven": self.gears.driven,
+        }
+        if self.target is None:
+            missing = [key for key, value in values.items() if value is None]
+            if missing:
+                message = "the key {missing} is missing; or give the section target: motion_turns, dwell_turns"
+                raise PydanticCustomError("GL106", message, {"key": missing[0], "missing": missing[0]})
+            return self
+        given = [key for key in ("reduction", "gears.full_teeth", "gears.group_teeth") if values[key] is not None]
+        if given:
+            message = "{given} follows from the times that target asks for: leave it out"
+            raise PydanticCustomError("GL111", message, {"key": given[0], "given": given[0]})
+        timed = self.target.motion_time is not None or self.target.dwell_time is not None
+        if timed and self.input_speed is None:
+            message = "a time needs the input's speed: give input_speed, or turns in place of times"
+            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+        return self
+
+    def wanted_turns(self) -> tuple[float, float]:
+        """Input turns of motion and dwell that target asks for."""
+        assert self.target is not None, "asked for where there is a target"
+        turn = 60_000.0 / self.input_speed if self.input_speed else 0.0
+        pairs = (
+            (self.target.motion_turns, self.target.motion_time),
+            (self.target.dwell_turns, self.target.dwell_time),
+        )
+        motion, dwell = (turns if turns is not None else (time or 0.0) / turn for turns, time in pairs)
+        return motion, dwell
+
+    @model_validator(mode="after")
+    def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
+        if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
+            raise PydanticCustomError(
+                "GL111", "D_radius goes with the four-bar: give links, or leave it out", {"key": "shafts.D_radius"}
+            )
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear", *(("loads",) if self.loads is not None and self.links is not None else ()))

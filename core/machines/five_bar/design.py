@@ -1,0 +1,675 @@
+"""The geared five-bar as a design: a coupler point's path, or an output over the input angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.design import Found, Outline, placed
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
+from gearlink.core.base.remedies.ways import down, either, modules, up
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.five_bar import bodies, tables
+from gearlink.core.machines.five_bar.codes import CLOSURE
+from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.machines.five_bar.path_motion import PathFiveBar
+from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.parts.gears.train.meshed import Meshed, named
+from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quantity
+from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.linkages.checks import target_check, transmission_check
+from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.five_bar.fit import Fit
+    from gearlink.core.machines.five_bar.function_fit import FunctionFit, Round
+    from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
+    from gearlink.core.machines.five_bar.timed_fit import TimedFit
+    from gearlink.core.machines.five_bar.wanted import Wanted
+    from gearlink.core.numerics.extremes import Extreme
+
+
+# Gears, links and synthesis of a geared five-bar; what it does with them: `geared_five_bar`
+
+MESHES = ("input_idler", "idler_output")
+_TURN = 2.0 * math.pi
+_LINK_TOLERANCE = 1e-9
+
+
+class FiveBarParts(Meshed):
+    """The five-bar of a design file, given or found, in either form."""
+
+    spec: GearedFiveBarSpec
+
+    form: str = placed("spec.form")
+
+    @property
+    def is_path(self) -> bool:
+        """Whether the coupler point's path counts."""
+        return self.spec.form == "path"
+
+    def completion(self) -> Iterator[Found]:
+        """The links that were found in place of the target."""
+        target = self.spec.target
+        if target is None or (target.function is not None and target.function.links == "given"):
+            return
+        bar, why = self.bar, "found for target"
+        names = ("input", "coupler", "follower", "output", "frame")
+        yield Found("links", {name: float(getattr(bar, name)) for name in names}, why)
+        yield Found("phase", math.degrees(math.remainder(bar.phase, _TURN)), why)
+        yield Found("assembly", bar.assembly, why)
+        if self.is_path:
+            yield Found("coupler_point", {"along": self.offset.real, "across": self.offset.imag}, why)
+        else:
+            start, end = (math.degrees(angle) for angle in self.input_range)
+            yield Found("range", {"start": start, "end": end}, "from target" if self.spec.range is None else "")
+        yield Found("target", None)
+
+    def as_found(self) -> Iterator[Found]:
+        """The links; a function that was to be generated goes on judging them."""
+        target = self.spec.target
+        for one in self.completion():
+            judged = one.path == "target" and target is not None and target.function is not None
+            yield Found("target.function.links", "given") if judged else one
+
+    # Gears
+
+    own_quantities = frozenset(("center_distance", "contact_ratio"))
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Input, idler and output gear of a path, planet and fixed gear of a function."""
+        gears = self.spec.gears
+        teeth = [getattr(gears, name) or 0 for name in gears.gear_names()]
+        return tuple(-z if ring else z for z, ring in zip(teeth, gears.rings(), strict=True))
+
+    @property
+    def output_play(self) -> tuple[float, float] | None:
+        """Free turn of the output gear of a path [rad]; the output of a function is a link."""
+        return super().output_play if self.is_path else None
+
+    @property
+    def mesh_names(self) -> tuple[str, ...]:
+        """Both meshes of an idler, or the only one."""
+        return MESHES if self.spec.gears.idler is not None else ("",)
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """Frame of a path with gears in direct mesh, input of a function, where the file gives it."""
+        links = self.spec.links
+        if self.spec.gears.idler is not None:
+            return None, None
+        return (links.frame if self.is_path else links.input,)
+
+    @property
+    def center_distance(self) -> list[float]:  # type: ignore[override]  # one for each mesh
+        """Centre distance of each mesh [mm]."""
+        return [abs(mesh.center_distance) for mesh in self.meshes.values()]
+
+    @property
+    def contact_ratio(self) -> list[float] | None:  # type: ignore[override]
+        """Contact ratio of each mesh; None where a ring's tips have no involute."""
+        with at_key("gears"):
+            found = [mesh_quantity(mesh, "contact_ratio") for mesh in self.meshes.values()]
+        return None if None in found else found
+
+    @property
+    def ratio(self) -> Fraction:
+        """Path: k, output over input speed. Function: m, coupler over input speed."""
+        gears = self.spec.gears
+        if self.is_path:
+            same = gears.idler is not None or gears.mesh == "internal"
+            return Fraction(gears.input or 0, gears.output or 1) * (1 if same else -1)
+        turn = Fraction(gears.ring or gears.sun or 0, gears.planet or 1)
+        return 1 - turn if gears.ring is not None else 1 + turn
+
+    @property
+    def five_bar_ratio(self) -> float | None:
+        """k of the path form."""
+        return float(self.ratio) if self.is_path else None
+
+    @property
+    def coupler_ratio(self) -> float | None:
+        """m of the function form."""
+        return None if self.is_path else float(self.ratio)
+
+    period_turns: int = placed("ratio.denominator")
+
+    @property
+    def phase_step(self) -> float | None:
+        """Step in which the phase can be set by putting the gears together a tooth on [rad]."""
+        return _TURN / self.spec.gears.output if self.is_path and self.spec.gears.output else None
+
+    # Links
+
+    def _fixed_length(self, name: str) -> float:
+        """The link that is the gears' centre distance; given too, it must agree."""
+        given, distance = getattr(self.spec.links, name), self.center_distance[0]
+        fixed = given is not None and self.spec.gears.profile_shift is None
+        if fixed and abs(given - distance) > _LINK_TOLERANCE * distance:
+            raise NoSolution(
+                f"{name} {given:.9g} mm is not the centre distance of the gears, {distance:.9g} mm: leave it out, or "
+                "change module or teeth",
+                key=f"links.{name}",
+            )
+        return distance
+
+    def _frame(self) -> float:
+        """The frame of the path form."""
+        links = self.spec.links
+        if self.spec.gears.idler is None:
+            return self._fixed_length("frame")
+        frame, (first, second) = links.frame or 0.0, self.center_distance
+        if not abs(first - second) < frame < first + second:
+            raise NoSolution(
+                f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the frame must "
+                f"lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}: change the idler",
+                key="links.frame",
+            )
+        return frame
+
+    @cached_property
+    def start_path(self) -> PathFiveBar:
+        """The five-bar of the file, path form; with a target it is the start."""
+        links, frame = self.spec.links, self._frame()
+        with at_key("links"):
+            return PathFiveBar(
+                links.input or 0.0,
+                links.coupler,
+                links.follower,
+                links.output,
+                frame,
+                self.ratio,
+                math.radians(self.spec.phase),
+                self.spec.assembly,
+            )
+
+    @cached_property
+    def fit(self) -> Fit | None:
+        """What the synthesis of a path found, where the file asks for one."""
+        target = self.spec.target
+        if not self.is_path or target is None or target.points is None:
+            return None
+        import numpy as np
+
+        from gearlink.core.machines.five_bar.fit import fit_path
+
+        if self.timed_fit is not None:
+            return self.timed_fit.fit
+        points = np.array([complex(x, y) for x, y in target.points])
+        with at_key("target.points"):
+            return fit_path(
+                self.start_path, self._start_offset, points, math.radians(self.spec.limits.transmission_angle)
+            )
+
+    @cached_property
+    def timed_fit(self) -> TimedFit | None:
+        """What the synthesis of timed points found, where the file asks for one."""
+        target = self.spec.target
+        if target is None or target.points is None or target.input_angles is None:
+            return None
+        import numpy as np
+
+        from gearlink.core.machines.five_bar.timed_fit import fit_timed
+
+        points = np.array([complex(x, y) for x, y in target.points])
+        least = math.radians(self.spec.limits.transmission_angle)
+        with at_key("target.points"):
+            angles = np.radians(target.input_angles)
+            return fit_timed(self.start_path, self._start_offset, points, angles, least, target.budget)
+
+    @property
+    def _start_offset(self) -> complex:
+        point = self.spec.coupler_point
+        return 0j if point is None else complex(point.along, point.across)
+
+    @cached_property
+    def path_bar(self) -> PathFiveBar:
+        """The five-bar of the path form, given or found; it closes over its whole period."""
+        bar = self.start_path if self.fit is None else self.fit.bar
+        with at_key("links"):
+            bar.closure()
+        return bar
+
+    @property
+    def offset(self) -> complex:
+        """The coupler point, u + i v [mm]."""
+        return self._start_offset if self.fit is None else self.fit.offset
+
+    @cached_property
+    def positions(self) -> list[tuple[float, float]] | None:
+        """Pairs of input and output angle that are asked for [rad]."""
+        target = self.spec.target
+        if target is None or target.positions is None:
+            return None
+        return [(math.radians(phi), math.radians(psi)) for phi, psi in target.positions]
+
+    @cached_property
+    def wanted(self) -> Wanted | None:
+        """The function that is asked for."""
+        target = self.spec.target
+        if target is None or target.function is None:
+            return None
+        from gearlink.core.machines.five_bar.wanted import Wanted
+
+        asked = target.function
+        circular = asked.name in ("sine", "cosine", "tangent")
+        low, high = (math.radians(x) if circular else x for x in asked.x)
+        with at_key("target.function.x"):
+            swings = math.radians(asked.input_swing), math.radians(asked.output_swing)
+            return Wanted(asked.name, (low, high), *swings, asked.exponent or 1.0)
+
+    @cached_property
+    def function_fit(self) -> FunctionFit | None:
+        """What the synthesis of a function found, or how far given links are from it."""
+        target, wanted = self.spec.target, self.wanted
+        if wanted is None or target is None or target.function is None:
+            return None
+        from gearlink.core.machines.five_bar.function_fit import FunctionFit, fit_function
+        from gearlink.core.machines.five_bar.wanted import structural_error
+
+        if target.function.links == "given":
+            start = math.radians(self.spec.range.start) if self.spec.range is not None else 0.0
+            with at_key("links"):
+                return FunctionFit(self.start_function, start, structural_error(self.start_function, start, wanted), ())
+        least = math.radians(self.spec.limits.transmission_angle)
+        with at_key("target.function"):
+            return fit_function(self.start_function, 0.0, wanted, least, target.budget)
+
+    @cached_property
+    def start_function(self) -> FunctionFiveBar:
+        """The five-bar of the file, function form; with a target it is the start."""
+        links = self.spec.links
+        lengths = (self._fixed_length("input"), links.coupler, links.follower, links.output, links.frame or 0.0)
+        with at_key("links"):
+            return FunctionFiveBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
+
+    @cached_property
+    def function_bar(self) -> FunctionFiveBar:
+        """The five-bar of the function form, given or found; it closes over the range."""
+        if self.function_fit is not None:
+            return self.function_fit.bar
+        bar, positions = self.start_function, self.positions
+        if positions is not None:
+            from gearlink.core.machines.five_bar.positions import five_bar_for_positions
+
+            with at_key("target.positions"):
+                bar = five_bar_for_positions(bar, positions, math.radians(self.spec.limits.transmission_angle))
+        with at_key("range" if self.spec.range is not None else "links"):
+            bar.closure(*self.input_range)
+        return bar
+
+    @cached_property
+    def input_range(self) -> tuple[float, float]:
+        """Input angles of the function form [rad]: given, from the first position to the last, or one period."""
+        asked = self.spec.range
+        if self.function_fit is not None and self.wanted is not None:
+            return self.function_fit.start, self.function_fit.start + self.wanted.input_swing
+        if asked is not None:
+            return math.radians(asked.start), math.radians(asked.end)
+        if self.positions is not None:
+            return self.positions[0][0], self.positions[-1][0]
+        return 0.0, _TURN * self.period_turns
+
+    @property
+    def bar(self) -> PathFiveBar | FunctionFiveBar:
+        """The five-bar of either form."""
+        return self.path_bar if self.is_path else self.function_bar
+
+
+_SHOWN_TURNS = 100
+_LISTS = ("center_distance", "contact_ratio")
+"""One for each mesh, whatever their number."""
+_POSITION_TOLERANCE = math.degrees(1e-9)
+
+
+_FEW_TURNS = 3
+_FIT, _TOO_LONG = 100.0, 1e6
+"""Trials of designs without a target that one fit takes as long as, and how many are tried with one."""
+_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
+_FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
+_LINKS = (
+    up("links.coupler", "links.follower"),
+    *either("links.coupler", "links.follower", "links.output", "links.input", "links.frame"),
+)
+
+
+_OF_PATH = names("velocity", "acceleration")
+_OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
+
+
+class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
+    """A five-bar whose gears take away one of its two freedoms."""
+
+    kind = "geared-five-bar"
+    spec: GearedFiveBarSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "form",
+                "five_bar_ratio",
+                "coupler_ratio",
+                "period_turns",
+                "input_length",
+                "coupler_length",
+                "follower_length",
+                "output_length",
+                "frame_length",
+                "phase",
+                "assembly",
+                "point_along",
+                "point_across",
+                "span_min",
+                "span_min_at",
+                "span_max",
+                "span_max_at",
+                "min_transmission_angle",
+                "min_transmission_angle_at",
+                *_OF_PATH,
+                *_OF_FUNCTION,
+                "path_width",
+                "path_height",
+                "phase_step",
+                "path_deviation_rms",
+                "path_deviation_max",
+                "position_errors",
+                "structural_error",
+                "structural_error_at",
+                "error_extremes",
+                "function_start",
+                "output_zero",
+                "starts_tried",
+                "first_point_angle",
+                "center_distance",
+                "gear_gap",
+                "contact_ratio",
+                "input_speed",
+                "turn_time",
+                "point_speed_max",
+                "point_speed_min",
+                "point_acceleration_max",
+                *OUTPUT_SPEEDS,
+            ),
+            (
+                "closure",
+                "target",
+                "gear-collision",
+                "shaft-clearance",
+                "shaft-seat",
+                "transmission-angle",
+                *MESH_CHECKS,
+                "backlash",
+            ),
+            ("path", "function", "deviations", "structural_error", "search"),
+        ),
+        "gear": Outline(
+            (
+                "center_distance",
+                "contact_ratio",
+                *(name for name in OF_MESH if name not in _LISTS),
+                *named(MESHES),
+                "output_play",
+            ),
+            (*MESH_CHECKS, *TRAIN_CHECKS),
+        ),
+    }
+
+    input_length: float = placed("bar.input")
+    coupler_length: float = placed("bar.coupler")
+    follower_length: float = placed("bar.follower")
+    output_length: float = placed("bar.output")
+    frame_length: float = placed("bar.frame")
+    phase: float = placed("bar.phase")
+    assembly: int = placed("bar.assembly")
+
+    extreme_names = (*_OF_PATH, *_OF_FUNCTION)
+    point_speed_max: float | None = per_time("velocity_max", 1)
+    point_speed_min: float | None = per_time("velocity_min", 1)
+    point_acceleration_max: float | None = per_time("acceleration_max", 2)
+
+    ways = {
+        "transmission-angle": (
+            up("links.follower", "links.output"),
+            *_LINKS,
+            *either("phase", step=1.0),
+            *_FEWER,
+            *_TEETH,
+            *modules("gears.module"),
+        ),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH, *modules("gears.module")),
+        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH, *modules("gears.module")),
+        **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
+    }
+
+    @property
+    def cost(self) -> float:
+        """A path of few turns takes a millisecond; links found for points or positions a tenth of a second each time,
+        those for a function, for points with times, or within a budget, more than remedies may take."""
+        target = self.spec.target
+        if target is not None and self._fits:
+            takes_long = target.function, target.input_angles, target.budget
+            return _FIT if all(each is None for each in takes_long) else _TOO_LONG
+        return (0.4 if self.period_turns <= _FEW_TURNS else 0.5) if self.is_path else 2.5
+
+    @property
+    def _fits(self) -> bool:
+        """Whether the links are found for a target."""
+        target = self.spec.target
+        return target is not None and not (target.function is not None and target.function.links == "given")
+
+    @property
+    def point_along(self) -> float | None:
+        """u of the coupler point [mm]."""
+        return self.offset.real if self.is_path else None
+
+    @property
+    def point_across(self) -> float | None:
+        """v of the coupler point [mm]."""
+        return self.offset.imag if self.is_path else None
+
+    @cached_property
+    def motion_extremes(self) -> dict[str, float]:
+        """Extremes of the point's speed and acceleration [mm/rad, mm/rad^2], or of the output's, and their places."""
+        from gearlink.core.machines.five_bar.extremes import function_extremes, path_extremes
+
+        if self.is_path:
+            return path_extremes(self.path_bar, self.offset)
+        return function_extremes(self.function_bar, *self.input_range)
+
+    # Closing
+
+    @cached_property
+    def _spans(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest distance that the dyad spans, each with its input angle."""
+        if self.is_path:
+            return self.path_bar.span_extremes
+        return self.function_bar.reach_extremes(*self.input_range)
+
+    span_min: float = placed("_spans.0.1")
+    span_min_at: float = placed("_spans.0.0")
+    span_max: float = placed("_spans.1.1")
+    span_max_at: float = placed("_spans.1.0")
+
+    @cached_property
+    def _transmission(self) -> tuple[float, float]:
+        if self.is_path:
+            return self.path_bar.min_transmission_angle()
+        return self.function_bar.min_transmission_angle(*self.input_range)
+
+    min_transmission_angle: float = placed("_transmission.0")
+    min_transmission_angle_at: float = placed("_transmission.1")
+
+    # Path
+
+    @cached_property
+    def _extent(self) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+        from gearlink.core.machines.five_bar.path import extent
+
+        return extent(self.path_bar, self.offset)
+
+    @property
+    def path_width(self) -> float | None:
+        """Extent of the path along the frame [mm]."""
+        return self._extent[1].value - self._extent[0].value if self.is_path else None
+
+    @property
+    def path_height(self) -> float | None:
+        """Extent of the path across the frame [mm]."""
+        return self._extent[3].value - self._extent[2].value if self.is_path else None
+
+    path_deviation_rms: float | None = placed("fit.rms")
+
+    @property
+    def path_deviation_max(self) -> float | None:
+        """Greatest distance of a point from the path [mm]."""
+        return None if self.fit is None else float(self.fit.distance.max())
+
+    @cached_property
+    def position_errors(self) -> list[float] | None:
+        """Output angle reached less that asked for, at each position [rad]."""
+        if self.positions is None or self.is_path:
+            return None
+        from gearlink.core.machines.five_bar.positions import position_errors
+
+        return position_errors(self.function_bar, self.positions)
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return bodies.layout(self)
+
+    gear_gap: float | None = placed("layout.gear_gap")
+    structural_error: float | None = placed("function_fit.error.greatest")
+    error_extremes: int | None = placed("function_fit.error.alternations")
+    function_start: float | None = placed("function_fit.start")
+    first_point_angle: float | None = placed("timed_fit.first_angle")
+    output_zero: float | None = placed("function_fit.error.zero")
+
+    @property
+    def structural_error_at(self) -> list[float] | None:
+        """Input angles at which the structural error is greatest [rad]."""
+        found, wanted = self.function_fit, self.wanted
+        if found is None or wanted is None:
+            return None
+        error = found.error
+        rows = zip(error.places, error.errors, strict=True)
+        most = error.greatest * (1.0 - 1e-9)
+        return [found.start + wanted.input_swing * place for place, value in rows if abs(value) >= most]
+
+    @property
+    def starts_tried(self) -> int | None:
+        """Starts that the search of a function or of timed points has gone through."""
+        rounds = self.search_rounds
+        return rounds[-1].starts if rounds else None
+
+    @property
+    def searches(self) -> bool:
+        """Whether the file asks for such a search, which is not begun to tell so."""
+        target = self.spec.target
+        if target is None:
+            return False
+        if self.is_path:
+            return target.points is not None and target.input_angles is not None
+        return target.function is not None and target.function.links != "given"
+
+    @property
+    def search_rounds(self) -> tuple[Round, ...]:
+        """The rounds of that search."""
+        found = self.timed_fit if self.is_path else self.function_fit
+        return () if found is None else found.rounds
+
+    # Tables
+
+    extra_tables = ("drawing", "candidates")
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The target met with other gears side by side."""
+        from gearlink.core.machines.five_bar.candidates import five_bar
+
+        return five_bar(self)
+
+    def table_names_shown(self) -> tuple[str, ...]:
+        """The tables of this form."""
+        if not self.is_path:
+            judged = ("structural_error",) if self.wanted is not None else ()
+            return ("function", *judged, *(("search",) if self.searches else ()))
+        return (
+            "path",
+            *(("deviations",) if self.fit is not None else ()),
+            *(("search",) if self.searches else ()),
+        )
+
+    def outline(self, command: str) -> Outline:
+        """Each form has its own tables."""
+        found = super().outline(command)
+        return found._replace(tables=self.table_names_shown()) if command == "analyze" else found
+
+    def table(self, name: str, *, samples: int | None = None) -> Table:
+        """A table of this form; the other form's is refused as one that the design does not have."""
+        if name in self.table_names() and name not in (*self.table_names_shown(), *self.extra_tables):
+            raise NoSolution(f"the form {self.form} has no table {name}: it has {', '.join(self.table_names_shown())}")
+        return super().table(name, samples=samples)
+
+    @property
+    def shown_turns(self) -> int:
+        """Input turns that the path's table covers: the period, or the beginning of a long one."""
+        return min(self.period_turns, _SHOWN_TURNS)
+
+    table_path, table_deviations, table_search = tables.path, tables.deviations, tables.search
+    table_function, table_structural_error = tables.function, tables.structural_error
+
+    # Checks
+
+    def check_closure(self) -> Check:
+        """GL305: the dyad spans all distances; what does not close is refused before."""
+        bar = self.bar
+        links = (bar.coupler, bar.follower) if self.is_path else (bar.follower, bar.output)
+        room = min(sum(links) - self.span_max, self.span_min - abs(links[0] - links[1]))
+        low, high = math.degrees(self.span_min_at), math.degrees(self.span_max_at)
+        text = (
+            f"the five-bar stays closed: its dyad spans {self.span_min:.6g} mm (at {low:.5g} deg) to "
+            f"{self.span_max:.6g} mm (at {high:.5g} deg) of the possible "
+            f"{abs(links[0] - links[1]):.6g} to {sum(links):.6g} mm"
+        )
+        return CLOSURE.check("pass", text, room, 0.0, "mm")
+
+    def check_target(self) -> Iterator[Check]:
+        """GL307, where the file asks for points (with a tolerance) or positions."""
+        if self.position_errors is not None:
+            worst = math.degrees(max(self.position_errors, key=abs))
+            yield target_check("the output angle of a position", worst, _POSITION_TOLERANCE, "deg")
+        asked = None if self.spec.target is None else self.spec.target.function
+        if asked is not None and asked.tolerance is not None and self.structural_error is not None:
+            yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg")
+        target, worst_point = self.spec.target, self.path_deviation_max
+        if worst_point is not None and target is not None and target.tolerance is not None:
+            yield target_check("a point of the path", worst_point, target.tolerance, "mm")
+
+    def check_gear_collision(self) -> Iterator[Check]:
+        """GL301: input and output gear with an idler between them."""
+        for pair in self.layout.gear_pairs:
+            tips = f"{pair.one.outer:.6g} and {pair.other.outer:.6g}"
+            why = f"their axes are {pair.distance:.6g} mm apart, their tips reach {tips} mm"
+            remedy = "lengthen the frame, as far as the idler reaches, or take smaller gears"
+            yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        place = math.degrees(self.min_transmission_angle_at)
+        remedy = (
+            f"at input angle {place:.5g} deg; lengthen the two links of the dyad, or bring them nearer to each other"
+        )
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

@@ -1,0 +1,344 @@
+"""A geared five-bar whose coupler point runs through given points, by least squares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import amount
+from gearlink.core.machines.five_bar.family import UNKNOWNS, FiveBarFamily, near_places
+from gearlink.core.machines.five_bar.path import distances
+from gearlink.core.machines.five_bar.path_motion import PathFiveBar
+from gearlink.core.machines.five_bar.starts import bounds, scattered_starts
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+
+_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-15, 1e8
+_SOFTER, _HARDER = 0.3, 4.0
+# Longest step of a logarithm, of the phase, and of an input angle [rad].
+_REACH, _PHI_REACH = 0.5, 0.3
+_MATCHED_EVERY = 10
+_FOOT_STEPS = 3
+# So many branches of a path that crosses itself are tried for each target.
+_BRANCHES = 3
+# So many steps in which no row gained end a descent.
+_IDLE, _GAIN = 6, 1e-9
+# How far the limit of the cosine is drawn in against the give of a penalty.
+_MOST_SHIFT = 0.3
+_SLOW = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class PathProblem:
+    """Points that the paths of a family shall meet.
+
+    Parameters
+        family : FiveBarFamily
+        targets : (N,) complex array - about 1 apart
+        low, high : (7,) arrays - bounds of the unknowns
+        cosine : float - greatest |cos| of the transmission angle
+        weight : float - of its excess, against distances
+    """
+
+    family: FiveBarFamily
+    targets: Points
+    low: Reals
+    high: Reals
+    cosine: float
+    weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """Misses (K, N), path velocities (K, N), slopes (K, N, 7), penalties (K, 8) with slopes (K, 8, 7), cost (K,)."""
+
+    miss: Points
+    velocity: Points
+    slopes: Points
+    penalty: Reals
+    penalty_slopes: Reals
+    cost: Reals
+
+    def updated(self, other: _State, rows: Mask) -> _State:
+        """This state with some rows taken from another."""
+        mask = {ndim: rows.reshape(-1, *(1,) * (ndim - 1)) for ndim in (1, 2, 3)}
+        pairs = [(getattr(self, name), getattr(other, name)) for name in self.__slots__]
+        return _State(*(np.where(mask[old.ndim], new, old) for old, new in pairs))
+
+
+def descend(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[Reals, Reals, Reals]:
+    """Rows of unknowns after so many Levenberg-Marquardt steps, each row with its own damping.
+
+    sum |M(phi_j) - P_j|^2 + weight^2 sum max(0, |cos| - limit)^2 -> min over x and every phi_j
+
+    Parameters
+        x : (K, 7) array - starts; phi : (K, N) array [rad] - places of their paths for each target
+        steps : int - at most; fewer once no row gains
+    Returns
+        x, phi : as given; cost : (K,) array - mean square of the distances and penalties; inf where the row opens
+    Notes
+        Each phi_j occurs in its own point alone and is eliminated: in the direction of the path a miss counts only as
+        far as the damping holds phi_j. What is left are normal equations for seven unknowns. Every ten steps the
+        targets are matched with the paths anew, and the limit is drawn in by what the penalty gave way (method of
+        multipliers), so that it is met at a moderate weight.
+    Source
+        D. W. Marquardt, J. SIAM 11 (1963) 431-441; M. J. D. Powell, in: Optimization (1969) 283-298; own derivation
+    """
+    damping, idle = np.full(len(x), _DAMPING), 0
+    limit = np.full((len(x), 2), problem.cosine)
+    state = _state(problem, x, phi, limit)
+    for i in range(steps):
+        if i and i % _MATCHED_EVERY == 0:
+            phi, limit = matched(problem, x, phi), _drawn_in(problem, x, limit)
+            state, damping = _state(problem, x, phi, limit), np.minimum(damping, _DAMPING)
+        dx, dphi = _step(problem, x, state, damping)
+        new_x, new_phi = np.clip(x + dx, problem.low, problem.high), phi + dphi
+        new = _state(problem, new_x, new_phi, limit)
+        better = new.cost < state.cost
+        idle = 0 if np.any(new.cost < (1.0 - _GAIN) * state.cost) else idle + 1
+        if idle == _IDLE:
+            break
+        x, phi = np.where(better[:, None], new_x, x), np.where(better[:, None], new_phi, phi)
+        state = state.updated(new, better)
+        damping = np.clip(np.where(better, _SOFTER, _HARDER) * damping, _LEAST_DAMPING, _MOST_DAMPING)
+    return x, phi, state.cost / phi.shape[1]
+
+
+def matched(problem: PathProblem, x: Reals, phi: Reals | None = None) -> Reals:
+    """Input angles of the places of each path nearest to each target.
+
+    Parameters
+        x : (K, 7) array
+        phi : (K, N) array [rad] - places so far, kept where they are nearer
+    Returns
+        phi : (K, N) array [rad]
+    Notes
+        Of the three nearest branches on the grid, the feet of the perpendiculars in three steps of Gauss and Newton.
+    """
+    family = problem.family
+    point, velocity = family.path(x, family.grid[None, :])
+    tried = family.grid[near_places(point, velocity, family.step, problem.targets, _BRANCHES)]
+    if phi is not None:
+        tried = np.concatenate((tried, phi[..., None]), axis=2)
+    feet, away = _feet(problem, x, tried)
+    best = np.argmin(np.where(np.isfinite(away), away, np.inf), axis=2)
+    return np.asarray(np.squeeze(np.take_along_axis(feet, best[..., None], axis=2), axis=2))
+
+
+def _feet(problem: PathProblem, x: Reals, tried: Reals) -> tuple[Reals, Reals]:
+    """Feet of the perpendiculars, sought within a step of the grid, and the distances; (K, N, tries) arrays."""
+    targets = np.repeat(problem.targets, tried.shape[2])
+    start = tried.reshape(len(x), -1)
+    phi, step = start, problem.family.step
+    for _ in range(_FOOT_STEPS):
+        point, velocity = problem.family.path(x, phi)
+        along = (np.conj(velocity) * (point - targets)).real / np.maximum(np.abs(velocity) ** 2, _SLOW**2)
+        phi = np.clip(phi - np.nan_to_num(along), start - step, start + step)
+    away = np.abs(problem.family.path(x, phi)[0] - targets)
+    return phi.reshape(tried.shape), away.reshape(tried.shape)
+
+
+def _state(problem: PathProblem, x: Reals, phi: Reals, limit: Reals) -> _State:
+    found = problem.family.path_slopes(x, phi)
+    cosine, slopes = problem.family.cosines(x)
+    excess = cosine - np.repeat(limit, cosine.shape[1] // 2, axis=1)
+    on, miss = excess > 0.0, found.point - problem.targets
+    penalty = problem.weight * np.where(on, excess, 0.0)
+    slopes = problem.weight * np.where(on[..., None], slopes, 0.0)
+    cost = np.sum(miss.real**2 + miss.imag**2, axis=1) + np.sum(penalty**2, axis=1)
+    return _State(miss, found.velocity, found.slopes, penalty, slopes, np.where(np.isfinite(cost), cost, np.inf))
+
+
+def _drawn_in(problem: PathProblem, x: Reals, limit: Reals) -> Reals:
+    """The limits at the least and the greatest span, lowered by the excess there, raised where there is room."""
+    cosine = problem.family.cosines(x)[0].reshape(len(x), 2, -1).max(axis=2)
+    shift = np.clip(limit - cosine, -_MOST_SHIFT, 0.0)
+    return np.asarray(problem.cosine + np.where(np.isfinite(shift), shift, 0.0))
+
+
+def _step(problem: PathProblem, x: Reals, state: _State, damping: Reals) -> tuple[Reals, Reals]:
+    """Steps of the unknowns and of the input angles."""
+    speed = np.maximum(np.abs(state.velocity), _SLOW)
+    back = np.conj(np.where(np.abs(state.velocity) > _SLOW, state.velocity / speed, 1.0))
+    slopes, miss = state.slopes * back[..., None], state.miss * back
+    held = np.sqrt(damping / (1.0 + damping))[:, None]
+    rows = np.concatenate((slopes.imag, held[..., None] * slopes.real, state.penalty_slopes), axis=1)
+    value = np.concatenate((miss.imag, held * miss.real, state.penalty), axis=1)
+    dx = _solved(problem, x, rows, value, damping)
+    left = miss.real + np.squeeze(slopes.real @ dx[..., None], axis=2)
+    return dx, np.clip(-left / (speed * (1.0 + damping[:, None])), -_PHI_REACH, _PHI_REACH)
+
+
+def _solved(problem: PathProblem, x: Reals, rows: Reals, value: Reals, damping: Reals) -> Reals:
+    """Damped least squares for seven unknowns; one that stands at its bound and is pushed outward stays there."""
+    across = np.swapaxes(rows, 1, 2)
+    square, slope = across @ rows, np.squeeze(across @ value[..., None], axis=2)
+    free = ~((x <= problem.low) & (slope > 0.0) | (x >= problem.high) & (slope < 0.0))
+    square = square * free[:, :, None] * free[:, None, :]
+    size = np.einsum("kii->ki", square)
+    floor = 1e-14 * size.sum(axis=1, keepdims=True) + 1e-300
+    added = damping[:, None] * (size + 1e-3 * size.max(axis=1, keepdims=True)) + floor
+    square[:, range(UNKNOWNS), range(UNKNOWNS)] += added
+    step = -np.squeeze(np.linalg.solve(square, (free * slope)[..., None]), axis=2)
+    longest = np.max(np.abs(step[:, :5]), axis=1, keepdims=True)
+    return np.asarray(step * np.minimum(1.0, _REACH / np.maximum(longest, 1e-300)))
+
+
+def thinned(problem: PathProblem, most: int) -> PathProblem:
+    """The same with at most so many of the targets, evenly taken from their row."""
+    count = problem.targets.size
+    if count <= most:
+        return problem
+    return replace(problem, targets=problem.targets[np.linspace(0, count - 1, most).round().astype(int)])
+
+
+# Places of the grid by wave of the fastest part, how few and many they are in all: for the starts, and for a stage,
+# where rows times targets times places are limited.
+_PER_WAVE, _FEWEST, _MOST = 120, 240, 480
+_STAGE_PER_WAVE, _STAGE_FEWEST, _WORK = 60, 120, 200_000
+# As many for the span, finer at the end, when the extremes of a long period must not be missed.
+_SPANS, _FEWEST_SPANS, _MOST_SPANS = 12, 120, 2400
+_SPANS_TO_FINISH, _MOST_SPANS_TO_FINISH = 40, 20_000
+# Targets that choose the starts. Stages: rows, steps, weight of the limit, targets; the last looks at all of them.
+_CHOOSING = 16
+_STAGES = ((64, 15, 3.0, 24), (16, 30, 10.0, 64))
+_LAST, _STEPS, _MORE_STEPS = 3, 120, 20
+# The search aims so much higher than the limit, against rounding; higher where a penalty gave way [rad].
+_MARGIN, *_MARGINS = (math.radians(margin) for margin in (0.005, 0.02, 0.1, 0.5, 2.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A five-bar, its coupler point u + i v [mm], and the distance of each point from its path [mm]."""
+
+    bar: PathFiveBar
+    offset: complex
+    distance: NDArray[np.float64]
+
+    @property
+    def rms(self) -> float:
+        """Root of the mean square of the distances [mm]."""
+        return float(np.sqrt(np.mean(self.distance**2)))
+
+
+def judge(bar: PathFiveBar, offset: complex, targets: Points) -> Fit:
+    """A five-bar with the distances of the points from its real path.
+
+    Raises
+        NoSolution - where the five-bar opens
+    """
+    return Fit(bar, offset, distances(bar, offset, targets)[0])
+
+
+def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_angle: float) -> Fit:
+    """Links, phase and coupler point with which the path comes nearest to given points.
+
+    sum |M(phi_j) - P_j|^2 -> min over a, b, c, e, delta, u, v and every phi_j
+
+    Parameters
+        start : PathFiveBar - a start; frame, gear ratio and assembly are kept
+        offset : complex [mm] - u + i v to start with
+        targets : (N,) complex array [mm] - in the frame of the five-bar, any order, N >= 3
+        transmission_angle : float [rad] - the least that is allowed, between coupler and follower
+    Returns
+        fit : Fit - the distances are those from the path of the five-bar that is given, over its whole period
+    Raises
+        NoSolution - for fewer than three points, or where no start closes
+    Notes
+        The budget is fixed, in evaluations, not in time: the same points give the same fit. Up to 600 scattered starts
+        (no random numbers), their couplers made to close, are compared in five rounds of at most 3 million distances;
+        the 64 best and the given one take 15 steps of Levenberg and Marquardt, the 17 best of them 30 more, the 3 best
+        120 more, and at most 80 more where the transmission angle is missed. The first two stages look at no more than
+        24 and 64 of the points, and matching points with paths takes at most 200 000 distances a time, or 120 places of
+        each path. Only the search's best five-bar that closes is judged by its real path, beside the given one.
+    Source
+        thesis 2.2.1, figure 2-1; own derivation
+    """
+    if targets.size < 3:
+        raise NoSolution(f"{amount(targets.size, 'point')}: give at least three for a path")
+    scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
+    if not scale > 0.0:
+        raise NoSolution("all points are the same: a path needs at least two different ones")
+    given = [judge(start, offset, targets)] if closes(start, 0.0) else []
+    with np.errstate(all="ignore"):  # rows that open are NaN and drop out
+        rows = _search(start, offset / scale, targets / scale, transmission_angle, scale)
+    known = rows[np.all(np.isfinite(rows), axis=1)]
+    closing = (one for row in known if closes((one := row_as_bar(start, row, scale))[0], transmission_angle))
+    found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
+    if not given and not found:
+        raise NoSolution(
+            "none of the starts closes over a whole turn with the transmission angle that is asked for: start from "
+            "links that do (longer coupler and follower), or lower limits.transmission_angle"
+        )
+    return min(found + given, key=lambda fit: fit.rms)
+
+
+def closes(bar: PathFiveBar, least: float) -> bool:
+    """Whether a five-bar closes over its whole period with a transmission angle [rad]."""
+    try:
+        return bar.min_transmission_angle()[0] >= least
+    except NoSolution:
+        return False
+
+
+def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
+    """Rows of unknowns at the ends of the search, lengths by the scale, the best first."""
+    family = family_of(start, scale)
+    lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
+    first = np.array([*lengths, start.phase, offset.real, offset.imag])
+    problem = PathProblem(family, targets, *bounds(first), math.cos(least), 1.0)
+    x = scattered_starts(family, first, thinned(problem, _CHOOSING).targets, least)
+    x = np.concatenate((first[None, :], x))
+    for rows, steps, weight, most in _STAGES:
+        stage = _refined(replace(thinned(problem, most), weight=weight), rows)
+        x = x[: rows + 1]
+        x, _, cost = descend(stage, x, matched(stage, x), steps)
+        x = x[np.argsort(cost, kind="stable")]
+    return _finished(_refined(replace(problem, weight=weight), _LAST), x[:_LAST], least)
+
+
+def _finished(problem: PathProblem, x: Reals, least: float) -> Reals:
+    """The last stage, over all targets, and more steps for rows that still miss the transmission angle."""
+    x, phi, cost = descend(_aimed(problem, least + _MARGIN), x, matched(problem, x), _STEPS)
+    spans = _between(_SPANS_TO_FINISH * problem.family.waves, _FEWEST_SPANS, _MOST_SPANS_TO_FINISH)
+    problem = replace(problem, family=replace(problem.family, span_count=spans))
+    for margin in _MARGINS:
+        missing = ~(np.max(problem.family.cosines(x)[0], axis=1) <= math.cos(least))
+        if not np.any(missing):
+            break
+        more = descend(_aimed(problem, least + margin), x[missing], phi[missing], _MORE_STEPS)
+        x[missing], phi[missing], cost[missing] = more
+    return np.asarray(x[np.argsort(cost, kind="stable")])
+
+
+def _aimed(problem: PathProblem, angle: float) -> PathProblem:
+    return replace(problem, cosine=math.cos(angle))
+
+
+def _refined(problem: PathProblem, rows: int) -> PathProblem:
+    """The same with as fine a grid as the work of a stage allows."""
+    most = max(_WORK // (rows * problem.targets.size), _STAGE_FEWEST)
+    count = _between(_STAGE_PER_WAVE * problem.family.waves, _STAGE_FEWEST, most)
+    return replace(problem, family=replace(problem.family, count=count))
+
+
+def _between(places: float, fewest: int, most: int) -> int:
+    return math.ceil(min(max(places, fewest), most))
+
+
+def family_of(bar: PathFiveBar, scale: float) -> FiveBarFamily:
+    """Five-bars of the same frame, gears and assembly, lengths by a scale, on grids for a search of starts."""
+    family = FiveBarFamily(bar.frame / scale, float(bar.ratio), bar.assembly, bar.period, _FEWEST, _FEWEST_SPANS)
+    spans = _between(_SPANS * family.waves, _FEWEST_SPANS, _MOST_SPANS)
+    return replace(family, count=_between(_PER_WAVE * family.waves, _FEWEST, _MOST), span_count=spans)
+
+
+def row_as_bar(bar: PathFiveBar, row: Reals, scale: float) -> tuple[PathFiveBar, complex]:
+    """Five-bar and coupler point of a row."""
+    a, b, c, e = (math.exp(float(x) + math.log(scale)) for x in row[:4])
+    phase = math.remainder(float(row[4]), 2.0 * math.pi)
+    return replace(bar, input=a, coupler=b, follower=c, output=e, phase=phase), scale * complex(row[5], row[6])

@@ -1,0 +1,213 @@
+"""A geared five-bar that generates a function over an interval with the least greatest error."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.machines.five_bar.levelling import WIDEST, Levelling
+from gearlink.core.machines.five_bar.wanted import StructuralError, Wanted, outputs, structural_error
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.halton import halton
+
+_NODES, _GRID = 9, 121
+_STARTS, _ROUNDS, _STEPS = 300, 1, 60
+# Steps of levelling: the best so many of a round by so many steps, the best of these by more.
+_RACE = ((5, 15), (2, 25), (1, 80))
+# Of t20, phi0 and psi0 those that turn the input link, the coupler and the output link.
+_TURNED_BY = ((5,), (4, 5), (6,))
+_SCATTER = 1.6
+_WEIGHT = 3.0
+_MARGIN = math.radians(0.01)  # of the transmission angle against rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Round:
+    """A round of the search: starts so far, and the least greatest error so far [rad], NaN before one is found."""
+
+    starts: int
+    error: float
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionFit:
+    """A five-bar, the input angle at which the function starts [rad], its error, and how the search came to it."""
+
+    bar: FunctionFiveBar
+    start: float
+    error: StructuralError
+    rounds: tuple[Round, ...]
+
+
+def fit_function(
+    first: FunctionFiveBar, start: float, wanted: Wanted, transmission_angle: float, seconds: float | None = None
+) -> FunctionFit:
+    """Links, phase and start with which the greatest error over the interval is least.
+
+    max |psi(phi0 + dphi s) - psi_wanted(s) - psi0| -> min over b, c, e, d, t20, phi0, psi0
+
+    Parameters
+        first : FunctionFiveBar - a start; input link and coupler ratio are kept
+        start : float [rad] - phi0 of it
+        wanted : Wanted
+        transmission_angle : float [rad] - the least that is allowed over the interval
+        seconds : float or None - budget of time: rounds of starts are begun until it is spent; without one there are
+            one round, and the same file gives the same links
+    Returns
+        fit : FunctionFit
+    Raises
+        NoSolution - where no start came to a five-bar with that transmission angle
+    Notes
+        Each round: 300 scattered starts (no random numbers) by Levenberg's steps for the squares at nine Chebyshev
+        nodes, the transmission angle as a penalty at the nodes; the five best are levelled for some steps, of these the
+        two best for more, and the best to its end. Levelled is what has eight alternating extremes of one size, one
+        fewer for each place where the transmission angle, and each link that is at its limit; that no other start
+        would come lower is not proved.
+    """
+    begun, best, rounds = time.monotonic(), None, []
+    for number in range(_ROUNDS if seconds is None else 1_000_000):
+        for bar, phi0 in _round(first, start, wanted, transmission_angle, number):
+            found = _judged(bar, phi0, wanted, transmission_angle)
+            if found is not None and (best is None or found.error.greatest < best.error.greatest):
+                best = found
+        rounds.append(Round((number + 1) * _STARTS, math.nan if best is None else best.error.greatest))
+        if seconds is not None and time.monotonic() - begun >= seconds:
+            break
+    if best is None:
+        raise NoSolution(
+            "no five-bar was found that generates this function with the transmission angle that is asked for: lower "
+            "limits.transmission_angle, take less input_swing or output_swing, or other gears"
+        )
+    return replace(best, rounds=tuple(rounds))
+
+
+def _judged(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) -> FunctionFit | None:
+    try:
+        angle, _ = bar.min_transmission_angle(start, start + wanted.input_swing)
+        return FunctionFit(bar, start, structural_error(bar, start, wanted), ()) if angle >= least else None
+    except NoSolution:
+        return None
+
+
+def _round(
+    first: FunctionFiveBar, start: float, wanted: Wanted, least: float, number: int
+) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The best of a round, levelled as far as they deserve it, the best of them first."""
+    limit = math.cos(least + _MARGIN)
+    running = [Levelling(*made, wanted, limit) for made in _best(first, start, wanted, limit, number)]
+    for kept, steps in _RACE:
+        for one in running[:kept]:
+            one.advance(steps)
+        running[:kept] = sorted(running[:kept], key=lambda one: one.worst)
+    for one in running:
+        yield one.bar, one.start
+
+
+def _best(
+    first: FunctionFiveBar, start: float, wanted: Wanted, limit: float, number: int
+) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The best starts of a round by their squares; the file's own links are the first start of all."""
+    share = np.array([halton(number * _STARTS + i, 7) for i in range(1, _STARTS + 1)])
+    x = _SCATTER * (2.0 * share - 1.0)
+    x[:, 4:] = 2.0 * math.pi * share[:, 4:]
+    if number == 0:
+        lengths = (first.coupler, first.follower, first.output, first.frame)
+        x[0, :6] = (*(math.log(length / first.input) for length in lengths), first.phase, start)
+    s = 0.5 * (1.0 - np.cos((2.0 * np.arange(1, _NODES + 1) - 1.0) * math.pi / (2.0 * _NODES)))
+    target = wanted.output(s)
+    x, cost = _descended(x, wanted.input_swing * s, target, first.coupler_ratio, limit)
+    kept = 0
+    seen: list[Reals] = []
+    for row in x[np.argsort(cost, kind="stable")]:
+        if kept == _RACE[0][0] or not np.all(np.isfinite(row)):
+            return
+        if np.any(np.abs(row[:4]) > WIDEST) or any(np.abs(row - other).max() < 1e-4 for other in seen):
+            continue
+        for made in _moving(first, row, wanted):
+            seen.append(row)
+            kept += 1
+            yield made
+
+
+def _moving(first: FunctionFiveBar, row: Reals, wanted: Wanted) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The five-bar of a row in the assembly in which it follows the function, if it closes in either."""
+    b, c, e, d = (first.input * math.exp(float(value)) for value in row[:4])
+    phase, start = math.remainder(float(row[4]), 2.0 * math.pi), float(row[5]) % (2.0 * math.pi)
+    # the phase is the coupler's direction at input angle 0: whole turns of the start change it with the ratio
+    phase += first.coupler_ratio * (float(row[5]) - start)
+    s = np.linspace(0.0, 1.0, _GRID)
+    spread = []
+    for assembly in (1, -1):
+        bar = replace(
+            first, coupler=b, follower=c, output=e, frame=d, phase=math.remainder(phase, math.tau), assembly=assembly
+        )
+        miss = outputs(bar, start + wanted.input_swing * s) - wanted.output(s)
+        if np.all(np.isfinite(miss)):
+            spread.append((float(np.ptp(miss)), bar))
+    if spread:
+        least, bar = min(spread, key=lambda found: found[0])
+        if least < 0.5 * abs(wanted.output_swing):
+            yield bar, start
+
+
+# Least squares at the nodes
+
+
+def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> tuple[Reals, Reals]:
+    """Rows of ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20, phi0, psi0 after Levenberg's steps, and their squares."""
+    damping, value = np.full(len(x), 1e-2), _misses(x, phi, psi, ratio, cosine)
+    cost = np.sum(value**2, axis=1)
+    for _ in range(_STEPS):
+        slopes = _slopes(x, value, phi, psi, ratio, cosine)
+        across = np.swapaxes(slopes, 1, 2)
+        square = across @ slopes + damping[:, None, None] * np.eye(7)
+        step = np.linalg.solve(square, across @ value[:, :, None])[:, :, 0]
+        new = x - np.clip(np.nan_to_num(step), -0.4, 0.4)
+        new_value = _misses(new, phi, psi, ratio, cosine)
+        new_cost = np.sum(new_value**2, axis=1)
+        better: Mask = new_cost < cost
+        x, value = np.where(better[:, None], new, x), np.where(better[:, None], new_value, value)
+        cost = np.where(better, new_cost, cost)
+        damping = np.clip(np.where(better, 0.3, 4.0) * damping, 1e-12, 1e6)
+    return x, cost
+
+
+def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
+    """(|CD| - c)/e at the nodes, and the excess of |cos mu| over its limit, for every row."""
+    return _of_directions(x, [_direction(x, which, phi, psi, ratio) for which in range(3)], cosine)
+
+
+def _direction(x: Reals, which: int, phi: Reals, psi: Reals, ratio: float) -> Points:
+    """Directions of input link, coupler and output link at the nodes."""
+    if which == 2:
+        return np.asarray(np.exp(1j * (x[:, 6:7] + psi)))
+    turned = phi + x[:, 5:6]
+    return np.asarray(np.exp(1j * (x[:, 4:5] + ratio * turned) if which else 1j * turned))
+
+
+def _of_directions(x: Reals, directions: Sequence[Points], cosine: float) -> Reals:
+    b, c, e, d = (np.exp(np.clip(x[:, i], -6.0, 6.0))[:, None] for i in range(4))
+    joint = directions[0] + b * directions[1]
+    gap = joint - d - e * directions[2]
+    mu = (c * c + e * e - np.abs(d - joint) ** 2) / (2.0 * c * e)
+    return np.concatenate(((np.abs(gap) - c) / e, _WEIGHT * np.maximum(0.0, np.abs(mu) - cosine)), axis=1)
+
+
+def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
+    """Derivatives by the unknowns, by differences: the rows are levelled afterwards, where digits count."""
+    step = 1e-7
+    columns, there = [], [_direction(x, which, phi, psi, ratio) for which in range(3)]
+    for i in range(7):
+        moved = x.copy()
+        moved[:, i] += step
+        turned = [
+            _direction(moved, which, phi, psi, ratio) if i in _TURNED_BY[which] else there[which] for which in range(3)
+        ]
+        columns.append((_of_directions(moved, turned, cosine) - value) / step)
+    return np.stack(columns, axis=2)

@@ -1,0 +1,199 @@
+"""The function-generating geared five-bar: a planet on the coupler rolls on a sun that is fixed to the frame.
+
+The figure that the source gives for it is lost, so this is a reading: gear 5 fixed to the frame at A, planet 2 fixed to
+the coupler BC at B, so that the coupler turns in a fixed ratio to the input; link 4 follows by the dyad CD, DE.
+
+    t2 = t20 + m phi,   m = 1 + z5/z2 (sun), 1 - z5/z2 (ring gear)
+    C = a e^(i phi) + b e^(i t2),   D on circles about C (radius c) and E = (d, 0) (radius e)
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.harmonic_sum import HarmonicSum
+from gearlink.core.parts.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
+
+
+@dataclass(frozen=True)
+class FunctionFiveBar:
+    """Links, coupler ratio and phase.
+
+    Parameters
+        input, coupler, follower, output, frame : float [mm] - a, b, c, e, d
+        coupler_ratio : float - m, coupler turns per input turn
+        phase : float [rad] - t20, direction of BC at input angle 0
+        assembly : +1 or -1 - +1: D left of the vector C->E
+    Raises
+        NoSolution - for a length that is not positive and finite
+    Example
+        >>> bar = FunctionFiveBar(40.0, 30.0, 80.0, 50.0, 100.0, 2.5, math.radians(60.0))
+        >>> round(math.degrees(bar.output_angle(math.radians(30.0))), 9)
+        98.051641637
+
+    Source
+        thesis 2.2.2, figure 2-7, in a reading of its own
+    """
+
+    input: float
+    coupler: float
+    follower: float
+    output: float
+    frame: float
+    coupler_ratio: float
+    phase: float
+    assembly: int = 1
+
+    def __post_init__(self) -> None:
+        require_lengths(
+            input=self.input, coupler=self.coupler, follower=self.follower, output=self.output, frame=self.frame
+        )
+
+    def joint(self, phi: float) -> complex:
+        """The pin C [mm]."""
+        return cmath.rect(self.input, phi) + cmath.rect(self.coupler, self.phase + self.coupler_ratio * phi)
+
+    def end(self, phi: float) -> complex:
+        """The pin D [mm].
+
+        Raises
+            NoSolution - where follower and output do not reach
+        """
+        return close_dyad(self.joint(phi), complex(self.frame), self.follower, self.output, self.assembly)
+
+    def output_angle(self, phi: float) -> float:
+        """Direction of the output link E->D in (-pi, pi] [rad].
+
+        Raises
+            NoSolution - where follower and output do not reach
+        """
+        return cmath.phase(self.end(phi) - self.frame)
+
+    def output_speed(self, phi: float) -> float:
+        """Output speed per input speed.
+
+        w4 = Re[C' e^(-i t3)]/(e sin(t3 - psi)),   t3 the direction C->D
+
+        Raises
+            NoSolution - where follower and output do not reach
+        """
+        speed = 1j * cmath.rect(self.input, phi)
+        speed += 1j * self.coupler_ratio * cmath.rect(self.coupler, self.phase + self.coupler_ratio * phi)
+        end = self.end(phi)
+        along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
+        return (speed * along.conjugate()).real / (self.output * (along * arm.conjugate()).imag)
+
+    def output_acceleration(self, phi: float) -> float:
+        """Output acceleration per square of the input speed, d2psi/dphi2.
+
+        a4 = (Re[C'' e^(-i t3)] - c w3^2 + e w4^2 cos(psi - t3))/(e sin(t3 - psi))
+
+        Raises
+            NoSolution - where follower and output do not reach
+        Source
+            own derivation: the loop C + c e^(i t3) = E + e e^(i psi), differentiated twice
+        """
+        m = self.coupler_ratio
+        crank, coupler = cmath.rect(self.input, phi), cmath.rect(self.coupler, self.phase + m * phi)
+        end = self.end(phi)
+        along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
+        turn = along * arm.conjugate()
+        w3 = (1j * (crank + m * coupler) * arm.conjugate()).real / (self.follower * turn.imag)
+        w4 = self.output_speed(phi)
+        pull = -((crank + m * m * coupler) * along.conjugate()).real
+        pull += self.output * w4 * w4 * turn.real - self.follower * w3 * w3
+        return pull / (self.output * turn.imag)
+
+    @cached_property
+    def reach_squared(self) -> HarmonicSum:
+        """|CE|^2 over the input angle."""
+        a, b, d, m = self.input, self.coupler, self.frame, self.coupler_ratio
+        terms = (
+            (2.0 * a * b, m - 1.0, self.phase),
+            (-2.0 * a * d, 1.0, 0.0),
+            (-2.0 * b * d, m, self.phase),
+        )
+        return HarmonicSum(math.fsum((a * a, b * b, d * d)), terms)
+
+    def reach_extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest |CE| over a range of the input, each as (input angle [rad], distance [mm])."""
+        (low, least), (high, greatest) = self.reach_squared.extremes(start, end)
+        return (low, math.sqrt(max(least, 0.0))), (high, math.sqrt(greatest))
+
+    def closure(
+        self, start: float, end: float, *, free: bool = True
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Refuse a five-bar whose follower and output do not reach from C to E all over a range of the input.
+
+        |c - e| < |CE| < c + e
+
+        Parameters
+            start, end : float [rad]
+            free : bool - whether a narrower range is a remedy
+        Returns
+            least, greatest : (float, float) - the extremes of |CE|, as `reach_extremes`
+        Raises
+            NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
+        """
+        (low, least), (high, greatest) = self.reach_extremes(start, end)
+        longest, shortest = self.follower + self.output, abs(self.follower - self.output)
+        if greatest >= longest:
+            raise NoSolution(
+                f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are {greatest:.9g} mm apart, "
+                f"follower and output together only {longest:.9g} mm; lengthen them by more than "
+                f"{safely_above(greatest - longest, 4)} mm together{_or('shorten the coupler', free)}"
+            )
+        if least <= shortest:
+            raise NoSolution(
+                f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.9g} mm apart, "
+                f"follower and output differ by {shortest:.9g} mm; make them more equal by more than "
+                f"{safely_above(shortest - least, 4)} mm{_or('lengthen the frame', free)}"
+            )
+        return (low, least), (high, greatest)
+
+    def min_transmission_angle(self, start: float, end: float) -> tuple[float, float]:
+        """Least angle between follower and output over a range, an obtuse one counted from the other side.
+
+        Returns
+            angle, place : float, float [rad] - and the input angle at which it occurs
+        Raises
+            NoSolution - where the five-bar opens
+        Source
+            own derivation; VDI 2142
+        """
+        return min(
+            (acute(transmission_angle(distance, self.follower, self.output)), place)
+            for place, distance in self.closure(start, end)
+        )
+
+    def output_angles(self, angles: list[float]) -> list[float]:
+        """Output angles over ascending input angles, without jumps from the first on [rad].
+
+        Raises
+            NoSolution - where the five-bar opens between the first and the last
+        Notes
+            Between two of them the angle is followed in steps in which it cannot turn by half a turn:
+            |w4| <= (a + |m| b)/(e sin(mu)).
+        """
+        least, _ = self.min_transmission_angle(angles[0], angles[-1])
+        bound = (self.input + abs(self.coupler_ratio) * self.coupler) / (self.output * math.sin(least))
+        result = [self.output_angle(angles[0])]
+        for one, other in pairwise(angles):
+            parts = max(1, math.ceil((other - one) * bound / (0.5 * math.pi)))
+            value = result[-1]
+            for i in range(1, parts + 1):
+                new = self.output_angle(one + (other - one) * i / parts)
+                # whole turns alone are carried on, so that an angle does not depend on those before it
+                value = new + 2.0 * math.pi * round((value - new) / (2.0 * math.pi))
+            result.append(value)
+        return result
+
+
+def _or(words: str, free: bool) -> str:
+    return f", {words}, or narrow the range" if free else f", or {words}"

@@ -1,0 +1,265 @@
+"""The design file of a geared five-bar, for a path or for a function."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    Angle,
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Entries,
+    Length,
+    PressureAngle,
+    SignedLength,
+    Spec,
+    Teeth,
+)
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.spec_parts import LinkageLimits, TurnAngle, require_rim
+from gearlink.core.parts.linkages.spec_sections import InputRange
+
+Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+
+
+class FiveBarGears(TrainKeys):
+    """The gears: input and output for a path, planet and sun or ring for a function."""
+
+    module: Length = Field(description="module")
+    input: Teeth | None = Field(None, description="path: teeth z1 of the gear on the input link")
+    output: Teeth | None = Field(None, description="path: teeth z4 of the gear on the output link")
+    idler: Teeth | None = Field(None, description="path: teeth of an idler between them; then both turn the same way")
+    mesh: Literal["external", "internal"] = Field(
+        "external", description="path, without an idler: internal where the larger gear is a ring"
+    )
+    planet: Teeth | None = Field(None, description="function: teeth z2 of the gear fixed to the coupler at B")
+    sun: Teeth | None = Field(None, description="function: teeth z5 of the gear fixed to the frame at A")
+    ring: Teeth | None = Field(None, description="function: teeth z5 of a fixed ring gear about A, in place of sun")
+    rim: Length | None = Field(
+        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+    idler_side: Literal[1, -1] = Field(
+        1, description="path, with an idler: +1: its axis O left of A->E; -1: right of it"
+    )
+
+    @property
+    def ring_teeth(self) -> int | None:
+        """Teeth of the ring gear of either form, where there is one."""
+        return max(self.input or 0, self.output or 0) if self.mesh == "internal" else self.ring
+
+    def gear_names(self) -> tuple[str, ...]:
+        """Input, idler and output of a path; planet and sun or ring of a function."""
+        if self.planet is not None:
+            return "planet", "sun" if self.ring is None else "ring"
+        return ("input", "output") if self.idler is None else ("input", "idler", "output")
+
+    def rings(self) -> tuple[bool, ...]:
+        """Of a path in direct internal mesh the larger gear, of a function the second."""
+        if self.mesh == "internal" and self.idler is None and self.planet is None:
+            first = (self.input or 0) > (self.output or 0)
+            return first, not first
+        return tuple(name == "ring" for name in self.gear_names())
+
+    @model_validator(mode="after")
+    def _rim(self) -> FiveBarGears:
+        require_rim(self.rim, self.ring_teeth, self.module, own_teeth=self.own_teeth)
+        return self
+
+
+class FiveLinks(Spec):
+    """The links; with `target` they are a start."""
+
+    input: Length | None = Field(None, description="AB; function: left out, the centre distance of planet and sun")
+    coupler: Length = Field(description="BC")
+    follower: Length = Field(description="CD")
+    output: Length = Field(description="DE")
+    frame: Length | None = Field(
+        None, description="AE; path with gears in direct mesh: left out, their centre distance"
+    )
+
+
+class FiveBarShafts(Spec):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    E_radius: Length | None = Field(None, description="radius of the output shaft at E")
+    O_radius: Length | None = Field(None, description="path, with an idler: radius of the idler's shaft O")
+
+
+class CouplerPoint(Spec):
+    """A point on the coupler."""
+
+    along: SignedLength = Field(description="from B towards C")
+    across: SignedLength = Field(0.0, description="to the left of B->C")
+
+
+class WantedFunction(Spec):
+    """A function over an interval: the input's swing stands for x, the output's for y."""
+
+    name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] = Field(description="y of x")
+    exponent: SignedLength | None = Field(None, description="of a power", json_schema_extra={"unit": "1"})
+    x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]")] = Field(
+        description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
+    )
+    input_swing: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="turn of the input from the first x to the last"
+    )
+    output_swing: Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="turn of the output from the first y to the last, negative clockwise"
+    )
+    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="greatest structural error that is accepted"
+    )
+    links: Literal["sought", "given"] = Field(
+        "sought", description="given: the links of the file are judged, from range.start on"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> WantedFunction:
+        if (self.name == "power") != (self.exponent is not None):
+            raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
+        if self.x[0] == self.x[1]:
+            raise PydanticCustomError("GL111", "x is the same at both ends: give an interval", {"key": "x[1]"})
+        if self.output_swing == 0.0:
+            raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
+        return self
+
+
+class FiveBarTarget(Spec):
+    """The links are found for it."""
+
+    points: (
+        Annotated[
+            list[Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]],
+            Field(min_length=3, max_length=200),
+        ]
+        | None
+    ) = Field(None, description="of a path: points [x, y] through which the coupler point shall run, any order")
+    positions: (
+        Annotated[
+            list[Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[input, output]")]],
+            Field(min_length=2, max_length=5),
+        ]
+        | None
+    ) = Field(None, description="of a function: two to five pairs [input angle, output angle]")
+    function: WantedFunction | None = Field(None, description="a function over an interval, in place of positions")
+    input_angles: Annotated[list[TurnAngle], Field(min_length=3, max_length=200)] | None = Field(
+        None, description="of a path: input angle of each point, counted from the first's, so that the points are timed"
+    )
+    tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
+    budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
+        None, description="time that the search of a function or of timed points may take; left out: a fixed effort"
+    )
+
+    @model_validator(mode="after")
+    def _one_target(self) -> FiveBarTarget:
+        given = [name for name in ("points", "positions", "function") if getattr(self, name) is not None]
+        if len(given) > 1:
+            message = "{one} and {other} exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
+        timed = self.input_angles is not None
+        if timed and len(self.points or ()) != len(self.input_angles or ()):
+            message = "give an input angle for each point: {angles} for {points}"
+            words = {"angles": str(len(self.input_angles or ())), "points": str(len(self.points or ()))}
+            raise PydanticCustomError("GL111", message, {"key": "input_angles", **words})
+        if self.input_angles is not None and self.input_angles[0] != 0.0:
+            raise PydanticCustomError(
+                "GL108", "input angles count from the first point's, 0", {"key": "input_angles[0]"}
+            )
+        if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
+            message = "budget goes with a function whose links are sought, or with timed points: leave it out"
+            raise PydanticCustomError("GL111", message, {"key": "budget"})
+        return self
+
+
+class GearedFiveBarSpec(DrivenSpec):
+    """Two couplers between two links that gears hold in ratio."""
+
+    kind: Literal["geared-five-bar"]
+    form: Literal["path", "function"] = Field("path", description="path of a coupler point, or output over input angle")
+    gears: FiveBarGears
+    links: FiveLinks
+    phase: Angle = Field(
+        description="at input angle 0: direction of the output link (path) or of the coupler (function)"
+    )
+    coupler_point: CouplerPoint | None = Field(None, description="path: the point M")
+    range: InputRange | None = Field(None, description="function: left out, one turn of the input")
+    assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
+    target: FiveBarTarget | None = None
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: FiveBarShafts | None = None
+    loads: Annotated[Any, Deferred("machines.five_bar.loads_spec:FiveBarLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _form(self) -> GearedFiveBarSpec:
+        for key, needed in _NEEDED[self.form].items():
+            section, _, name = key.partition(".")
+            value = getattr(self, section)
+            if (getattr(value, name) if name else value) is None:
+                raise PydanticCustomError("GL106", "the form {form} needs {needed}", {
+                    "key": key, "form": self.form, "needed": needed,
+                })  # fmt: skip
+        _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
+                "shafts.O_radius", "O_radius goes with an idler: give gears.idler, or leave it out")  # fmt: skip
+        if self.form == "path":
+            self._path()
+        else:
+            self._function()
+        return self
+
+    def _path(self) -> None:
+        gears, links = self.gears, self.links
+        _refuse(self.target is not None and self.target.positions is not None, "target.positions",
+                "positions go with form: function; give points")  # fmt: skip
+        _refuse(self.target is not None and self.target.function is not None, "target.function",
+                "a function goes with form: function; give points")  # fmt: skip
+        _refuse(self.range is not None, "range", "range goes with form: function; a path has its whole period")
+        _refuse(any(z is not None for z in (gears.planet, gears.sun, gears.ring)), "gears",
+                "planet, sun and ring go with form: function; give input and output")  # fmt: skip
+        _refuse(gears.mesh == "internal" and gears.idler is not None, "gears.mesh",
+                "an idler meshes outside both gears: leave mesh or idler out")  # fmt: skip
+        _refuse(gears.mesh == "internal" and gears.input == gears.output, "gears.output",
+                "a ring gear needs more teeth than the gear in it: change input or output")  # fmt: skip
+        _refuse(gears.idler is not None and links.frame is None, "links.frame",
+                "with an idler the gears do not fix the frame: give links.frame")  # fmt: skip
+
+    def _function(self) -> None:
+        gears = self.gears
+        _refuse(self.target is not None and self.target.points is not None, "target.points",
+                "points go with form: path; give positions")  # fmt: skip
+        sought = self.target is not None and self.target.function is not None
+        judged = sought and self.target is not None and self.target.function.links == "given"  # type: ignore[union-attr]
+        _refuse(sought and not judged and self.range is not None, "range",
+                "the interval of a function starts where it fits best: leave range out")  # fmt: skip
+        _refuse(judged and self.range is None, "range",
+                "given links are judged from range.start on: give range: {start, end}")  # fmt: skip
+        _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
+                "input, output and idler go with form: path; give planet and sun or ring")  # fmt: skip
+        _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")
+        _refuse(gears.ring is not None and gears.planet is not None and gears.ring <= gears.planet, "gears.ring",
+                "a ring gear needs more teeth than the gear in it: change ring or planet")  # fmt: skip
+        _refuse(self.range is not None and self.range.end <= self.range.start, "range.end",
+                "the range ends before it starts: give a greater end")  # fmt: skip
+
+
+_NEEDED = {
+    "path": {
+        "gears.input": "gears.input and gears.output",
+        "gears.output": "gears.input and gears.output",
+        "links.input": "links.input",
+        "coupler_point": "coupler_point: {along: mm, across: mm}",
+    },
+    "function": {"gears.planet": "gears.planet and gears.sun or gears.ring", "links.frame": "links.frame"},
+}
+
+
+def _refuse(wrong: bool, key: str, message: str) -> None:
+    if wrong:
+        raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})

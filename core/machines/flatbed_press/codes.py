@@ -1,0 +1,75 @@
+"""The rules that the checks of the flatbed press judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+CONSTANT_SUM = Rule(
+    "GL405",
+    "rollers of the cam pair do not keep their distance",
+    "The pitch radii of main and return cam at opposite rollers do not add up to the distance of the rollers.",
+    "The rigid follower would jam or have play.",
+    "Raise cam.base_radius so that both rollers stay on their own side of the cam axis.",
+    "r1(t) + r2(t) = L_s1s2 within 1e-9 of it, at every degree of cam angle",
+    "TY-460 report 3.6",
+    ("constant-sum",),
+    ("cam.base_radius", "cam"),
+    side="<=",
+)
+SYNC_SPEED = Rule(
+    "GL501",
+    "bed and cylinder differ in speed at the start of the zone",
+    "At the start of the synchronous zone bed and cylinder do not run equally fast; or the file has no cam, and the "
+    "travels differ over the zone.",
+    "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start. Without "
+    "a cam the difference of travel smears the print.",
+    "Leave sync.start out: then the zone starts where the speeds are equal; or take the difference up before the zone "
+    "by cam.lead_in. Give the section cam, whose follower takes the difference of travel back.",
+    "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder; with a lead-in the jump of "
+    "the rack's own speed there in place of p' - q'; without a cam p - q at the end of the zone as at its start",
+    "TY-460 report 3.2",
+    ("sync-speed",),
+    ("sync.start", "cam.lead_in", "cam", "sync", "cylinder"),
+    side="<=",
+)
+SYNC_LENGTH = Rule(
+    "GL502",
+    "synchronous zone shorter than the print",
+    "The cylinder travels less in the synchronous zone than the print is long, or is shorter about than the print; or "
+    "the bed turns back within the zone.",
+    "The rest of the print would be smeared; a longer print than the circumference would fall on its own beginning.",
+    "Set sync.length to the print length and a margin; enlarge cylinder.radius.",
+    "R i (theta_MN(phi_s) - theta_MN(phi_e)) >= sync.print_length, 2 pi R >= sync.print_length",
+    "TY-460 report 3.2; the circumference: own derivation",
+    ("sync-length",),
+    ("sync.length", "sync.end", "sync", "cylinder"),
+)
+REGISTER = Rule(
+    "GL506",
+    "cylinder does not come home",
+    "The cylinder does not make whole turns per sheet; or its print passes the forme again while the bed returns (a "
+    "warning).",
+    "The next sheet would meet another part of the cylinder; a cylinder that makes several turns must be lifted.",
+    "Set cylinder.gear_ratio to a whole number.",
+    "cylinder.gear_ratio = 1, 2, 3 ... within 1e-9; of 2 and more q - q_s in [j C, j C + L] with p - p_s in [0, L] "
+    "warns",
+    "TY-460 report 1",
+    ("register",),
+    ("cylinder.gear_ratio", "cylinder"),
+    side="<=",
+)
+PLACE = Rule(
+    "GL516",
+    "cylinder or gear 1 does not stand where the machine has it",
+    "loads.cylinder_direction puts the cylinder on the side of the bed on which its surface runs against the bed's, "
+    "through the pitch line of the bed's rack, or over the slide line or an axis (A, D, G, N); or "
+    "loads.gear_1_direction is another one than that of the axes' distances. A warning: torque and chains do not "
+    "depend on it.",
+    "The bearing forces of gears and cylinder are those of a machine that cannot be built, or that does not print.",
+    "With loads.bed_side -1 and gravity [9.81, 0] the machine is as it is drawn: then give the direction in which the "
+    "cylinder stands on the bed. Take gear_1_direction from the axes.",
+    "x_bed - (x_cylinder + R) >= 0, |cylinder - axis| >= R; tan = w/(AD - e), from +x to A->G, within 1 deg",
+    "own derivation: a pair of rolling forces does no work where bed and cylinder run the same way; TY-460 report 1.1",
+    ("cylinder-place", "gear-direction"),
+    ("loads.cylinder_direction", "loads.gear_1_direction", "loads"),
+)

@@ -1,0 +1,699 @@
+"""The flatbed cylinder press as a design: its parts, and what each command shows of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Found, Outline, placed
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.report import Check, Table, safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.flatbed_press import bodies, checks, remedies, tables
+from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
+from gearlink.core.machines.flatbed_press.compensation import Compensation
+from gearlink.core.machines.flatbed_press.refusals import turns_back
+from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
+from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.parts.cams.disc_cams import DiscCams
+from gearlink.core.parts.cams.machine import OnDiscCams
+from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
+from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
+from gearlink.core.parts.linkages.dyad import acute
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel
+    from gearlink.core.machines.flatbed_press.compensation import Compensation
+    from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
+    from gearlink.core.mechanism.motion import Course
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.profile import RollerPath
+    from gearlink.core.parts.gears.data import GearData
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+    from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+
+
+# The motion of a flatbed press: input, both chains, and the zone in which they run together
+
+
+class PressMotion:
+    """Chains and synchronous zone of a design file; one that is to advise says in a refusal what would help."""
+
+    def __init__(self, spec: FlatbedPressSpec, *, advise: bool = True) -> None:
+        self.spec = spec
+        self.advise = advise
+
+    @cached_property
+    def input_speed(self) -> float:
+        """Angular velocity of the input [rad/s]: one turn a sheet."""
+        return self.spec.speed / 3600.0 * 2.0 * math.pi
+
+    @property
+    def turn_time(self) -> float:
+        """Time of an input turn [ms]."""
+        return 2e3 * math.pi / self.input_speed
+
+    @cached_property
+    def slider_crank(self) -> SliderCrank:
+        """D-E-F, whose slider makes half the bed's stroke."""
+        bed = self.spec.bed
+        with at_key("bed.stroke"):
+            return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
+
+    @cached_property
+    def bed(self) -> BedChain:
+        """Drag link ABCD and slider-crank DEF."""
+        bed, crank = self.spec.bed, self.slider_crank.crank_length
+        return BedChain(_four_bar(bed.double_crank), math.radians(bed.crank_offset_angle), crank, bed.rod, bed.offset)
+
+    @cached_property
+    def cylinder(self) -> CylinderChain:
+        """Drag link GHMN and the cylinder's gears."""
+        cylinder = self.spec.cylinder
+        angle = math.radians(cylinder.initial_crank_angle)
+        return CylinderChain(_four_bar(cylinder.double_crank), angle, cylinder.radius, cylinder.gear_ratio)
+
+    @cached_property
+    def min_transmission_angle_bed(self) -> float:
+        """Least transmission angle of ABCD over the turn [rad]."""
+        return self.bed.linkage.min_transmission_angle()
+
+    @cached_property
+    def min_transmission_angle_cylinder(self) -> float:
+        """Least transmission angle of GHMN over the turn [rad]."""
+        return self.cylinder.linkage.min_transmission_angle()
+
+    @cached_property
+    def min_rod_angle(self) -> float:
+        """Least angle between the rod EF and the normal of the slide line over the turn [rad]."""
+        return math.acos((self.slider_crank.crank_length + abs(self.spec.bed.offset)) / self.spec.bed.rod)
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of velocity and acceleration of the cylinder [mm/s, mm/s^2], and their places and those of the least
+        transmission angles [rad]."""
+        from gearlink.core.numerics.motion_extremes import extremes
+
+        speed, cylinder = self.input_speed, self.cylinder
+        curves = {
+            "cylinder_velocity": lambda phi: cylinder.travel(phi, 1).first * speed,
+            "cylinder_acceleration": lambda phi: cylinder.travel(phi, 2).second * speed**2,
+        }
+        return extremes(curves, 0.0, _TURN) | self._transmission_places()
+
+    def _transmission_places(self) -> dict[str, float]:
+        """Input angles of the least transmission angles: the driving crank then lies in the line of the frame."""
+        bed, cylinder = (_crank_of_least(chain.linkage) for chain in (self.bed, self.cylinder))
+        return {
+            "min_transmission_angle_bed_at": (bed - self.bed.initial_crank_angle) % _TURN,
+            "min_transmission_angle_cylinder_at": (self.cylinder.initial_angle - cylinder) % _TURN,
+        }
+
+    # The synchronous zone
+
+    @cached_property
+    def sync_start(self) -> float:
+        """Input angle at the start of the zone [rad]."""
+        given = self.spec.sync.start
+        if given is not None:
+            return math.radians(given)
+        return equal_speed_angle(self.bed, self.cylinder, advise=self.advise)
+
+    @cached_property
+    def sync_end(self) -> float:
+        """Input angle at the end of the zone [rad]."""
+        given = self.spec.sync.end
+        if given is None:
+            return zone_end(self.cylinder, self.sync_start, self.spec.sync.length)
+        if math.radians(given) <= self.sync_start:
+            start = math.degrees(self.sync_start)
+            raise NoSolution(
+                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg: set sync.end above "
+                f"{safely_above(start, 6)} deg, or leave it out and give sync.length",
+                key="sync.end",
+            )
+        return math.radians(given)
+
+    @cached_property
+    def bed_turns_back(self) -> float | None:
+        """First input angle within the zone at which the bed turns back [rad]; None where it never does."""
+        return turning_within(self.bed, self.sync_start, self.sync_end)
+
+    @cached_property
+    def zone_length(self) -> float:
+        """Cylinder travel in the zone [mm]: as asked for, unless the file says where the zone ends."""
+        if self.spec.sync.end is None:
+            return self.spec.sync.length
+        return float(self.cylinder.travel(self.sync_end).value - self.cylinder.travel(self.sync_start).value)
+
+    @cached_property
+    def compensation(self) -> float:
+        """Bed travel that the cam makes good in the zone [mm]."""
+        gap = [float(difference(self.bed, self.cylinder, phi).value) for phi in (self.sync_start, self.sync_end)]
+        return gap[1] - gap[0]
+
+    @cached_property
+    def cam_sync_start(self) -> float:
+        """Cam angle at the start of the zone [rad]."""
+        return float(self.bed.cam_angle(self.sync_start).value)
+
+    @cached_property
+    def cam_sync_end(self) -> float:
+        """Cam angle at the end of the zone [rad]."""
+        return float(self.bed.cam_angle(self.sync_end).value)
+
+
+def _crank_of_least(linkage: FourBar) -> float:
+    """Crank angle of the least transmission angle [rad], 0 or pi."""
+    folded, stretched = map(acute, linkage.transmission_extremes())
+    return 0.0 if folded <= stretched else math.pi
+
+
+def _four_bar(links: DoubleCrank) -> FourBar:
+    return FourBar(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
+
+
+# The compensation cam pair of a flatbed press: its follower, its size, main and return cam
+
+# By so much of its limits a chosen radius keeps to the safe side: its cams are checked in other roundings.
+_HAIR = 1e-9
+_KEPT = 8192
+_OF_SIZE = ("cam.base_radius", "cam")
+"""Keys that say how large the cams are: the radius, or the section where `size` chooses it."""
+
+
+class PressCams(DiscCams):
+    """The follower of the rack and the two cams that drive it both ways."""
+
+    def __init__(self, spec: FlatbedPressSpec, motion: PressMotion) -> None:
+        self.spec, self.motion = spec, motion
+
+    @property
+    def section(self) -> PressCam:
+        """The section `cam` of the design file."""
+        if self.spec.cam is None:
+            raise MissingSection("`cam` needs the section cam: base_radius, roller_radius, ...", key="cam")
+        return self.spec.cam
+
+    @cached_property
+    def follower(self) -> Compensation:
+        """The lift of the compensation cam's follower."""
+        from gearlink.core.parts.cams.laws import law
+
+        cam, motion = self.section, self.motion
+        with at_key("cam.return_law"):
+            return_law = law(cam.return_law)
+            if return_law.kind != "rest-to-rest":
+                raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} goes from rest to speed")
+        return Compensation(
+            motion.bed,
+            motion.cylinder,
+            motion.sync_start,
+            motion.sync_end,
+            cam.transition,
+            math.radians(cam.lead_in),
+            self.transition_end,
+            math.radians(cam.return_angle),
+            return_law,
+            self.spec.sync.end is not None,
+        )
+
+    @property
+    def transition_end(self) -> float:
+        """Cam angle at which the lift is greatest [rad]: given, or counted from the end of the zone."""
+        cam = self.section
+        if cam.transition_angle is not None:
+            return self.motion.cam_sync_end + math.radians(cam.transition_angle)
+        return math.radians(cam.transition_end or 0.0)
+
+    @property
+    def follower_stroke(self) -> float:
+        """Greatest less least lift [mm]."""
+        low, high = self.follower.lift_range
+        return high - low
+
+    # Size
+
+    @property
+    def is_sized(self) -> bool:
+        """Whether the file gives the base radius, or says how it is chosen."""
+        return self.spec.cam is not None and (self.spec.cam.base_radius is not None or self.spec.size is not None)
+
+    @cached_property
+    def base_radius(self) -> float:
+        """Cam axis to roller centre at zero lift [mm], given or the least with which both cams pass their checks."""
+        if self.section.base_radius is not None:
+            return self.section.base_radius
+        if self.spec.size is None:
+            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
+            raise MissingSection(text, key="cam.base_radius")
+        return self.base_radius_for(math.radians(self.spec.size.pressure_angle))
+
+    def base_radius_for(self, pressure_angle: float) -> float:
+        """Least base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
+        from gearlink.core.parts.cams.checks import HUB
+
+        hub = HUB * self.section.shaft_radius * (1.0 + _HAIR) + self.section.roller_radius - self.follower.lift_range[0]
+        return self.base_radius_for_roller(max(self.base_radius_for_pressure(pressure_angle), hub))
+
+    def base_radius_for_pressure(self, pressure_angle: float) -> float:
+        """Least base radius [mm] with which both cams keep a pressure angle [rad].
+
+        r_b + s >= |s'|/tan(alpha)  and  r_b + s_max + s_min - s >= |s'|/tan(alpha)
+        """
+        import numpy as np
+
+        from gearlink.core.numerics.extremes import maximum_over
+
+        both = sum(self.follower.lift_range)
+
+        def needed(theta: Reals) -> Reals:
+            lift = self.follower.lift(theta, 1)
+            nearer: Reals = np.minimum(lift.value, both - lift.value)
+            radius: Reals = np.abs(lift.first) / math.tan(pressure_angle * (1.0 - 1e-3 * _HAIR)) - nearer
+            return radius
+
+        joints = tuple(segment.start % (2.0 * math.pi) for segment in self.follower.segments)
+        return maximum_over(needed, joints=joints, samples=512).value
+
+    def base_radius_for_roller(self, least: float) -> float:
+        """Base radius [mm], from `least` on, whose pitch curves bend no sharper than the roller allows.
+
+        rho_min(r_b) = r_g/0.8 of the sharper cam
+
+        Raises
+            NoSolution - where no cam of a thousand rollers' size is large enough
+        Notes
+            Within a step of doubling the curvature is taken to grow with the radius; the radius that is found is
+            checked by its own cams.
+        """
+        from gearlink.core.numerics.roots import bracketed_root
+        from gearlink.core.parts.cams.checks import ROLLER_SHARE
+
+        roller = self.section.roller_radius
+        wanted = roller / ROLLER_SHARE * (1.0 + _HAIR)
+
+        def room(radius: float) -> float:
+            return min(cam.min_curvature_radius.value for cam in self._pair(radius)) - wanted
+
+        low = high = max(least, roller)
+        while room(high) < 0.0:
+            low, high = high, 2.0 * high
+            if high > 1000.0 * (roller + self.follower_stroke):
+                raise NoSolution(
+                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm: raise "
+                    "cam.return_angle, or take a smaller roller",
+                    key="cam.roller_radius",
+                )
+        return high if high == low else bracketed_root(room, low, high)
+
+    @cached_property
+    def roller_center_distance(self) -> float:
+        """Distance of the two rollers [mm] that gives both cams the same largest radius."""
+        return self._distance(self.base_radius)
+
+    def _distance(self, base_radius: float) -> float:
+        """L = 2 r_b + s_max + s_min; with s_min = 0 it is the report's 2 r_b + h
+
+        Source
+            TY-460 report 3.6
+        """
+        low, high = self.follower.lift_range
+        return 2.0 * base_radius + high + low
+
+    # The cams
+
+    @property
+    def max_radius(self) -> float:
+        """Largest radius of either profile [mm]: where the lift is greatest, the normal is radial."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[1]
+
+    @property
+    def min_radius(self) -> float:
+        """Smallest radius of either profile [mm]."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[0]
+
+    @property
+    def main_cam(self) -> DiscCam:
+        """The cam of roller 1: pitch radius r_b + s."""
+        return self.discs[0]
+
+    @property
+    def return_cam(self) -> DiscCam:
+        """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
+        return self.discs[1]
+
+    @cached_property
+    def discs(self) -> tuple[DiscCam, DiscCam]:
+        """Main and return cam."""
+        return self._pair(self.base_radius)
+
+    def _pair(self, base_radius: float) -> tuple[DiscCam, DiscCam]:
+        back = base_radius - self._distance(base_radius)
+        return self._disc_cam("main cam", base_radius), self._disc_cam("return cam", back)
+
+    def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
+        from gearlink.core.parts.cams.disc_cam import DiscCam
+        from gearlink.core.parts.cams.profile import translating
+
+        def path(theta: Reals, order: int) -> RollerPath:
+            lift = self._lift(theta, order)
+            return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
+
+        joints = tuple(segment.start for segment in self.follower.segments)
+        key = _OF_SIZE[self.section.base_radius is None]
+        return DiscCam(name, path, 1, self.section.roller_radius, joints, key)
+
+    def _lift(self, theta: Reals, order: int) -> Travel:
+        """The follower's lift; that of the last angles is kept, for both cams are looked at in the same places."""
+        if theta.size > _KEPT:  # for the memory's sake
+            return self.follower.lift(theta, order)
+        places = theta.tobytes()
+        if self._last.get(order, (b"",))[0] != places:
+            self._last[order] = places, self.follower.lift(theta, order)
+        return self._last[order][1]
+
+    @cached_property
+    def _last(self) -> dict[int, tuple[bytes, Travel]]:
+        return {}
+
+    def explained(self, refusal: NoSolution) -> NoSolution:
+        """Where the bed turns back within the zone no size of the cams helps."""
+        turned = turns_back(self.follower) if refusal.key in ("", *_OF_SIZE) and self.follows else None
+        return turned or refusal
+
+    def require_motion(self) -> None:
+        """Compute chains and zone."""
+        _ = self.motion.cam_sync_end
+
+    @property
+    def follows(self) -> bool:
+        """Whether the follower's lift exists over the turn."""
+        try:
+            return bool(self.follower.segments)
+        except NoSolution:
+            return False
+
+
+# The motion of the bed itself: its chain's travel less the lift of the lower rack, where the press has its cam
+
+_TURN = 2.0 * math.pi
+
+
+class BedMotion:
+    """Travel of the bed over arrays of the input angle."""
+
+    def __init__(self, design: FlatbedPress) -> None:
+        self.design = design
+
+    @cached_property
+    def _course(self) -> Course:
+        from gearlink.core.machines.flatbed_press.mechanism import bed
+
+        return bed(self.design)
+
+    def travel(self, input_angle: Reals) -> Travel:
+        """Travel of the bed [mm] and its first two derivatives by the input angle."""
+        return Travel(*self._course.rates(self.design.moving, input_angle, 2))
+
+    def jerk(self, input_angle: Reals) -> Reals:
+        """Third derivative of the bed's travel by the input angle [mm/rad^3]."""
+        return self._course.rates(self.design.moving, input_angle, 3)[3]
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Input angles in [0, 2 pi) at which the law of the lift changes [rad]."""
+        return self.design.moving.input.joints
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of velocity and acceleration of the bed [mm/s, mm/s^2] and their places [rad].
+
+        Notes
+            Where the lift's acceleration jumps both sides count.
+        """
+        from gearlink.core.numerics.motion_extremes import extremes
+
+        speed = self.design.input_speed
+        curves = {
+            "bed_velocity": lambda phi: self.travel(phi).first * speed,
+            "bed_acceleration": lambda phi: self.travel(phi).second * speed**2,
+        }
+        return extremes(curves, 0.0, _TURN, joints=self.joints)
+
+
+_SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")
+_CHAINS = ("min_transmission_angle_bed", "min_transmission_angle_cylinder")
+_CAM = (
+    "cam_base_radius",
+    "end_slope",
+    "transition_rise",
+    "follower_stroke",
+    "return_end",
+    "roller_center_distance",
+    "max_pressure_angle",
+    "min_curvature_radius",
+    "max_radius",
+    "min_radius",
+    "max_pressure_angle_at",
+    "min_curvature_radius_at",
+    "return_max_pressure_angle",
+    "return_max_pressure_angle_at",
+    "return_min_curvature_radius_at",
+    "return_min_curvature_radius",
+    "return_max_radius",
+    "return_min_radius",
+)
+_PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "body-clearance")
+_BEARING = ("pressure-angle", "cam-undercut", "shaft-clearance")
+_CAM_CHECKS = (
+    *_BEARING,
+    "velocity-step",
+    "acceleration-step",
+    "constant-sum",
+    "sync-length",
+)
+_CAM_TABLES = ("follower", "main_cam", "return_cam")
+_PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
+
+
+_BED_EXTREMES = names("bed_velocity", "bed_acceleration")
+_EXTREMES = (
+    "min_transmission_angle_bed_at",
+    "min_transmission_angle_cylinder_at",
+    *_BED_EXTREMES,
+    *names("cylinder_velocity", "cylinder_acceleration"),
+)
+
+
+class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCams):
+    """A flatbed cylinder press, from its design file to every quantity that is asked for."""
+
+    kind = "flatbed-press"
+    spec: FlatbedPressSpec
+    outlines = {
+        "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
+        "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
+        "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
+        "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
+        "analyze": Outline((*_PRESS_QUANTITIES, *_EXTREMES), _PRESS_CHECKS, ("positions",)),
+    }
+
+    derived = DERIVED
+    extreme_names = _EXTREMES
+    motion_extremes: dict[str, float] = placed("motion.extremes")
+    extra_tables = ("chains", "drawing", "candidates")
+    requirements = Design.requirements | {"sync.print_length"}
+    cost = 5.0
+    candidates, ways_of = remedies.candidates, remedies.ways_of
+
+    def completion(self) -> Iterator[Found]:
+        """The base radius in place of the rule that chose it."""
+        if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.base_radius is None:
+            yield Found("cam.base_radius", float(self.cams.base_radius), "found for size")
+            yield Found("size", None)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """Input gears of other modules side by side."""
+        from gearlink.core.machines.flatbed_press.candidates import input_gears
+
+        return input_gears(self)
+
+    # Parts
+
+    @cached_property
+    def motion(self) -> PressMotion:
+        """Chains and synchronous zone."""
+        return PressMotion(self.spec, advise=self.advises)
+
+    @cached_property
+    def cams(self) -> PressCams:
+        """The compensation cams and their follower."""
+        return PressCams(self.spec, self.motion)
+
+    @cached_property
+    def bed_motion(self) -> BedMotion:
+        """The bed, the lift of its cam taken off where the file has one."""
+        return BedMotion(self)
+
+    @property
+    def bed_moves(self) -> bool:
+        """Whether the motion of the bed exists, for which a cam that the file has must have its lift."""
+        return self.spec.cam is None or self.cams.follows
+
+    @cached_property
+    def gear_pair(self) -> GearPair:
+        """Gears 1 and 2 on the axes A and G, equal, with as many teeth as fit unshifted (TY-460 report 1.1)."""
+        gears = self.spec.input_gears
+        if gears is None:
+            raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
+        from gearlink.core.parts.gears.from_spec import pair_at
+
+        bed = self.spec.bed
+        distance = math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
+        # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.
+        transverse = gears.module / math.cos(math.radians(gears.helix_angle))
+        teeth = math.floor(distance / transverse * (1.0 + 1e-12))
+        if teeth < 1:
+            raise NoSolution(
+                f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm: make it smaller",
+                key="input_gears.module",
+            )
+        with in_section("input_gears"):
+            return pair_at(gears, (teeth, teeth), distance)
+
+    @cached_property
+    def gear_data(self) -> GearData:
+        """The input gears with all that their drawing needs."""
+        from gearlink.core.parts.gears.from_spec import data_of
+
+        pair = self.gear_pair
+        assert self.spec.input_gears is not None, "the pair asks for it"
+        with in_section("input_gears"):
+            return data_of(self.spec.input_gears, pair)
+
+    @property
+    def mesh_data(self) -> dict[str, GearData]:
+        """The meshes that the file draws: the input gears alone."""
+        return {"": self.gear_data}
+
+    input_speed: float = placed("motion.input_speed")
+    turn_time: float = placed("motion.turn_time")
+    zone_length: float = placed("motion.zone_length")
+    slider_crank: SliderCrank = placed("motion.slider_crank")
+    bed: BedChain = placed("motion.bed")
+    cylinder: CylinderChain = placed("motion.cylinder")
+    follower: Compensation = placed("cams.follower")
+    main_cam: DiscCam = placed("cams.main_cam")
+    return_cam: DiscCam = placed("cams.return_cam")
+
+    # Quantities
+
+    initial_crank_angle: float = placed("motion.bed.initial_crank_angle")
+    min_transmission_angle_bed: float = placed("motion.min_transmission_angle_bed")
+    min_transmission_angle_cylinder: float = placed("motion.min_transmission_angle_cylinder")
+    sync_start: float = placed("motion.sync_start")
+    sync_end: float = placed("motion.sync_end")
+    cam_sync_start: float = placed("motion.cam_sync_start")
+    cam_sync_end: float = placed("motion.cam_sync_end")
+    compensation: float = placed("motion.compensation")
+    cam_base_radius: float = placed("cams.base_radius")
+    end_slope: float = placed("cams.follower.end_slope")
+    transition_rise: float = placed("cams.follower.transition_rise")
+    follower_stroke: float = placed("cams.follower_stroke")
+    return_end: float = placed("cams.follower.return_end")
+    roller_center_distance: float = placed("cams.roller_center_distance")
+    max_pressure_angle: float = placed("cams.main_cam.max_pressure_angle.value")
+    max_pressure_angle_at: float = placed("cams.main_cam.max_pressure_angle.place")
+    min_curvature_radius_at: float = placed("cams.main_cam.min_curvature_radius.place")
+    return_max_pressure_angle_at: float = placed("cams.return_cam.max_pressure_angle.place")
+    return_min_curvature_radius_at: float = placed("cams.return_cam.min_curvature_radius.place")
+    min_curvature_radius: float = placed("cams.main_cam.min_curvature_radius.value")
+    max_radius: float = placed("cams.max_radius")
+    min_radius: float = placed("cams.min_radius")
+    return_max_pressure_angle: float = placed("cams.return_cam.max_pressure_angle.value")
+    return_min_curvature_radius: float = placed("cams.return_cam.min_curvature_radius.value")
+    return_max_radius: float = placed("cams.max_radius")
+    return_min_radius: float = placed("cams.min_radius")
+
+    def raw(self, name: str) -> Any:
+        """Quantities of the gear pair are its own, and so are extremes of the bed."""
+        if name in _BED_EXTREMES:
+            return self.bed_motion.extremes[name]
+        if name in GEAR_QUANTITIES:
+            return gear_quantity(self.gear_pair, name)
+        if name not in DRAWING_QUANTITIES:
+            return super().raw(name)
+        with at_key("input_gears"):
+            return self.gear_data.quantity(name)
+
+    def needs(self, name: str) -> str:
+        """The keys that the input gears lack for a quantity."""
+        return lacking(name, self.spec.input_gears, "input_gears.")
+
+    def rests_on(self, name: str) -> str:
+        """The factors of the rating."""
+        from gearlink.core.parts.gears.drawing_checks import rests_on
+
+        return rests_on(name, self.gear_data) if name in DRAWING_QUANTITIES else ""
+
+    @property
+    def _shifts_given(self) -> bool:
+        return self.spec.input_gears is not None and self.spec.input_gears.profile_shift is not None
+
+    # Tables and checks
+
+    def table_drawing(self, _samples: int | None = None) -> Table:
+        """The gear table of the drawing of the input gears."""
+        from gearlink.core.parts.gears.drawing import drawing_table
+
+        with at_key("input_gears"):
+            return drawing_table(self.gear_data)
+
+    table_positions, table_follower, table_chains = tables.positions, tables.follower, tables.chains
+    table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
+
+    check_transmission_angle, check_register = checks.transmission_angle, checks.register
+    check_body_clearance = bodies.crank_axes
+    check_sync_speed, check_sync_length = checks.sync_speed, checks.sync_length
+    check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
+    check_shaft_clearance, check_constant_sum = checks.shaft_clearance, checks.constant_sum
+    check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks come from the gear pair, all others are the press's own."""
+        if name not in GEAR_CHECKS and name not in DRAWING_CHECKS:
+            return super().check(name)
+        from gearlink.core.parts.gears.drawing_checks import pair_check
+
+        with at_key("input_gears"):
+            return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
+
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """`press` judges whether the cams can bear the motion, `analyze` the cams."""
+        of_cams = {} if spec.cam is None else {"press": _BEARING, "analyze": _CAM_CHECKS}
+        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams.get(command, ()))))
+
+    def outline(self, command: str) -> Outline:
+        """With the section `cam`, `press` judges whether the cams can bear the motion; `analyze` shows them too."""
+        outline = self.outlines[command]
+        if command not in ("press", "analyze") or self.spec.cam is None:
+            return outline
+        bearing = _BEARING if self.cams.is_sized else ()
+        if command == "press":
+            return Outline(outline.quantities, (*outline.checks, *bearing), outline.tables)
+        if bearing and self.cams.is_refused:
+            left_out = () if self.bed_moves else _BED_EXTREMES
+            quantities = tuple(name for name in outline.quantities if name not in left_out)
+            return Outline(quantities, (*outline.checks, *bearing), outline.tables)
+        return Outline(
+            (*outline.quantities, *_CAM),
+            tuple(dict.fromkeys([*outline.checks, *_CAM_CHECKS])),
+            (*outline.tables, *_CAM_TABLES),
+        )

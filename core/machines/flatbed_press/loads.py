@@ -1,0 +1,209 @@
+"""The loads of a flatbed press: what presses the rollers of its cams, beside what all machines have."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import MissingSection
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.flatbed_press import loads_checks, mechanism
+from gearlink.core.machines.flatbed_press.design import FlatbedPress
+from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
+from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.design import loads_outline
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from gearlink.core.machines.flatbed_press.loads_spec import PressLoads as Section
+    from gearlink.core.machines.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.mechanism.motion import Motion
+    from gearlink.core.mechanism.rates import Turn
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.studies.loads.base import Wanted
+    from gearlink.core.studies.loads.cams.contact import RollerOnCam
+
+_TURN = 2.0 * math.pi
+
+
+class PressLoads(CamLoadsDesign):
+    """The twelve links of the machine; input angle and senses are the press's own."""
+
+    kind = "flatbed-press"
+    spec: FlatbedPressSpec
+    section: Section
+    links = ("gear2", "BC", "CDE", "EF", "carriage", "pinion", "rack", "bed", "gear1", "HM", "MN", "cylinder")
+    sliding = ("carriage", "rack", "bed")
+    pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")
+    meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
+    output = "bed"
+    outlines = loads_outline(pins, meshes, CONTACT, (*CAM_CHECKS, *loads_checks.PLACE_CHECKS))
+    on_two_sides = True
+
+    @cached_property
+    def design(self) -> FlatbedPress:
+        """The geometry."""
+        return FlatbedPress(self.spec)
+
+    @property
+    def given_speed(self) -> float:
+        """Sheets an hour, one turn of the input each."""
+        return self.spec.speed
+
+    @cached_property
+    def speed(self) -> float:
+        """One turn of the input a sheet [rad/s]."""
+        return self.design.input_speed
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The synchronous zone."""
+        motion = self.design.motion
+        return [(motion.sync_start, motion.sync_end - motion.sync_start)]
+
+    @property
+    def transmission_angle(self) -> float:
+        """The least of both chains and the rod [rad]."""
+        motion = self.design.motion
+        return min(motion.min_transmission_angle_bed, motion.min_transmission_angle_cylinder, motion.min_rod_angle)
+
+    @property
+    def unknown_joints(self) -> tuple[str, ...]:
+        """Bearings whose forces depend on where the gears' axes stand."""
+        gears = () if self.section.gear_1_direction is not None else ("A", "G")
+        return gears if self.section.cylinder_direction is not None else (*gears, "N", "cylinder")
+
+    @cached_property
+    def pitch_radii(self) -> tuple[float, float]:
+        """Of gears 3 and 4 [mm]."""
+        return mechanism.pitch_radii(self.design)
+
+    @cached_property
+    def pinion_radius(self) -> float:
+        """Pitch radius of the pinion [mm]."""
+        return mechanism.pinion_radius(self.design)
+
+    @property
+    def own_joints(self) -> list[float]:
+        """Input angles at which the follower's law changes [rad]."""
+        return list(self.moving.input.joints)
+
+    @property
+    def moving(self) -> Motion:
+        """The motion of the twelve links, which needs cam and input gears."""
+        if self.spec.cam is None:
+            raise MissingSection(
+                "`loads` of a press needs the section cam: its follower moves the lower rack", key="cam"
+            )
+        _ = self.design.gear_pair, self.design.cams.base_radius
+        return self.design.moving
+
+    check_cylinder_place, check_gear_direction = loads_checks.cylinder_place, loads_checks.gear_direction
+
+    @cached_property
+    def places(self) -> tuple[dict[str, complex], dict[str, complex]]:
+        """Where pins and racks stand at input angle 0 [mm], in the frame of the forces."""
+        from gearlink.core.mechanism.joints import Pin, Rack
+
+        joints = self._connections
+        return (
+            {each.name: complex(each.at[0]) for each in joints if isinstance(each, Pin)},
+            {each.name: complex(each.pitch_point[0]) for each in joints if isinstance(each, Rack)},
+        )
+
+    @property
+    def dwell_zones(self) -> list[tuple[float, float]]:
+        """The bed does not stand anywhere."""
+        return []
+
+    speed_unit, speed_unit_name, speed_words = _TURN / 3600.0, "sheets/h", "sheets/h"
+    speed_seconds = 3600.0
+
+    # Rollers
+
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
+        from gearlink.core.studies.loads.cams.contact import RollerOnCam
+
+        cams, links = self.design.cams, self.machine.at(phi)
+        cam = mechanism.follower_lift(links)
+        at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
+        rates = (at + cam.value, cam.first, cam.second)
+        position, first, second = (1j * part for part in rates)
+        return RollerOnCam(position, first, second, 1, cams.section.roller_radius)
+
+    def _cam_turn(self, phi: Reals) -> Turn:
+        """Angle turned by the cams."""
+        from gearlink.core.mechanism.rates import from_start
+
+        return from_start(self.machine.at(phi).links["CDE"].turn, self.design.bed.cam_angle_start)
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Out of the reactions: the main cam pushes, the return cam pulls back; with a preload both press."""
+        import numpy as np
+
+        from gearlink.core.studies.loads.cams.contact import positive_drive
+
+        net = self.side_force(phi)
+        if not self._preload:
+            return np.asarray(np.maximum(net if name == "main" else -net, 0.0))
+        both = positive_drive(net, self._preload, self._stiffness)
+        return both[0] if name == "main" else both[1]
+
+    def side_force(self, phi: Reals) -> Reals:
+        """What the cams give the follower of the rack along +y [N], less a preload."""
+        found: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        return found
+
+    @property
+    def _preload(self) -> float:
+        roller = self.section.roller
+        return 0.0 if roller is None else roller.preload
+
+    @property
+    def _stiffness(self) -> tuple[float, float]:
+        roller = self.section.roller
+        if roller is None or roller.stiffness is None:
+            return 1.0, 1.0
+        return roller.stiffness[0], roller.stiffness[1]
+
+    @cached_property
+    def preload_needed(self) -> float | None:
+        """Least preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
+        if self.section.roller is None:
+            return None
+        return self.extreme_of("preload").value
+
+    def _needed(self, phi: Reals) -> Reals:
+        import numpy as np
+
+        share = self._stiffness[0] / sum(self._stiffness)
+        net = self.side_force(phi)
+        return np.asarray(np.maximum(net * (1.0 - share), -net * share))
+
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """The preload that an input angle needs as well."""
+        return self._needed if name == "preload" else super().course(name)
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        if quantity == "preload_needed" and self.section.roller is not None:
+            return (("preload", True),)
+        return super().wanted(quantity)
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """Speed of CDE [rad/s]."""
+        found: Reals = self._cam_turn(phi).first * self.speed
+        return found
+
+    def cam_acceleration(self, phi: Reals) -> Reals:
+        """Its derivative by time [rad/s^2]."""
+        found: Reals = self._cam_turn(phi).second * self.speed**2
+        return found
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """Angle turned by the cams [deg]."""
+        import numpy as np
+
+        return np.degrees(self._cam_turn(phi).value)

@@ -1,0 +1,155 @@
+"""The design file of a flatbed cylinder press."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    Deferred,
+    Distance,
+    DrawingLimits,
+    GearLimits,
+    Length,
+    LoadLimits,
+    Ratio,
+    SignedLength,
+    Spec,
+    TolerancedSpec,
+    require_offset_below_rod,
+)
+from gearlink.core.parts.cams.spec import MotionLaw
+from gearlink.core.parts.gears.keys.pair import PairKeys
+
+TurnAngle = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
+PartOfTurn = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+
+
+class InputGears(PairKeys):
+    """The 1:1 pair that brings the power in; its centre distance follows from the machine."""
+
+    horizontal_distance: Length = Field(description="horizontal distance w of the two axes")
+
+
+class DoubleCrank(Spec):
+    """A drag link: the frame is the shortest link and both cranks turn fully."""
+
+    crank: Length = Field(description="driving crank")
+    coupler: Length = Field(description="coupler")
+    rocker: Length = Field(description="driven crank")
+    frame: Length = Field(description="frame")
+    assembly: Assembly = Field(1, description="+1: coupler pin left of the vector crank pin -> far pivot")
+
+
+class Cylinder(Spec):
+    """The cylinder chain."""
+
+    radius: Length = Field(description="radius of the printing cylinder")
+    gear_ratio: Ratio = Field(1.0, description="cylinder turns per turn of MN")
+    double_crank: DoubleCrank
+    initial_crank_angle: Angle = Field(description="angle of GH from the line G-N at the start")
+
+
+class Bed(Spec):
+    """The bed chain: drag link, slider-crank, pinion between two racks."""
+
+    stroke: Length = Field(description="stroke of the bed, twice the slider's")
+    double_crank: DoubleCrank
+    crank_offset_angle: Angle = Field(description="angle CDE between the driven crank and the slider's crank")
+    rod: Length = Field(description="connecting rod EF")
+    offset: SignedLength = Field(0.0, description="offset e of the slide line from D")
+
+    @model_validator(mode="after")
+    def _reachable(self) -> Bed:
+        require_offset_below_rod(self.rod, self.offset, "offset")
+        return self
+
+
+class Sync(Spec):
+    """The synchronous zone."""
+
+    length: Length = Field(420.0, description="cylinder travel of the zone")
+    print_length: Distance = Field(0.0, description="print length that the zone must cover; 0: not checked")
+    start: TurnAngle | None = Field(None, description="input angle at the start, in place of the equal-speed point")
+    end: TurnAngle | None = Field(None, description="input angle at the end, in place of `length`")
+
+
+class PressCam(Spec):
+    """The compensation cam pair."""
+
+    base_radius: Length | None = Field(
+        None, description="cam axis to roller centre at zero lift; left out: chosen by the section `size`"
+    )
+    roller_radius: Length = Field(description="radius of both rollers")
+    transition: Literal["arc", "parabola", "quartic"] = Field(
+        "quartic", description="how the end slope is brought to 0"
+    )
+    lead_in: TurnAngle = Field(0.0, description="cam angle before the zone; 0: none")
+    transition_end: PartOfTurn | None = Field(
+        None, description="cam angle at which the lift is greatest; this or `transition_angle`"
+    )
+    transition_angle: PartOfTurn | None = Field(
+        None, description="cam angle from the end of the zone to the greatest lift, in place of `transition_end`"
+    )
+    return_angle: PartOfTurn = Field(description="cam angle of the return")
+    return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+
+    @model_validator(mode="after")
+    def _one_transition(self) -> PressCam:
+        if self.transition_end is None and self.transition_angle is None:
+            raise PydanticCustomError(
+                "GL106", "either transition_end or transition_angle is needed", {"key": "transition_end"}
+            )
+        if self.transition_end is not None and self.transition_angle is not None:
+            message = "transition_end and transition_angle exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": "transition_angle"})
+        return self
+
+
+class PressSize(Spec):
+    """How a base radius that is left out is chosen: the smallest cams that keep a pressure angle, roller and shaft."""
+
+    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="pressure angle that neither cam exceeds"
+    )
+
+
+class PressLimits(DrawingLimits, GearLimits, LoadLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(30.0, description="least transmission angle of both chains")
+    pressure_angle: AcuteAngle = Field(30.0, description="greatest pressure angle of the cams")
+
+
+class FlatbedPressSpec(TolerancedSpec):
+    """Cylinder chain, bed chain, synchronous zone and compensation cams."""
+
+    kind: Literal["flatbed-press"]
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")
+    input_gears: InputGears | None = None
+    cylinder: Cylinder
+    bed: Bed
+    sync: Sync = Sync.model_construct()
+    cam: PressCam | None = None
+    size: PressSize | None = None
+    limits: PressLimits = PressLimits.model_construct()
+    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
+        None,
+        alias="register",
+        description="what bed and cylinder may lose in the synchronous zone, for the command register",
+    )
+    loads: Annotated[Any, Deferred("machines.flatbed_press.loads_spec:PressLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        gears: tuple[str, ...] = ("gear",) if self.input_gears is not None else ()
+        gears += ("loads",) if self.loads is not None else ()
+        return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

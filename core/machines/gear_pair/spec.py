@@ -1,0 +1,163 @@
+"""The design file of a gear pair."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    Deferred,
+    DrawingLimits,
+    Entries,
+    GearLimits,
+    Length,
+    LoadLimits,
+    TolerancedSpec,
+)
+from gearlink.core.parts.gears.keys.pair import PairKeys
+from gearlink.core.parts.gears.keys.types import Shift, SignedTeeth, TwoShifts
+
+
+class PairLimits(DrawingLimits, GearLimits, LoadLimits):
+    """Limits of the checks of a gear pair."""
+
+
+class GearPairSpec(TolerancedSpec, PairKeys):
+    """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
+
+    kind: Literal["gear-pair"]
+    teeth: Annotated[
+        list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2), Entries("[gear 1, gear 2]", "[25, 40]")
+    ] = Field(description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack")
+    center_distance: Length | None = Field(
+        None, description="working centre distance; with profile_shift the difference is backlash"
+    )
+    profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
+    helix_hand: Annotated[Any, Deferred("parts.gears.keys.types:TwoHands")] | None = Field(
+        None, description="hands of helix of gear 1 and 2, for drawing and exports"
+    )
+    tip_shortening: Annotated[Any, Deferred("parts.gears.keys.types:TipShortening")] | None = Field(
+        None,
+        description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
+    )
+    tip_diameter: Annotated[Any, Deferred("parts.gears.keys.types:TwoLengths")] | None = Field(
+        None, description="tip diameters, in place of tip_shortening"
+    )
+    rim_thickness: Annotated[Any, Deferred("parts.gears.keys.types:RimOrTwo")] | None = Field(
+        None,
+        description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
+        "or rack in exports, which left out is 2 modules",
+    )
+    rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
+        None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
+    )
+    cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
+        None, description="pinion cutter of a ring: only then its fillets are known"
+    )
+    span_teeth: Annotated[Any, Deferred("parts.gears.keys.types:TwoSpans")] | None = Field(
+        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+    )
+    assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
+    shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
+        "equal", description="how the shift sum is shared when center_distance alone is given: by a criterion, or x1"
+    )
+    limits: PairLimits = PairLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.gear_pair.loads_spec:PairLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _placed(self) -> GearPairSpec:
+        require_teeth(self.teeth)
+        if self.center_distance is None and self.profile_shift is None:
+            raise PydanticCustomError(
+                "GL106", "either center_distance or profile_shift is needed", {"key": "center_distance"}
+            )
+        exclude_each_other(self, "tip_shortening", "tip_diameter")
+        for place, spanned in enumerate(self.span_teeth or ()):
+            z = self.teeth[place]
+            if isinstance(z, int) and spanned > abs(z):
+                message = "a gear of {z} teeth has no span over {k}"
+                key = f"span_teeth[{place}]"
+                raise PydanticCustomError("GL111", message, {"key": key, "z": abs(z), "k": spanned})
+        return self
+
+    @model_validator(mode="after")
+    def _fits_its_kind(self) -> GearPairSpec:
+        second = self.teeth[1]
+        internal = isinstance(second, int) and second < 0
+        self._fits_a_rack()
+        if self.cutter is not None and not internal:
+            message = "a pinion cutter goes with a ring (negative teeth): leave it out, or give tool"
+            raise PydanticCustomError("GL111", message, {"key": "cutter"})
+        if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
+            message = "a cutter of {cutter} teeth does not go into a ring of {ring}: take a smaller one"
+            raise PydanticCustomError(
+                "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
+            )
+        if self.helix_hand is None:
+            return self
+        if self.helix_angle == 0.0:
+            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        if (self.helix_hand[0] == self.helix_hand[1]) != internal:
+            message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        return self
+
+    @property
+    def rack(self) -> bool:
+        """Whether gear 2 is a rack."""
+        return self.teeth[1] == "rack"
+
+    def _fits_a_rack(self) -> None:
+        """Refuse what a rack cannot have."""
+        if not self.rack:
+            if self.rack_teeth is not None:
+                message = "rack_teeth goes with teeth: [z, rack]: leave it out"
+                raise PydanticCustomError("GL111", message, {"key": "rack_teeth"})
+            return
+        if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
+            message = "a rack has no shift: give profile_shift: [x1, 0], or center_distance to its datum line"
+            key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
+            raise PydanticCustomError("GL111", message, {"key": key})
+        if self.shift_split != "equal":
+            message = "a rack takes no share of the shift: leave shift_split out; center_distance alone gives x1"
+            raise PydanticCustomError("GL111", message, {"key": "shift_split"})
+        for key in ("loads", "tip_diameter"):
+            if getattr(self, key) is not None:
+                message = "{key} is not known of a gear on a rack: leave it out"
+                raise PydanticCustomError("GL111", message, {"key": key})
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("gear", *(("loads",) if self.loads is not None else ()))
+
+
+def exclude_each_other(spec: Any, first: str, second: str) -> None:
+    """Refuse a file that gives both of two keys."""
+    if getattr(spec, first) is not None and getattr(spec, second) is not None:
+        message = f"{first} and {second} exclude each other: give one"
+        raise PydanticCustomError("GL111", message, {"key": second})
+
+
+def require_teeth(teeth: list[Any]) -> None:
+    """Refuse teeth that no pair has: gear 1 is external, gear 2 external, a ring (negative), or a rack."""
+    first, second = teeth
+    if first == "rack":
+        message = "teeth[0] must be a number: gear 1 is external, a rack is teeth: [z, rack]"
+        raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
+    for place, z in enumerate((first, second)):
+        if z == 0 or (place == 0 and z < 0):
+            message, help_ = "{key} must be at least 1, not {value}", "allowed: from 1 to 10000"
+            if z < 0:
+                help_ = "a ring is gear 2: teeth: [21, -67]"
+            if place == 1:
+                message = "{key} must be 1 or more, -1 or less for a ring, or rack, not {value}"
+                help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
+            raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
+    if second != "rack" and second < 0 and -second <= first:
+        message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"
+        raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})

@@ -1,0 +1,393 @@
+"""Gear trains on a linkage as a design: degrees of freedom, and why a train does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count, pairwise
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import amount
+from gearlink.core.machines.mobility import freedom as mobility
+from gearlink.core.machines.mobility import remedies
+from gearlink.core.machines.mobility.freedom import common_links, pin_names
+from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.mobility.spec import Gear, GearTrainMobilitySpec, Train
+
+
+_PRIME = 2**61 - 1
+_BASE = 0x1E3779B97F4A7C15
+"""Its powers to the squares are spread over the numbers below the prime: a general position, the same every time."""
+Row: TypeAlias = dict[tuple[str, ...], int]
+"""Coefficients of the velocities, by link or gear and component."""
+
+
+class _Rows:
+    """Equations that do not follow from each other, each without the unknowns that those before it give."""
+
+    def __init__(self) -> None:
+        self.kept: dict[tuple[str, ...], Row] = {}
+
+    def left_of(self, row: Row) -> Row:
+        """What is left of an equation once the others are put into it; empty where it says nothing new."""
+        left = dict(row)
+        for pivot, known in self.kept.items():
+            if share := left.get(pivot, 0):
+                for name, value in known.items():
+                    left[name] = (left.get(name, 0) - share * value) % _PRIME
+        return {name: value for name, value in left.items() if value % _PRIME}
+
+    def add(self, row: Row) -> bool:
+        """Keep an equation; whether it says something new."""
+        left = self.left_of(row)
+        if not left:
+            return False
+        pivot = next(iter(left))
+        inverse = pow(left[pivot], -1, _PRIME)
+        self.kept[pivot] = {name: value * inverse % _PRIME for name, value in left.items()}
+        return True
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """The joints of a linkage and the meshes of the trains on it.
+
+    Parameters
+        links : mapping - name of each link and the pins that it carries
+        trains : Trains of the file, whose gears sit on pins of links that carry their neighbours too
+    Example
+        A third bar to the point that two hold says again what they say: the crank besides moves, the count is 0.
+
+        >>> truss = {"frame": "ABDP", "one": "AC", "two": "BC", "three": "DC"}
+        >>> held = Constraints({**truss, "crank": "PQ"}, ())
+        >>> held.freedom, held.repeated
+        (1, ['pin C'])
+    """
+
+    links: Mapping[str, Sequence[str]]
+    trains: Sequence[Train]
+
+    @cached_property
+    def _found(self) -> tuple[_Rows, list[str]]:
+        rows, again, numbers = _Rows(), list[str](), (pow(_BASE, k * k, _PRIME) for k in count(1))
+        for pin in pin_names(self.links):
+            x, y = next(numbers), next(numbers)
+            one, *others = (name for name, pins in self.links.items() if pin in pins)
+            for other in others:
+                across: Row = {(one, "x"): 1, (other, "x"): -1, (one, "w"): -y, (other, "w"): y}
+                along: Row = {(one, "y"): 1, (other, "y"): -1, (one, "w"): x, (other, "w"): -x}
+                if not all([rows.add(across), rows.add(along)]):
+                    again.append(f"pin {pin}")
+        for i, train in enumerate(self.trains, start=1):
+            known = all(gear.teeth is not None for gear in train.gears)
+            radii = [gear.teeth if known and gear.teeth else next(numbers) for gear in train.gears]
+            for j in range(len(train.gears) - 1):
+                row = self._mesh(i, train, j, radii)
+                if row is not None and not rows.add(row):
+                    again.append(f"train {i}")
+        return rows, list(dict.fromkeys(again))
+
+    def _mesh(self, i: int, train: Train, j: int, radii: Sequence[int]) -> Row | None:
+        """r_1 (w_1 - w_c) +- r_2 (w_2 - w_c) = 0, minus where one of the gears is a ring."""
+        one, other = train.gears[j : j + 2]
+        carriers = common_links(self.links, one.at, other.at)
+        if not carriers:
+            return None
+        ring = -1 if one.ring or other.ring else 1
+        row: Row = {}
+        terms = ((_turn(i, j, one), radii[j]), (_turn(i, j + 1, other), ring * radii[j + 1]))
+        for name, radius in terms:
+            for key, value in ((name, radius), ((carriers[0], "w"), -radius)):
+                row[key] = row.get(key, 0) + value
+        return row
+
+    @property
+    def repeated(self) -> list[str]:
+        """The pins and trains that say again what those before them say."""
+        return self._found[1]
+
+    @cached_property
+    def freedom(self) -> int:
+        """Degrees of freedom against any one link."""
+        free = sum(gear.fixed_to is None for train in self.trains for gear in train.gears)
+        return 3 * len(self.links) + free - len(self._found[0].kept) - 3
+
+    def held(self) -> Iterator[int]:
+        """Numbers of the trains, from 1 on, of which no gear can turn against its link while other parts move."""
+        rows = self._found[0]
+        if not self.freedom:
+            return
+        for i, train in enumerate(self.trains, start=1):
+            turns: list[Row] = []
+            for j, (one, other) in enumerate(pairwise(train.gears)):
+                carriers = common_links(self.links, one.at, other.at)
+                turns += [
+                    {_turn(i, k, gear): 1, (carrier, "w"): -1}
+                    for k, gear in ((j, one), (j + 1, other))
+                    for carrier in carriers[:1]
+                    if _turn(i, k, gear) != (carrier, "w")
+                ]
+            if turns and not any(rows.left_of(turn) for turn in turns):
+                yield i
+
+
+def _turn(i: int, j: int, gear: Gear) -> tuple[str, ...]:
+    """The turning speed of a gear: that of the link that it is fixed to, or its own."""
+    return (gear.fixed_to, "w") if gear.fixed_to is not None else ("gear", str(i), str(j))
+
+
+# As for a gear pair that is given by shifts and centre distance: a share of the module.
+_DISTANCE_TOLERANCE = 1e-6
+
+
+class GearTrainMobility(Design):
+    """A pin-jointed linkage with gear trains on its pins."""
+
+    kind = "gear-train-mobility"
+    spec: GearTrainMobilitySpec
+    outlines = {
+        "analyze": Outline(
+            ("link_count", "linkage_mobility", "train_count", "fixed_ends", "mobility_changes", "mobility"),
+            ("train-fit", "mobility"),
+            ("trains",),
+        )
+    }
+
+    @cached_property
+    def links(self) -> dict[str, tuple[str, ...]]:
+        """Pins of each link."""
+        return {name: tuple(link.pins) for name, link in self.spec.links.items()}
+
+    @property
+    def link_count(self) -> int:
+        """Links, the frame among them."""
+        return len(self.links)
+
+    @cached_property
+    def linkage_mobility(self) -> int:
+        """Degrees of freedom of the linkage alone."""
+        with at_key("links"):
+            return mobility.linkage_mobility(self.links)
+
+    @property
+    def train_count(self) -> int:
+        """Gear trains."""
+        return len(self.spec.trains)
+
+    @cached_property
+    def fixed_ends(self) -> list[int]:
+        """R of each train: gears that are fixed to a link."""
+        self.require_names()
+        return [sum(gear.fixed_to is not None for gear in train.gears) for train in self.spec.trains]
+
+    @cached_property
+    def mobility_changes(self) -> list[int]:
+        """What each train adds to the degrees of freedom."""
+        changes = []
+        for i, fixed in enumerate(self.fixed_ends):
+            with at_key(f"trains[{i}].gears"):
+                changes.append(mobility.train_change(fixed))
+        return changes
+
+    @cached_property
+    def mobility(self) -> int:
+        """Degrees of freedom of the whole."""
+        return self.linkage_mobility + sum(self.mobility_changes)
+
+    def table_trains(self, _samples: int | None = None) -> Table:
+        """A row per train: its gears, where they sit, fixed ends, change of the degrees of freedom."""
+        trains = self.spec.trains
+        columns: dict[str, tuple[list[Any], str]] = {
+            "train": ([float(i) for i in range(1, len(trains) + 1)], "1"),
+            "gears": ([_words(train) for train in trains], "1"),
+            "fixed_ends": ([float(fixed) for fixed in self.fixed_ends], "1"),
+            "change": ([float(change) for change in self.mobility_changes], "1"),
+        }
+        return Table.of("trains", columns)
+
+    # Checks
+
+    candidates = remedies.candidates
+
+    def check_train_fit(self) -> Iterator[Check]:
+        """GL308: what keeps a train from running on the linkage, one finding per reason."""
+        self.require_names()
+        for i, train in enumerate(self.spec.trains, start=1):
+            reasons = self._reasons[i - 1]
+            if i in self._held:
+                reasons = ["its gears cannot turn: what they are fixed to holds them; put it on other pins"]
+            for reason in reasons:
+                yield TRAIN_FIT.check("fail", f"train {i}: {reason}")
+            if not reasons:
+                yield TRAIN_FIT.check("pass", f"train {i} fits: {_words(train)}")
+
+    def check_mobility(self) -> Check:
+        """GL309: degrees of freedom against those that are wanted."""
+        found, wanted = self.mobility, self.spec.mobility
+        terms = "".join(f" {change:+d}" for change in self.mobility_changes)
+        free = amount(found, "degree of freedom", "degrees of freedom")
+        text = f"{free}: linkage {self.linkage_mobility}, trains{terms or ' none'}"
+        if found == wanted:
+            return self._general(text) or MOBILITY.check("pass", text, float(found), float(wanted))
+        text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
+        return MOBILITY.check("fail", text, float(found), float(wanted))
+
+    @cached_property
+    def _reasons(self) -> list[list[str]]:
+        """Why each train does not fit, one by one."""
+        return [[*self._fixing(train), *self._meshes(train)] for train in self.spec.trains]
+
+    @cached_property
+    def _constraints(self) -> Constraints | None:
+        """Joints and meshes of trains that fit; None where one does not."""
+        return None if any(self._reasons) else Constraints(self.links, self.spec.trains)
+
+    @cached_property
+    def _held(self) -> frozenset[int]:
+        return frozenset(() if self._constraints is None else self._constraints.held())
+
+    def _general(self, text: str) -> Check | None:
+        """GL309 where constraints that repeat others leave more freedom than is counted; None where they do not."""
+        found, wanted = self._constraints, self.spec.mobility
+        if found is None or found.freedom == wanted:
+            return None
+        again = " and ".join(found.repeated)
+        text += (
+            f"; but {again} {'says' if len(found.repeated) == 1 else 'say'} again what other parts say: what is held "
+        )
+        text += (
+            f"twice cannot move, all together have {amount(found.freedom, 'degree', 'degrees')} of freedom; put it on "
+        )
+        text += "other pins or links"
+        return MOBILITY.check("fail", text, float(found.freedom), float(wanted))
+
+    def _mobility_remedy(self, excess: int) -> str:
+        """What brings the degrees of freedom to those that are wanted, by the rule of composition."""
+        count = abs(excess)
+        times = "one end gear" if count == 1 else f"{count} end gears"
+        if excess < 0:
+            return f"free {times} from the link" if sum(self.fixed_ends) >= count else "add a link or free a joint"
+        free = 2 * self.train_count - sum(self.fixed_ends)
+        if free >= count:
+            return f"fix {times} to the link at its pin"
+        more = count - free
+        ends = "both ends of every train and " if free else ""
+        return f"fix {ends}both ends of {more} more {'train' if more == 1 else 'trains'}, each of which takes 1 away"
+
+    def _fixing(self, train: Train) -> Iterator[str]:
+        """Why the fixing of the gears does not fit."""
+        for j, gear in enumerate(train.gears, start=1):
+            if gear.fixed_to is None:
+                continue
+            if 1 < j < len(train.gears):
+                yield (
+                    f"gear {j} stands between others and is fixed to {gear.fixed_to}; only end gears may be: end the "
+                    "train there and begin the next with the same gear"
+                )
+            if gear.at not in self.links[gear.fixed_to]:
+                able = " or ".join(name for name, pins in self.links.items() if gear.at in pins)
+                yield f"gear {j} sits on pin {gear.at}, which {gear.fixed_to} does not carry: fix it to {able}"
+        first, last = train.gears[0].fixed_to, train.gears[-1].fixed_to
+        if first is not None and first == last and all(gear.at in self.links[first] for gear in train.gears):
+            yield (
+                f"both ends are fixed to {first}, which carries the whole train: it cannot turn against it and takes "
+                "no freedom away, free one end or fix it to another link"
+            )
+
+    def _meshes(self, train: Train) -> Iterator[str]:
+        """Why neighbours cannot stay in mesh."""
+        for j, (one, other) in enumerate(pairwise(train.gears), start=1):
+            if one.at == other.at:
+                yield f"gears {j} and {j + 1} sit on the same pin {one.at}: neighbours need a link between their pins"
+                continue
+            common = mobility.common_links(self.links, one.at, other.at)
+            if not common:
+                yield (
+                    f"no link carries both pin {one.at} and pin {other.at}, so gears {j} and {j + 1} do not keep their "
+                    "distance: put them on two pins of one link"
+                )
+                continue
+            yield from self._distance(train.module, one, other, common[0], f"gears {j} and {j + 1}")
+
+    def _distance(self, module: float | None, one: Gear, other: Gear, link: str, which: str) -> Iterator[str]:
+        """Why the centre distance is not the link's length or another mesh's, where the file tells them."""
+        distance, length = _distance(module, one, other), self.spec.links[link].length
+        if distance is None or module is None:
+            return
+        if one.ring and other.ring:
+            yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
+            return
+        ring, inner = (one, other) if one.ring else (other, one)
+        if ring.ring and ring.teeth is not None and inner.teeth is not None and ring.teeth <= inner.teeth:
+            yield f"{which}: a ring of {ring.teeth} teeth does not take a gear of {inner.teeth}, it needs more"
+            return
+        if length is not None:
+            if abs(distance - length) > _DISTANCE_TOLERANCE * module:
+                yield (
+                    f"{which} mesh at {distance:.9g} mm, but links.{link}.length is {length:.9g} mm: the two must be "
+                    "the same"
+                )
+            return
+        first, apart = self._first_distance[frozenset((one.at, other.at))]
+        if abs(distance - apart) > _DISTANCE_TOLERANCE * module:
+            yield (
+                f"{which} mesh at {distance:.9g} mm, but train {first} holds {one.at} and {other.at} {apart:.9g} mm "
+                "apart: change module or teeth of one of the two"
+            )
+
+    @cached_property
+    def _first_distance(self) -> dict[frozenset[str], tuple[int, float]]:
+        """For two pins the first train that tells their distance [mm], counted from 1, and the distance."""
+        found: dict[frozenset[str], tuple[int, float]] = {}
+        for i, train in enumerate(self.spec.trains, start=1):
+            for one, other in pairwise(train.gears):
+                distance = _distance(train.module, one, other)
+                if distance is not None:
+                    found.setdefault(frozenset((one.at, other.at)), (i, distance))
+        return found
+
+    def distances_of(self, train: Train) -> list[float | None]:
+        """Centre distance of each mesh of a train [mm]; None where the file does not tell it."""
+        return [_distance(train.module, one, other) for one, other in pairwise(train.gears)]
+
+    def apart(self, one: Gear, other: Gear) -> float | None:
+        """Distance of the pins of two gears [mm], by the link that carries both or the first train that tells it."""
+        if one.at == other.at:
+            return None
+        common = mobility.common_links(self.links, one.at, other.at)
+        length = self.spec.links[common[0]].length if common else None
+        known = self._first_distance.get(frozenset((one.at, other.at)))
+        return length if length is not None or known is None else known[1]
+
+    def require_names(self) -> None:
+        """Refuse gears on pins or links that the linkage does not have."""
+        pins = mobility.pin_names(self.links)
+        for i, train in enumerate(self.spec.trains):
+            for j, gear in enumerate(train.gears):
+                place = f"trains[{i}].gears[{j}]"
+                if gear.at not in pins:
+                    raise NoSolution(f"the linkage has no pin {gear.at}; it has {', '.join(pins)}", key=f"{place}.at")
+                if gear.fixed_to is not None and gear.fixed_to not in self.links:
+                    known = ", ".join(self.links)
+                    raise NoSolution(
+                        f"the linkage has no link {gear.fixed_to}; it has {known}", key=f"{place}.fixed_to"
+                    )
+
+
+def _distance(module: float | None, one: Gear, other: Gear) -> float | None:
+    """Centre distance of two gears [mm], None where the file does not tell it; a ring gear has the other within it."""
+    if module is None or one.teeth is None or other.teeth is None:
+        return None
+    teeth = abs(one.teeth - other.teeth) if one.ring or other.ring else one.teeth + other.teeth
+    return module * teeth / 2.0
+
+
+def _words(train: Train) -> str:
+    """A train in words: the pins in mesh order, a fixed gear with its link."""
+    return " - ".join(gear.at + (f" (on {gear.fixed_to})" if gear.fixed_to else "") for gear in train.gears)

@@ -1,0 +1,59 @@
+"""The mechanisms of two-gear four-bar and geared rocker: a four-bar, a free gear, a mesh on the carrier link."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.joints import Mesh, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
+from gearlink.core.mechanism.rates import from_start, mixed
+from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+from gearlink.core.parts.linkages.fourbar.position import solve
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
+    from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
+    from gearlink.core.numerics.arrays import Reals
+
+OUTPUT = turned("output")
+
+
+def two_gears(design: TwoGearFourBar) -> Motion:
+    """Planet on the coupler at B, output gear or ring on A; A at 0 and D on +x."""
+    return _motion(design, "crank", "A_output", design.internal)
+
+
+def geared_rocker(design: GearedRocker) -> Motion:
+    """Gear on the coupler at C, output gear on D; A at 0 and D on +x."""
+    return _motion(design, "rocker", "D_output", internal=False)
+
+
+def _motion(design: Any, carrier: str, output_pin: str, internal: bool) -> Motion:
+    """Links and joints over the crank angle; the output counts from crank angle 0.
+
+    th5 = (1 - i) carrier + i coupler,   i = -z2/z5 of an external mesh, +z2/z5 of a ring
+
+    Source
+        thesis 2.2.1, integrated
+    """
+    linkage, ratio = design.linkage, design.gear_ratio
+    pair, at_start = signed_pair(design.mesh), solve(linkage, 0.0)
+    r2, r5 = pair.working_radius
+    tangent = math.tan(pair.working_pressure_angle)
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        links = four_bar(linkage, phi, order)
+        pins = four_bar_pins(links)
+        coupler = from_start(links["coupler"].turn, at_start.coupler_angle)
+        holder = links[carrier]
+        of_carrier = holder.turn if carrier == "crank" else from_start(holder.turn, at_start.rocker_angle)
+        links["output"] = Link(holder.origin, mixed((1.0 - ratio, of_carrier), (ratio, coupler)))
+        center = holder.origin.value
+        mesh = Mesh("mesh_25", "output", "coupler", center, holder.unit, abs(r5), r2, tangent, internal, carrier)
+        return Mechanism(links, [*pins, Pin(output_pin, FRAME, "output", center), mesh], "crank")
+
+    return Motion(make, Input("crank_angle"), (Output("Output gear 5", OUTPUT),))

@@ -1,0 +1,71 @@
+"""The design file of a rocker whose swing a gear multiplies."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.spec_parts import LinkageLimits
+
+
+class RockerGears(TrainKeys):
+    """A gear fixed to the coupler at C, in mesh with the output gear on the rocker's axis."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("coupler", "output")
+
+    module: Length = Field(description="module")
+    coupler: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at C")
+    output: Teeth = Field(description="teeth z5 of the output gear on D")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class RockerLinks(Spec):
+    """The links that the gears do not fix."""
+
+    crank: Length | None = Field(None, description="crank AB; left out: found from target.swing")
+    coupler: Length = Field(description="coupler BC")
+    rocker: Length | None = Field(None, description="rocker CD; left out: the centre distance of the gears")
+    frame: Length = Field(description="frame AD")
+
+
+class SwingTarget(Spec):
+    """The crank is found for it."""
+
+    swing: Annotated[float, Field(gt=0, lt=3600, json_schema_extra={"unit": "deg"})] = Field(
+        description="swing of the output gear"
+    )
+
+
+class GearedRockerSpec(DrivenSpec):
+    """A crank-rocker whose coupler carries a gear that drives one on the rocker's axis."""
+
+    kind: Literal["geared-rocker"]
+    gears: RockerGears
+    links: RockerLinks
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    target: SwingTarget | None = None
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: Annotated[Any, Deferred("parts.linkages.spec_sections:PivotShafts")] | None = Field(
+        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+    )
+    loads: Annotated[Any, Deferred("machines.planet_linkages.loads_spec:PlanetLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _crank_or_swing(self) -> GearedRockerSpec:
+        if self.links.crank is None and self.target is None:
+            raise PydanticCustomError(
+                "GL106", "give links.crank, or target.swing from which it is found", {"key": "links.crank"}
+            )
+        if self.links.crank is not None and self.target is not None:
+            raise PydanticCustomError(
+                "GL111",
+                "links.crank and target.swing exclude each other: leave the crank out to have it found",
+                {"key": "links.crank"},
+            )
+        return self

@@ -1,0 +1,380 @@
+"""The two-gear four-bar as a design: a gear on the coupler drives one that is free on the crank's axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING, ClassVar
+
+from gearlink.core.base.design import Outline, placed
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, per_time
+from gearlink.core.base.remedies.ways import down, either, up
+from gearlink.core.base.report import Check, Remedy
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.planet_linkages import two_gear_tables
+from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
+from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
+from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
+from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.parts.gears.train.meshed import Meshed
+from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.linkages import standstills
+from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
+from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
+from gearlink.core.parts.linkages.fourbar.loop import rates_of
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
+from gearlink.core.parts.linkages.output_rates import OutputRates
+from gearlink.core.parts.linkages.standstills import BackStep, Turning
+from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.planet_linkages.two_gear_spec import TwoGearFourBarSpec
+    from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+
+# As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
+_STANDSTILL_TOLERANCE = 1e-9
+_LINK_TOLERANCE = 1e-9
+
+QUANTITIES = (
+    "planet_teeth",
+    "output_teeth",
+    "gear_ratio",
+    "linkage_kind",
+    "crank_length",
+    "coupler_length",
+    "rocker_length",
+    "frame_length",
+    "mean_ratio",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "speed_ratio_max_at",
+    "speed_ratio_min_at",
+    "nonuniformity",
+    "coupler_ratio_max",
+    "coupler_ratio_min",
+    "standstill_coupler_ratio",
+    "dwell_teeth_ratio",
+    "motion",
+    "dwell_crank_angles",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "min_transmission_angle",
+    "contact_ratio",
+    *names("acceleration_ratio"),
+    "rocker_swing",
+    "input_speed",
+    "turn_time",
+    *OUTPUT_SPEEDS,
+    "back_step_time",
+    *FEED_QUANTITIES,
+)
+OF_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "tolerance_dwell_time")
+CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash")
+
+UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
+
+
+_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring"))
+_FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring"))
+_LINKS = either("links.frame", "links.rocker", "links.coupler")
+
+
+class TwoGearFourBar(OutputRates, FeedResults, Meshed):
+    """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
+
+    kind = "two-gear-four-bar"
+    spec: TwoGearFourBarSpec
+    outlines = {
+        "analyze": Outline((*QUANTITIES, *OF_DWELL), ("dwell-window", *CHECKS), ("motion",)),
+        "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
+    }
+
+    extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing")
+    ways = {
+        "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
+        "dwell-window": (*_LINKS, up("dwell_tolerance", step=0.01), down("dwell_window", step=0.1)),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
+        "transmission-angle": (*_LINKS, *_FEWER, *_TEETH),
+        **train_ways(2, *_TEETH),
+    }
+
+    @property
+    def cost(self) -> float:
+        """An analysis takes a tenth of a millisecond."""
+        return 0.3
+
+    # Gears and links
+
+    planet_teeth: int = placed("spec.gears.planet")
+
+    @property
+    def internal(self) -> bool:
+        """Whether the output is a ring gear."""
+        return self.spec.gears.ring is not None
+
+    @property
+    def output_teeth(self) -> int:
+        """Teeth of the output gear."""
+        gears = self.spec.gears
+        return gears.ring or gears.sun or 0
+
+    @property
+    def gear_ratio(self) -> float:
+        """Ratio i of planet and output gear, negative for an external mesh."""
+        return self.planet_teeth / self.output_teeth * (1.0 if self.internal else -1.0)
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Planet and output gear."""
+        return self.planet_teeth, -self.output_teeth if self.internal else self.output_teeth
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """The crank, where the file gives it."""
+        return (self.spec.links.crank,)
+
+    @property
+    def crank_length(self) -> float:
+        """Centre distance of the gears [mm]; without profile shift m_t (z2 + z5)/2 or m_t (z5 - z2)/2."""
+        if self.own_teeth:
+            return self.distance()
+        sign = -1 if self.internal else 1
+        return self.spec.gears.module * (self.output_teeth + sign * self.planet_teeth) / 2.0
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar."""
+        frame = self.spec.links.frame
+        if frame is None:
+            raise MissingSection("this command needs links.frame; a synth command seeks it", key="links.frame")
+        return self.linkage_of(frame)
+
+    def linkage_of(self, frame: float) -> FourBar:
+        """The four-bar of a frame [mm]."""
+        links = self.spec.links
+        with at_key("links"):
+            linkage = FourBar(self.checked_crank(), links.coupler, links.rocker, frame, self.spec.assembly)
+            check_linkage(linkage)
+        return linkage
+
+    def checked_crank(self) -> float:
+        """Centre distance of the gears [mm], which a crank in the file must agree with."""
+        given, crank = self.spec.links.crank, self.crank_length
+        if given is not None and self.spec.gears.profile_shift is None and abs(given - crank) > _LINK_TOLERANCE * crank:
+            raise NoSolution(
+                f"crank {given:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
+                "change module or teeth",
+                key="links.crank",
+            )
+        return crank
+
+    @property
+    def linkage_kind(self) -> str:
+        """Class of the four-bar."""
+        return self.linkage.kind()
+
+    coupler_length: float = placed("linkage.coupler")
+    rocker_length: float = placed("linkage.rocker")
+    frame_length: float = placed("linkage.frame")
+
+    # Motion
+
+    @cached_property
+    def drive(self) -> PlanetLinkage:
+        """The kernel's view of gears and links."""
+        return PlanetLinkage(self.linkage, self.gear_ratio, "crank")
+
+    @property
+    def mean_ratio(self) -> float:
+        """Net output turns per input turn."""
+        return self.drive.mean_ratio()
+
+    @cached_property
+    def coupler_turnings(self) -> list[Turning]:
+        """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
+        links = self.linkage.reading
+        return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
+
+    @cached_property
+    def speed_turnings(self) -> list[Turning]:
+        """Extremes of the speed ratio."""
+        return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
+
+    @property
+    def coupler_ratio_max(self) -> float:
+        """Greatest coupler speed per crank speed."""
+        return max(t.value for t in self.coupler_turnings)
+
+    @property
+    def coupler_ratio_min(self) -> float:
+        """Least coupler speed per crank speed."""
+        return min(t.value for t in self.coupler_turnings)
+
+    @cached_property
+    def acceleration_turnings(self) -> list[Turning]:
+        """Extremes of the acceleration ratio."""
+        return standstills.turnings(self.drive.acceleration, self.drive.jerk)
+
+    back_step_time: float | None = per_time("back_step_crank_angle", -1)
+
+    @property
+    def rocker_swing(self) -> float | None:
+        """Swing of the rocker between its dead centres [rad]; a drag link has none."""
+        return rocker_swing(self.linkage)
+
+    @property
+    def nonuniformity(self) -> float:
+        """(max - min)/mean of the speed ratio."""
+        return (self.speed_ratio_max - self.speed_ratio_min) / self.mean_ratio
+
+    @property
+    def standstill_coupler_ratio(self) -> float:
+        """Coupler speed per crank speed at which the output stands."""
+        return standstill_coupler_ratio(self.gear_ratio)
+
+    @property
+    def dwell_teeth_ratio(self) -> float | None:
+        """Greatest z5/z2 with which these links stop the output; none where no teeth do."""
+        reach = 1.0 - self.coupler_ratio_min if self.internal else self.coupler_ratio_max - 1.0
+        return reach if reach > (1.0 if self.internal else 0.0) else None
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        tolerance = _STANDSTILL_TOLERANCE * (1.0 + 2.0 * abs(self.gear_ratio))
+        return standstills.standstills(self.drive.speed, self.speed_turnings, tolerance)
+
+    @cached_property
+    def back_steps(self) -> list[BackStep]:
+        """Every back-step of the turn."""
+        return standstills.back_steps(self.drive.speed, self.drive.angle, self.dwell_crank_angles)
+
+    @cached_property
+    def motion(self) -> str:
+        """unidirectional, momentary-dwell or back-step."""
+        if self.back_steps:
+            return BACK_STEP
+        return MOMENTARY_DWELL if self.dwell_crank_angles else UNIDIRECTIONAL
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step that loses most, where there is one."""
+        return max(self.back_steps, key=lambda step: step.angle, default=None)
+
+    back_step_angle: float | None = placed("back_step.angle")
+    back_step_crank_angle: float | None = placed("back_step.crank_angle")
+
+    @property
+    def output_tolerance(self) -> float | None:
+        """Tolerance of the output to either side within which its dwell is measured [rad]; None without one."""
+        given = self.spec.dwell_tolerance
+        return None if given is None else math.radians(given)
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance; None without one.
+
+        Raises
+            NoSolution - for a tolerance so wide that the whole turn lies within it
+        """
+        from gearlink.core.machines.planet_linkages.two_gear_family import tolerance_dwell
+
+        with at_key("dwell_tolerance"):
+            return None if self.output_tolerance is None else tolerance_dwell(self.drive, self.output_tolerance)
+
+    tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
+    tolerance_dwell_start: float | None = placed("tolerance_dwell.start")
+    tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least transmission angle over the turn [rad]."""
+        return self.linkage.min_transmission_angle()
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return two_gear_layout(self)
+
+    table_motion, table_links = two_gear_tables.motion, two_gear_tables.links
+
+    # Checks
+
+    def candidates(self, check: str, /) -> Iterator[Remedy]:
+        """The frame that a synthesis finds: no step of a grid meets the momentary dwell, few the window."""
+        target = self.spec.target
+        if check == "dwell-window" and self.spec.dwell_window is not None:
+            with suppress(NoSolution):
+                yield (("links.frame", self._frame_for(math.radians(self.spec.dwell_window))),)
+        if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
+            from gearlink.core.machines.planet_linkages.two_gear_frames import Family, momentary_frame
+
+            links = self.spec.links
+            family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+            yield (("links.frame", momentary_frame(family)),)
+
+    def _frame_for(self, window: float) -> float:
+        """The frame with which the output keeps nearest to its place over a window [mm], to 0.01 mm."""
+        from gearlink.core.machines.planet_linkages.two_gear_family import flattest
+        from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+
+        links = self.spec.links
+        family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+        return round(flattest(family, window, "the window")[0], 2)
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for a window within its tolerance."""
+        dwell, tolerance, asked = self.tolerance_dwell, self.output_tolerance, self.spec.dwell_window
+        if dwell is not None and tolerance is not None and asked is not None:
+            yield dwell_window_check(dwell.crank_angle, math.radians(asked), tolerance)
+
+    def check_dwell_condition(self) -> Check:
+        """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""
+        needed = self.standstill_coupler_ratio
+        reached = self.coupler_ratio_min if self.internal else self.coupler_ratio_max
+        verb = "falls to" if self.internal else "rises to"
+        text = f"the output stands where w2/w1 = {needed:.6g}; the coupler {verb} {reached:.6g}: {self.motion}"
+        asked = None if self.spec.target is None else self.spec.target.motion
+        if asked is None or asked == self.motion:
+            return DWELL_CONDITION.check("pass", text, reached, needed)
+        if self._never_stands() and asked != UNIDIRECTIONAL:
+            raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion")
+        return DWELL_CONDITION.check("fail", f"{text}; {self._motion_remedy(asked)}", reached, needed)
+
+    def _never_stands(self) -> str:
+        """Why an external mesh on a crank-rocker never stops its output; empty for other drives."""
+        if self.internal or self.linkage_kind != "crank-rocker":
+            return ""
+        limit = math.floor((1.0 - self.coupler_ratio_min) * 1e4) / 1e4
+        return (
+            f"with a sun the output stands where w2/w1 = 1 + z5/z2 = {self.standstill_coupler_ratio:.6g}, but in a "
+            f"crank-rocker w2/w1 stays below 1 (here {self.coupler_ratio_max:.6g}), since A never comes onto the line "
+            f"CD; take a ring gear with z5/z2 up to {limit:g}, or a drag link (frame the shortest)"
+        )
+
+    def _motion_remedy(self, asked: str) -> str:
+        """What would bring the motion that is asked for."""
+        limit = self.dwell_teeth_ratio
+        have = self.output_teeth / self.planet_teeth
+        if limit is None:
+            return f"{asked} is asked for, but these links stop the output with no teeth: change the links"
+        side = {UNIDIRECTIONAL: "above", MOMENTARY_DWELL: "equal to", BACK_STEP: "below"}[asked]
+        return f"{asked} is asked for: make z5/z2 = {have:.6g} {side} {limit:.6g}"
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        remedy = "bring coupler and rocker nearer to a right angle (shorter crank, or shorter frame in a drag link)"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

@@ -1,0 +1,155 @@
+"""The design file of a two-gear four-bar."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
+from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
+
+
+class PlanetGears(TrainKeys):
+    """Planet on the coupler at B, in mesh with a sun or a ring gear free on A."""
+
+    module: Length = Field(description="module")
+    planet: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at B")
+    sun: Teeth | None = Field(None, description="teeth z5 of an external output gear on A")
+    ring: Teeth | None = Field(None, description="teeth z5 of an internal output gear on A, in place of sun")
+    rim: Length | None = Field(
+        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    def gear_names(self) -> tuple[str, ...]:
+        """Planet, and sun or ring."""
+        return "planet", "sun" if self.ring is None else "ring"
+
+    def rings(self) -> tuple[bool, ...]:
+        """The output gear may be a ring."""
+        return False, self.ring is not None
+
+    @model_validator(mode="after")
+    def _one_output(self) -> PlanetGears:
+        if self.sun is None and self.ring is None:
+            raise PydanticCustomError("GL106", "give sun or ring, the output gear on A", {"key": "sun"})
+        if self.sun is not None and self.ring is not None:
+            raise PydanticCustomError("GL111", "sun and ring exclude each other: give one", {"key": "ring"})
+        if self.ring is not None and self.ring <= self.planet:
+            raise PydanticCustomError(
+                "GL111",
+                "a ring gear of {ring} teeth does not take a planet of {planet}: give it more teeth",
+                {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
+            )
+        require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
+        return self
+
+
+class TwoGearLinks(Spec):
+    """The links that the gears do not fix."""
+
+    crank: Length | None = Field(None, description="crank AB; left out: the centre distance of the gears")
+    coupler: Length = Field(description="coupler BC")
+    rocker: Length = Field(description="rocker CD")
+    frame: Length | None = Field(None, description="frame AD; left out where a synthesis seeks it")
+
+
+class StandingDwell(DwellBand):
+    """Asked of `synth dwell`: a crank angle over which the output stays within a tolerance; the frame is sought."""
+
+    @model_validator(mode="after")
+    def _one_request(self) -> StandingDwell:
+        if self.window is None and self.tolerance is None:
+            raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
+        if self.margin is not None and self.window is not None:
+            raise PydanticCustomError("GL111", "margin goes with tolerance alone: leave it out", {"key": "margin"})
+        return self
+
+
+class BackStepAngle(Spec):
+    """Asked of `synth back-step`; the frame is sought."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="back-step of the output"
+    )
+
+
+class MotionTarget(Spec):
+    """What the output shall do; otherwise the design is refused or fails."""
+
+    motion: Literal["unidirectional", "momentary-dwell", "back-step"] = Field(description="kind of output motion")
+
+
+class TwoGearFourBarSpec(DrivenSpec):
+    """A four-bar whose coupler carries a gear that drives one on the crank's axis."""
+
+    kind: Literal["two-gear-four-bar"]
+    gears: PlanetGears
+    links: TwoGearLinks
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    target: MotionTarget | None = None
+    dwell: StandingDwell | None = None
+    back_step: BackStepAngle | None = None
+    dwell_tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
+        None, description="output tolerance +- within which a dwell is measured"
+    )
+    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output must stay within that tolerance"
+    )
+    feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
+        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+    )
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: Annotated[Any, Deferred("parts.linkages.spec_sections:PivotShafts")] | None = Field(
+        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+    )
+    loads: Annotated[Any, Deferred("machines.planet_linkages.loads_spec:PlanetLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
+        syntheses = self._syntheses()
+        if self.links.frame is None and not syntheses:
+            message = "give frame, or have it sought: give dwell, back_step, or target with motion: momentary-dwell"
+            raise PydanticCustomError("GL106", message, {"key": "links.frame"})
+        sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
+        if self.links.frame is not None and sections:
+            message = "links.frame is what {section} has sought: leave one of them out"
+            raise PydanticCustomError("GL111", message, {"key": "links.frame", "section": sections[0]})
+        return self
+
+    @model_validator(mode="after")
+    def _one_tolerance(self) -> TwoGearFourBarSpec:
+        if self.dwell_tolerance is not None and self.dwell is not None:
+            message = "dwell_tolerance measures links that are given, dwell has the frame sought: leave one of them out"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+        if self.dwell_window is not None and self.dwell_tolerance is None:
+            raise PydanticCustomError(
+                "GL111", "dwell_window goes with dwell_tolerance: give that too", {"key": "dwell_window"}
+            )
+        return self
+
+    def _syntheses(self) -> tuple[str, ...]:
+        """The syntheses that the file asks for."""
+        momentary = self.target is not None and self.target.motion == "momentary-dwell" and self.links.frame is None
+        asked = {
+            "synth dwell": self.dwell is not None,
+            "synth back-step": self.back_step is not None,
+            "synth momentary-dwell": momentary,
+        }
+        return tuple(command for command, wanted in asked.items() if wanted)
+
+    def sized_by(self, command: str) -> str:
+        """The one synthesis of the file, where it leaves the frame to it."""
+        asked = self._syntheses()
+        return asked[0] if command == "analyze" and self.links.frame is None and len(asked) == 1 else ""
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        loads = ("loads",) if self.loads is not None and self.links.frame is not None else ()
+        return (*(self._syntheses() or ("analyze",)), "gear", *loads)

@@ -1,0 +1,395 @@
+"""Syntheses of the two-gear four-bar: the frame for a momentary dwell, a back-step, or a dwell in a tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from gearlink.core.base.design import Found, Outline
+from gearlink.core.base.errors import NoSolution, at_key, section_of
+from gearlink.core.base.report import Check, Table, safely_above, safely_below
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.planet_linkages import two_gear_family as kernel
+from gearlink.core.machines.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
+from gearlink.core.machines.planet_linkages.two_gear_frames import (
+    Family,
+    beyond_reach,
+    momentary_frame,
+    stationary_frames,
+)
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.always_stepping import AlwaysStepping, flattest_of, keeping
+from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check, target_check
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+# Two-gear four-bars of a ring gear whose output steps back with every frame: they have no momentary dwell
+
+
+def always_stepping(family: Family) -> AlwaysStepping | None:
+    """The frames of a family whose output steps back with each of them; None of one with a momentary dwell, or without
+    any standstill.
+
+    Raises
+        NoSolution - where no frame makes a linkage that turns
+    Example
+        >>> found = always_stepping(Family(25.0, 45.28, 72.727, 44 / 69))
+        >>> round(found.step(87.613), 6), round(found.window(87.613, 0.0035), 6)
+        (0.006966, 1.071927)
+    """
+    if not family.ring or stationary_frames(family):
+        return None
+    low, high = sorted((kernel.steep_end(family), kernel.quiet_end(family)))
+    if kernel.back_step(family.drive(0.5 * (low + high))) is None:  # as many standstills as with every other frame
+        return None
+    return AlwaysStepping(lambda frame: kernel.valley(family.drive(frame)), low, high)
+
+
+_MARGIN = 0.01
+_FIT = 1e-6  # deg, what a back-step of the printed frame may miss
+_DWELL = (
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "dwell_tolerance",
+    "window_limit",
+    "frame_length_interval",
+    "tolerance_dwell_time",
+)
+
+
+def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
+    """What a synthesis shows: its own outline, the analysis of what it finds, and its gears."""
+    return {synthesis: outline, "analyze": outline, "gear": TwoGearFourBar.outlines["gear"]}
+
+
+class Synthesis(TwoGearFourBar):
+    """What the syntheses share: gears, coupler and rocker are given, the frame is sought."""
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        self.require_proportion()
+
+    def sought_frame(self) -> float:
+        """The frame [mm] that meets the task."""
+        raise NotImplementedError
+
+    def completion(self) -> Iterator[Found]:
+        """The frame in place of the task."""
+        synthesis = next(command for command in self.outlines if command.startswith("synth"))
+        yield Found("links.frame", self.frame_length, f"found by {synthesis}")
+        yield from (Found(section, None) for section in ("dwell", "back_step"))
+
+    extra_tables = (*TwoGearFourBar.extra_tables, "candidates")
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The task met with other planets and other output gears."""
+        from gearlink.core.base.candidates import Sought, around, pairs, table
+
+        gear = "gears.ring" if self.internal else "gears.sun"
+        planet, output = self.spec.gears.planet, self.output_teeth
+        command = next(command for command in self.outlines if command.startswith("synth"))
+        keys = {"gears.planet": ("planet_teeth", "1"), gear: ("output_teeth", "1")}
+        rows = pairs(sorted({round(0.9 * planet), planet, round(1.1 * planet)}), around(output)[:4])
+        shown = ("crank_length", "frame_length", "tolerance_dwell_angle", "back_step_angle", "speed_ratio_max")
+        found = (*shown, "acceleration_ratio_max", "min_transmission_angle")
+        known = tuple(name for name in found if name in self.quantity_names())
+        return table(self, Sought(command, keys, rows, known))
+
+    @property
+    def cost(self) -> float:
+        """A frame that is sought for a back-step takes some hundredths of a second each time, a search over the whole
+        range of frames three times as long."""
+        return 40.0 if self.__dict__.get("always") else 13.5
+
+    @cached_property
+    def family(self) -> Family:
+        """Gears and links without the frame."""
+        links = self.spec.links
+        return Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+
+    @cached_property
+    def always(self) -> AlwaysStepping | None:
+        """The frames, where the output steps back with each of them; else the search starts at a momentary dwell."""
+        return always_stepping(self.family)
+
+    def _transmission_angle(self, frame: float) -> float:
+        return self.family.drive(frame).linkage.min_transmission_angle()
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar with the frame that meets the task."""
+        if self.spec.links.frame is not None:
+            raise NoSolution("links.frame is what this command seeks: leave it out", key="links.frame")
+        return self.linkage_of(self.sought_frame())
+
+
+class MomentaryDwellSynthesis(Synthesis):
+    """`synth momentary-dwell`: nothing else is given; the frame follows in closed form."""
+
+    outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS, ("motion",)))
+
+    def sought_frame(self) -> float:
+        """The double root of the standstills' equation."""
+        return momentary_frame(self.family)
+
+
+class BackStepSynthesis(Synthesis):
+    """`synth back-step`: the back-step of the output is given."""
+
+    outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
+
+    @property
+    def _request(self) -> float:
+        return float(section_of(self.spec, "back_step", "angle (deg)").angle)
+
+    def sought_frame(self) -> float:
+        """The root of the back-step over the frame."""
+        with at_key("back_step.angle"):
+            words = f"a back-step of {self._request:g} deg"
+            if self.always is not None:
+                return self._of_always(self.always, math.radians(self._request), words)
+            return kernel.solved(self.family, kernel.back_step_of, math.radians(self._request), words)
+
+    def _of_always(self, always: AlwaysStepping, angle: float, words: str) -> float:
+        """Of the frames with that back-step, to either side of the least one, that of the better transmission angle."""
+        least, most = always.least_step[1], always.step(always.low)
+        if angle < least:
+            limit = safely_above(math.degrees(least))
+            raise NoSolution(
+                f"{words} is less than the least of crank-rockers with these gears and links, {limit} deg: their "
+                "output steps back with every frame; ask for more, or take more teeth on the ring gear"
+            )
+        frames = always.with_step(angle)
+        if not frames:
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+        return max(frames, key=self._transmission_angle)
+
+    def check_target(self) -> Check:
+        """GL307: the back-step of the finished design, measured on its motion."""
+        residual = math.degrees(self.back_step_angle or 0.0) - self._request
+        return target_check("the back-step", residual, _FIT, "deg")
+
+
+class DwellSynthesis(Synthesis):
+    """`synth dwell`: a window, a tolerance, or both are given."""
+
+    outlines = with_analysis(
+        "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
+    )
+
+    def completion(self) -> Iterator[Found]:
+        """The tolerance and the window besides the frame, so that an analysis measures the dwell by them."""
+        yield from super().completion()
+        if self._request.tolerance is not None:
+            yield Found("dwell_tolerance", float(self._request.tolerance), "from dwell.tolerance")
+            if self._request.window is not None:
+                yield Found("dwell_window", float(self._request.window), "from dwell.window")
+
+    # The request
+
+    @property
+    def _request(self) -> Any:
+        return section_of(self.spec, "dwell", "window, tolerance or both (deg)")
+
+    @cached_property
+    def window(self) -> float | None:
+        """Crank angle [rad] over which the output is to stay within the tolerance."""
+        return None if self._request.window is None else math.radians(self._request.window)
+
+    @cached_property
+    def asked_tolerance(self) -> float | None:
+        """Tolerance of the output to either side [rad] that the file names."""
+        return None if self._request.tolerance is None else math.radians(self._request.tolerance)
+
+    # The frame
+
+    def sought_frame(self) -> float:
+        """The back-step that fills the band, or the window of equal ripple: the root over the frame."""
+        self._refuse_wide_band()
+        with at_key("dwell.tolerance" if self.window is None else "dwell.window"):
+            if self.window is None:
+                return self._longest_frame() if self.always is not None else self._filled_frame()
+            self._refuse_even_motion(self.window)
+            frame, least = self._flattest
+            self._refuse_narrow_band(least)
+            return frame
+
+    @cached_property
+    def _flattest(self) -> tuple[float, float]:
+        """The frame for the window, and its tolerance [rad]."""
+        assert self.window is not None
+        words = f"a window of {self._request.window:g} deg"
+        if self.always is not None:
+            return self._flattest_of(self.always, words)
+        try:
+            return kernel.flattest(self.family, self.window, words, beyond=self._longest is not None)
+        except NoSolution:
+            self._refuse_long_window(self.window)
+            raise
+
+    # Where the output steps back with every frame
+
+    @property
+    def _parts(self) -> list[AlwaysStepping]:
+        """The frames that keep the limit of the transmission angle, where there are some, and all of them."""
+        assert self.always is not None
+        a, b, c = self.family.crank, self.family.coupler, self.family.rocker
+        return keeping(self.always, a, b, c, math.radians(self.spec.limits.transmission_angle))
+
+    def _flattest_of(self, always: AlwaysStepping, words: str) -> tuple[float, float]:
+        """Of frames that keep the limit of the transmission angle, unless those do not meet the tolerance."""
+        assert self.window is not None
+        if self.window > (most := always.ripple(always.low)):
+            self._refuse_long_window(self.window)
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+        return flattest_of(self._parts, self.window, self.asked_tolerance)
+
+    def _longest_frame(self) -> float:
+        """The frame of the longest dwell in the band but for its margin, with the asked transmission angle if any."""
+        return self._parts[0].longest(self._aimed_at)[0]
+
+    # The limits
+
+    @cached_property
+    def _longest(self) -> tuple[float, float] | None:
+        """Frame [mm] and length [rad] of the longest window within the asked tolerance, where it can be filled."""
+        if self.always is not None and self.asked_tolerance is not None:
+            return self.always.longest(self.asked_tolerance)
+        return None if self.asked_tolerance is None else kernel.longest(self.family, self.asked_tolerance)
+
+    @property
+    def _aimed_at(self) -> float:
+        tolerance = self.asked_tolerance
+        assert tolerance is not None
+        return tolerance * (1.0 - (_MARGIN if self._request.margin is None else self._request.margin))
+
+    def _filled_frame(self) -> float:
+        """The frame of the longest dwell in the band but for its margin; the whole band limits the tolerance."""
+        whole, aimed = self.asked_tolerance or 0.0, self._aimed_at
+        words = f"a tolerance of {math.degrees(whole):.9g} deg"
+        most = kernel.back_step_of(self.family.drive(kernel.stepping(self.family)[1]))
+        if 2.0 * whole > most:
+            kernel.solved(self.family, kernel.back_step_of, 2.0 * whole, words, 0.5)
+        longest = kernel.longest(self.family, aimed)
+        assert longest is not None
+        return longest[0]
+
+    @property
+    def _mean(self) -> float:
+        """Output turns per crank turn, in the class of linkage in which the output stands still."""
+        return 1.0 - self.gear_ratio if self.internal else 1.0
+
+    def _refuse_wide_band(self) -> None:
+        band = self.asked_tolerance
+        if band is not None and band >= math.pi * self._mean:
+            raise NoSolution(
+                f"a band of +-{math.degrees(band):.9g} deg holds the output over the whole turn: the tolerance must be "
+                f"below {180.0 * self._mean:.9g} deg, half of what the output gains in a turn of the crank",
+                key="dwell.tolerance",
+            )
+
+    def _refuse_even_motion(self, window: float) -> None:
+        band = self.asked_tolerance
+        if band is not None and self._mean * window <= 2.0 * band:
+            raise NoSolution(
+                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
+                "ask for a longer window or a smaller tolerance"
+            )
+
+    def _refuse_long_window(self, window: float) -> None:
+        """A window beyond the family is refused by the longest within the tolerance, where that is shorter yet."""
+        band, longest = self.asked_tolerance, self.window_limit
+        if band is None or longest is None or longest >= window:
+            return
+        raise NoSolution(
+            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
+            f"with these gears and links: at most over {safely_below(math.degrees(longest))} deg{self._there()}; ask "
+            "for that"
+        )
+
+    def _refuse_narrow_band(self, least: float) -> None:
+        band, limit = self.asked_tolerance, self.window_limit
+        if band is None or limit is None or least <= band:
+            return
+        longest = safely_below(math.degrees(limit))
+        raise NoSolution(
+            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
+            f"with these gears and links: at most over {longest} deg{self._there()}, or within "
+            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
+        )
+
+    def _there(self) -> str:
+        """With what transmission angle the longest window is had."""
+        assert self._longest is not None
+        return f" (with a transmission angle of {math.degrees(self._transmission_angle(self._longest[0])):.3g} deg)"
+
+    # What is reached
+
+    @property
+    def dwell_tolerance(self) -> float | None:
+        """Half of what the output covers in the window [rad], which is half the back-step unless that is shorter, or
+        too wide for the band."""
+        if self.back_step is None:
+            return None
+        half = 0.5 * self.back_step.angle
+        if self.always is not None:
+            return min(half, self._aimed_at) if self.window is None else self._flattest[1]
+        return half if self.window is None else max(half, self._flattest[1])
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance asked for; without one within the band which the back-step fills."""
+        tolerance = self.asked_tolerance or self.dwell_tolerance
+        return None if tolerance is None else kernel.tolerance_dwell(self.drive, tolerance)
+
+    @property
+    def window_limit(self) -> float | None:
+        """Longest window of these gears and links at the asked tolerance [rad], where a back-step fills its band."""
+        return None if self._longest is None else self._longest[1]
+
+    @cached_property
+    def frame_length_interval(self) -> list[float] | None:
+        """Frames [mm] between which window and tolerance are met.
+
+        At one end the back-step fills the band or the crank turns just so, at the other the window is just as long as
+        asked; of a window longer than that back-step's it is so at both.
+        """
+        window, band = self.window, self.asked_tolerance
+        if window is None or band is None:
+            return None
+        family, frame = self.family, self.linkage.frame
+        if self.always is not None:
+            return self.always.interval(frame, window, band)
+        edge = kernel.filling(family, band) or kernel.stepping(family)[1]
+
+        def spare(other: float) -> float:
+            return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
+
+        def just(*ends: float) -> float:
+            """Where the window is just as long, on the way from the design's frame to some ends; the last one else."""
+            near, room = frame, spare(frame)
+            for end in ends:
+                lack = spare(end)
+                if lack < 0.0:
+                    # A window as long as the limit leaves one frame, where rounding decides the sign.
+                    return bracketed_root(spare, near, end, ends=(room, lack)) if room > 0.0 else near
+                near, room = end, lack
+            return near
+
+        filled = kernel.window_of(family.drive(edge)) >= window
+        return sorted((edge if filled else just(edge), just(kernel.stepping(family)[0], kernel.quiet_end(family))))
+
+    # Checks
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for both window and tolerance."""
+        dwell, window, band = self.tolerance_dwell, self.window, self.asked_tolerance
+        if dwell is not None and window is not None and band is not None:
+            yield dwell_window_check(dwell.crank_angle, window, band)
+
+    def check_dwell_edge(self) -> Iterator[Check]:
+        """GL314 where the file asks for a tolerance: how near the window is to its jump."""
+        step, band = self.back_step, self.asked_tolerance
+        if step is not None and band is not None:
+            yield dwell_edge_check(0.5 * step.angle / band, self.frame_length_interval)

@@ -1,0 +1,142 @@
+"""The design file of a geared six-bar: a loop A B C D E F of six links, and the two trains on it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec
+from gearlink.core.parts.linkages.spec_parts import LinkageLimits, require_rim
+from gearlink.core.parts.linkages.spec_sections import InputRange
+
+PINS = "ABCDEF"
+LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
+HOLDING = ("frame", *LINKS[1:5], "frame")
+"""By pin, the link that it is held in: what else turns on the pin runs against this one."""
+Pin = Literal["A", "B", "C", "D", "E", "F"]
+TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
+
+
+class SixLinks(Spec):
+    """The links; one that carries a mesh is its centre distance and may be left out."""
+
+    input: Length | None = Field(None, description="input link AB")
+    coupler_1: Length | None = Field(None, description="coupler BC")
+    coupler_2: Length | None = Field(None, description="coupler CD")
+    coupler_3: Length | None = Field(None, description="coupler DE")
+    output: Length | None = Field(None, description="output link EF")
+    frame: Length | None = Field(None, description="frame AF")
+
+
+class SixTrain(Spec):
+    """Gears on pins that follow each other, the first fixed to the link before them, the last to the link after."""
+
+    pins: Annotated[list[Pin], Field(min_length=2, max_length=5)] = Field(
+        description="pins on which the gears sit, neighbours of the loop A B C D E F A, in its order"
+    )
+    module: Length = Field(description="module")
+    gears: Annotated[list[TeethOrRing], Field(min_length=2, max_length=5)] = Field(
+        description="teeth of the gears on these pins, negative for a ring"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+    rim: Length | None = Field(
+        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+    )
+
+    @property
+    def first_pin(self) -> int:
+        """Number of the first pin, 0 for A."""
+        return PINS.index(self.pins[0])
+
+    @model_validator(mode="after")
+    def _whole(self) -> SixTrain:
+        if any((PINS.index(b) - PINS.index(a)) % 6 != 1 for a, b in pairwise(self.pins)):
+            _refuse("pins", "a train's pins follow each other in the order A B C D E F A: write them so, as [F, A]")
+        if len(self.gears) != len(self.pins):
+            _refuse("gears", f"give the teeth of a gear on each pin: {len(self.gears)} for {len(self.pins)} pins")
+        if 0 in self.gears:
+            _refuse(f"gears[{self.gears.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less: write its teeth")
+        for k, (one, other) in enumerate(pairwise(self.gears)):
+            if one < 0 and other < 0:
+                _refuse(f"gears[{k + 1}]", "two rings cannot mesh: make one of them an external gear")
+            if one + other >= 0 and min(one, other) < 0:
+                _refuse(f"gears[{k}]", "a ring gear needs more teeth than the gear in it: change one of the two")
+        if sum(z < 0 for z in self.gears) > 1:
+            _refuse("gears", "a train takes one ring: make the others external gears")
+        require_rim(self.rim, -min(self.gears) if min(self.gears) < 0 else None, self.module)
+        return self
+
+
+class SixStart(Spec):
+    """How the linkage is put together at input angle 0, where AB points to F: the directions of two of its links."""
+
+    coupler_1: Angle | None = Field(None, description="direction B->C")
+    coupler_2: Angle | None = Field(None, description="direction C->D")
+    coupler_3: Angle | None = Field(None, description="direction D->E")
+    output: Angle | None = Field(None, description="direction F->E")
+
+    @model_validator(mode="after")
+    def _two(self) -> SixStart:
+        if len(self.given) != 2:
+            raise PydanticCustomError(
+                "GL111",
+                "give the directions of two of coupler_1, coupler_2, coupler_3 and output; the loop closes the others",
+                {"key": next(iter(self.given), "coupler_1")},
+            )
+        return self
+
+    @property
+    def given(self) -> dict[str, float]:
+        """The directions of the file [deg]."""
+        names = ("coupler_1", "coupler_2", "coupler_3", "output")
+        return {name: value for name in names if (value := getattr(self, name)) is not None}
+
+
+class SixShafts(Spec):
+    """Shafts of the frame that pass through the planes of the gears; one that is left out may end before them."""
+
+    A_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    F_radius: Length | None = Field(None, description="radius of the output shaft at F")
+
+
+class GearedSixBarSpec(DrivenSpec):
+    """A loop of six links, which has three degrees of freedom, and two gear trains that take away two of them."""
+
+    kind: Literal["geared-six-bar"]
+    links: SixLinks
+    trains: Annotated[list[SixTrain], Field(min_length=2, max_length=2)] = Field(
+        description="the two trains; each ties the links before, under and after it"
+    )
+    start: SixStart
+    assembly: Assembly = Field(
+        1,
+        description="+1: of the two links that start leaves out, both taken on the way from A to F (the output E->F, "
+        "against its direction in start), the first points left of the second; -1: right",
+    )
+    range: InputRange | None = Field(
+        None, description="input angles, where the input swings; left out: it turns until all is back in place"
+    )
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: SixShafts | None = None
+    loads: Annotated[Any, Deferred("machines.six_bar.loads_spec:SixBarLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _swing(self) -> GearedSixBarSpec:
+        if self.range is not None and self.range.end <= self.range.start:
+            _refuse("range.end", "the range ends before it starts: give a greater end")
+        return self
+
+
+def _refuse(key: str, message: str) -> None:
+    raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})
+
+
+def gear_bodies(train: SixTrain, number: int) -> list[str]:
+    """What each gear of a train is fixed to, or its own name where it turns freely; trains count from 1."""
+    free = [f"gear_{number}{pin}" for pin in train.pins[1:-1]]
+    return [LINKS[train.first_pin], *free, LINKS[(train.first_pin + len(train.pins)) % 6]]

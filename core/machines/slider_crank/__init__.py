@@ -1,0 +1,1 @@
+"""The slider-crank as a design: begin with `design`."""

@@ -1,0 +1,147 @@
+"""The offset slider-crank as a design: crank length from stroke, and the motion of its slider."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
+from gearlink.core.base.remedies.ways import down, either, up
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.parts.linkages.slider_crank.position import SliderCrank, slider
+from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
+    from gearlink.core.parts.linkages.standstills import Turning
+
+_SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES, "dead_center_extended_at", "dead_center_folded_at")
+_MOTION = (
+    "forward_angle",
+    "return_angle",
+    *names("velocity", "acceleration"),
+    "min_transmission_angle",
+    "input_speed",
+    "turn_time",
+    "forward_time",
+    "return_time",
+    *SLIDER_SPEEDS,
+)
+
+
+class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
+    """The slider-crank of a design file; its crank turns counter-clockwise, F lies below D on x = -offset."""
+
+    kind = "slider-crank"
+    spec: SliderCrankSpec
+    outlines = {
+        "crank": Outline(_SIZES),
+        "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
+    }
+    extra_tables = ("candidates",)
+    requirements = Design.requirements | {"stroke"}
+    ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The stroke by other rods and offsets side by side."""
+        from gearlink.core.base.candidates import Sought, nothing_sought, pairs, table
+
+        if self.spec.crank is not None:
+            raise nothing_sought("give stroke in place of crank")
+        rod, offset = self.spec.rod, self.spec.offset
+        rods = [round(share * rod, 6) for share in (0.7, 0.85, 1.0, 1.2, 1.5)]
+        keys = {"rod": ("rod", "mm"), "offset": ("offset", "mm")}
+        shown = ("crank_length", "quick_return_ratio", "velocity_max", "velocity_min", "acceleration_max")
+        found = (*shown, "acceleration_min", "min_transmission_angle")
+        return table(self, Sought("analyze", keys, pairs(rods, sorted({0.0, 0.5 * offset, offset})), found))
+
+    @cached_property
+    def slider_crank(self) -> SliderCrank:
+        """The kernel's view of the spec."""
+        return self.spec.slider_crank()
+
+    @property
+    def stroke(self) -> float | None:
+        """Stroke of a given crank [mm]; None where the file gives it."""
+        return None if self.spec.crank is None else self.slider_crank.stroke
+
+    def depth(self, angle: float, order: int) -> float:
+        """Depth of the slider below D, or its derivative of an order up to 3 [mm/rad^order]."""
+        return slider(angle, self.crank_length, self.spec.rod, self.spec.offset, order)[order]
+
+    @property
+    def _dead_centers(self) -> tuple[float, float]:
+        """Input angles with the slider nearest to D and farthest from it [rad]."""
+        folded, extended = self.dead_center_folded, self.dead_center_extended
+        return 0.5 * math.pi - folded, 1.5 * math.pi - extended
+
+    dead_center_folded_at: float = placed("_dead_centers.0")
+    dead_center_extended_at: float = placed("_dead_centers.1")
+
+    @property
+    def forward_angle(self) -> float:
+        """Input angle of the stroke away from D [rad]."""
+        near, far = self._dead_centers
+        return far - near
+
+    @property
+    def return_angle(self) -> float:
+        """Input angle of the stroke towards D [rad]."""
+        return 2.0 * math.pi - self.forward_angle
+
+    @cached_property
+    def fastest(self) -> list[Turning]:
+        """Extremes of the slider's velocity per input angle away from D, greatest first, then least."""
+        return self._turnings(1)
+
+    @cached_property
+    def hardest(self) -> list[Turning]:
+        """Extremes of its acceleration per square of the input angle."""
+        return self._turnings(2)
+
+    def _turnings(self, order: int) -> list[Turning]:
+        from gearlink.core.parts.linkages.standstills import SLIDER_GRID, turnings
+
+        found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1), SLIDER_GRID)
+        found.sort(key=lambda turning: turning.value)
+        return [found[-1], found[0]]
+
+    velocity_max: float = placed("fastest.0.value")
+    velocity_max_at: float = placed("fastest.0.place")
+    velocity_min: float = placed("fastest.1.value")
+    velocity_min_at: float = placed("fastest.1.place")
+    acceleration_max: float = placed("hardest.0.value")
+    acceleration_max_at: float = placed("hardest.0.place")
+    acceleration_min: float = placed("hardest.1.value")
+    acceleration_min_at: float = placed("hardest.1.place")
+    forward_time: float | None = per_time("forward_angle", -1)
+    return_time: float | None = per_time("return_angle", -1)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
+        return self.slider_crank.fn.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""
+        from gearlink.core.machines.slider_crank.mechanism import displacement
+        from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+
+        way = displacement(self)
+        shown = [
+            Shown("displacement", way),
+            Shown("velocity", way, 1, "slider_velocity"),
+            Shown("acceleration", way, 2, "slider_acceleration"),
+            Shown("rod_angle", turned("rod", sense=-1.0).less(0.5 * math.pi)),
+            Shown("transmission_angle", between("rod", "slider")),
+        ]
+        return motion_table("motion", self, shown, samples)
+
+    def check_transmission_angle(self) -> Check:
+        """GL303: the rod against the slide line."""
+        remedy = "lengthen the rod, or bring the slide line nearer"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

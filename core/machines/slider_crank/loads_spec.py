@@ -1,0 +1,35 @@
+"""The section `loads` of a slider-crank."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from gearlink.core.base.spec import Spec
+from gearlink.core.studies.loads.spec import Body, Loads
+
+
+class SliderCrankMasses(Spec):
+    """Masses of the links."""
+
+    crank: Body | None = Field(None, description="crank, from D to E")
+    rod: Body | None = Field(None, description="connecting rod, from E to F")
+    slider: Body | None = Field(None, description="slider at F")
+
+
+class SliderCrankBalance(Spec):
+    """A counterweight on the crank."""
+
+    reciprocating_share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] | Literal["best"] = Field(
+        0.5, description="share of the reciprocating mass that it balances; best: least greatest shaking force"
+    )
+
+
+class SliderCrankLoads(Loads):
+    """Masses, forces and drive of a slider-crank."""
+
+    links: SliderCrankMasses = Field(
+        SliderCrankMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
+    balance: SliderCrankBalance | None = None

@@ -1,0 +1,53 @@
+"""The rules that the checks of the swing gripper judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+FARTHER = "set cam.center farther from the roller"
+"""What enlarges the base circle of a gripper's cam."""
+CONDITIONING = Rule(
+    "GL312",
+    "linkage near a dead point",
+    "Over the swing the loop comes so near to a dead point that the closed form and Newton-Raphson lose digits, or "
+    "the assembly is not determined in line with the frame (a warning).",
+    "A little play then turns the driven link far.",
+    "Change pivots or links so that the swing centres on a right angle between coupler and driven link.",
+    "condition number 1/sin(mu) <= limits.condition_number",
+    "swing-gripper paper (7)",
+    ("conditioning",),
+    ("limits.condition_number", "links", "pivots"),
+    side="<=",
+)
+LIFT_OFF = Rule(
+    "GL406",
+    "roller leaves its cam",
+    "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
+    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
+    "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
+    "presses the two on their cams.",
+    "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
+    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
+    "past the cam axis.",
+    "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
+    "own derivation: virtual work of links and coupler",
+    ("lift-off",),
+    ("spring.torque", "spring", "cam.return_roller", "cam", "speed"),
+)
+HANDOVER = Rule(
+    "GL503",
+    "handover at unequal speeds",
+    "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the "
+    "cylinder's own shaft turns it with cam.sense, which must be against the gripper's swing. Or the tip "
+    "stands farther off its place on the line of centres than limits.handover_place, or than 1 mm where that allows "
+    "more (a warning).",
+    "The sheet is torn, or loses its register.",
+    "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder; turn "
+    "arm.direction or move cylinder.center until the tip stands on the line of centres.",
+    "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one "
+    "axis; tip off its place <= limits.handover_place",
+    "swing-gripper paper 2",
+    ("handover",),
+    ("handover", "cam.sense"),
+    side="<=",
+)

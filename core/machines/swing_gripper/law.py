@@ -1,0 +1,151 @@
+"""The six-phase law of a swing gripper: accelerate, run with the cylinder, decelerate, dwell, return, dwell.
+
+beta is the swing angle of the gripper arm, theta the angle of the cylinder shaft, one turn a sheet; both in
+radians. The phases accelerate and decelerate join the constant speed w = R/l_EF of the handover; the total swing
+follows from w and the phase lengths.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.cams.laws import Law
+
+PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
+_NEAR_DWELL = 5
+
+
+@dataclass(frozen=True)
+class SixPhaseLaw:
+    """Swing angle over the turn.
+
+    Parameters
+        lengths : six floats [deg] - phase lengths that add up to 360; degrees, so that joints on whole degrees
+            are met exactly
+        speed : float - w = d beta/d theta in the constant phase
+        accelerate, decelerate : Law - rest-to-speed
+        return_ : Law - rest-to-rest
+    Raises
+        NoSolution - for a law of the wrong kind, or one whose acceleration is not zero where it joins a dwell
+    Source
+        swing-gripper paper 2 (the six phases); joints continuous to the second derivative: own derivation
+    """
+
+    lengths: tuple[float, ...]
+    speed: float
+    accelerate: Law
+    decelerate: Law
+    return_: Law
+
+    def __post_init__(self) -> None:
+        for phase, law, kind in (
+            ("accelerate", self.accelerate, "rest-to-speed"),
+            ("decelerate", self.decelerate, "rest-to-speed"),
+            ("return", self.return_, "rest-to-rest"),
+        ):
+            if law.kind != kind:
+                usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
+                raise NoSolution(
+                    f"phase {phase} needs a {kind} law; {law.name} is {law.kind}: take {usual}", key=f"laws.{phase}"
+                )
+            if law.end_jumps:
+                raise NoSolution(
+                    f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell: "
+                    "take cycloidal, modified-sine or polynomial-345",
+                    key=f"laws.{phase}",
+                )
+
+    @cached_property
+    def starts(self) -> tuple[float, ...]:
+        """Angles at which the phases start, and 360 [deg]."""
+        starts = [0.0]
+        for length in self.lengths[:-1]:
+            starts.append(starts[-1] + length)
+        return (*starts, 360.0)
+
+    @cached_property
+    def _heights(self) -> tuple[float, float, float]:
+        """Swing at the ends of accelerate, constant and decelerate [rad]."""
+        spans = [math.radians(length) for length in self.lengths]
+        first = self.speed * self.accelerate.kappa * spans[0]
+        second = first + self.speed * spans[1]
+        return first, second, second + self.speed * self.decelerate.kappa * spans[2]
+
+    @property
+    def total_swing(self) -> float:
+        """Swing from bite to the far dwell [rad]: w (k_a D_a + D_c + k_d D_d)."""
+        return self._heights[2]
+
+    @property
+    def inner_steps(self) -> tuple[str, ...]:
+        """Phases whose law lets the acceleration jump between its ends."""
+        moving = (("accelerate", self.accelerate), ("decelerate", self.decelerate), ("return", self.return_))
+        return tuple(phase for phase, law in moving if math.isinf(law.peak_jerk))
+
+    def reaches(self, swing: float) -> float:
+        """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
+        ends = (-swing, self.total_swing - swing)
+        return bracketed_root(
+            lambda degrees: float(self.evaluate(degrees, 0)[0][0]) - swing, 0.0, self.starts[3], ends=ends
+        )
+
+    def phase(self, degrees: Any) -> NDArray[np.intp]:
+        """Index of the phase at angles in degrees; a joint belongs to the phase that starts there."""
+        index: NDArray[np.intp] = np.searchsorted(self.starts, np.fmod(degrees, 360.0), side="right") - 1
+        return index
+
+    def evaluate(self, degrees: Any, order: int = 2) -> tuple[Reals, ...]:
+        """Swing and its derivatives by theta.
+
+        Parameters
+            degrees : (N,) array [deg] - cylinder angle, not negative; reduced to one turn exactly, in degrees
+            order : 0..3
+        Returns
+            beta[, beta'[, beta''[, beta''']]] : (N,) arrays [rad], per radian of theta
+        """
+        theta = np.fmod(np.atleast_1d(np.asarray(degrees, dtype=np.float64)), 360.0)
+        phase = self.phase(theta)
+        out = tuple(np.zeros_like(theta) for _ in range(order + 1))
+        for index in np.flatnonzero(np.bincount(phase.ravel(), minlength=1)).tolist():
+            if index == _NEAR_DWELL:  # it rests at zero
+                continue
+            inside = phase == index
+            local = (theta[inside] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
+            for target, values in zip(out, self.in_phase(index, local, order), strict=True):
+                target[inside] = values
+        return out
+
+    def in_phase(self, index: int, u: Reals, order: int) -> tuple[Reals, ...]:
+        """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included)."""
+        span = math.radians(self.starts[index + 1] - self.starts[index])
+        first, _, top = self._heights
+        w = self.speed
+        if index == 0:
+            return tuple(w * span * s / span**n for n, s in enumerate(self.accelerate.evaluate(u, order)))
+        if index == 1:
+            return (first + w * span * u, *(np.full_like(u, w if n == 1 else 0.0) for n in range(1, order + 1)))
+        if index == 2:
+            shape = self.decelerate.evaluate(1.0 - u, order)
+            scaled = [w * span * s / span**n * (-1.0) ** n for n, s in enumerate(shape)]
+            return (top - scaled[0], *(-s for s in scaled[1:]))
+        if index == 4:
+            shape = self.return_.evaluate(u, order)
+            return (top * (1.0 - shape[0]), *(-top * s / span**n for n, s in enumerate(shape) if n))
+        level = top if index == 3 else 0.0
+        return (np.full_like(u, level), *(np.zeros_like(u) for _ in range(order)))
+
+    def joints(self) -> Reals:
+        """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
+        before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 3)]) for i in range(6)]
+        after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 3)]) for i in range(6)]
+        jumps: Reals = np.array(after) - np.array(before)
+        return jumps

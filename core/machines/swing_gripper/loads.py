@@ -1,0 +1,177 @@
+"""The loads of a swing gripper: cam rocker with linkage, return rocker, and the cams that drive both.
+
+The input angle is the cylinder's, which the cams turn with. The spring pulls the two rockers together with its torque.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.swing_gripper.design import SwingGripper
+from gearlink.core.machines.swing_gripper.mechanism import roller_on
+from gearlink.core.machines.swing_gripper.motion import require
+from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
+from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.design import loads_outline
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.swing_gripper.loads_spec import GripperLoads as Section
+    from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
+    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Motion
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.studies.loads.cams.contact import RollerOnCam
+    from gearlink.core.studies.loads.machine import Machine
+
+
+class GripperLoads(CamLoadsDesign):
+    """Input angle: that of the cylinder shaft; A, C, D, E are the pins of the linkage, O the bearing of the cams."""
+
+    kind = "swing-gripper"
+    spec: SwingGripperSpec
+    section: Section
+    section_example = "roller: {width: 20}"
+    links = ("input", "coupler", "output", "return_rocker", "cam")
+    pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()
+    stands = True
+    speed_unit, speed_unit_name, speed_words = 2.0 * math.pi / 3600.0, "sheets/h", "sheets/h"
+    speed_seconds = 3600.0
+    outlines = loads_outline(pins, meshes, (*CONTACT, "lift_off_speed"), CAM_CHECKS)
+
+    @cached_property
+    def design(self) -> SwingGripper:
+        """The geometry."""
+        return SwingGripper(self.spec)
+
+    @property
+    def given_speed(self) -> float:
+        """Sheets an hour, one turn of the input each."""
+        return self.spec.speed
+
+    @cached_property
+    def speed(self) -> float:
+        """Speed of the cylinder shaft [rad/s], one turn a sheet, in the sense of the cams."""
+        return self.design.shaft_speed
+
+    @cached_property
+    def own_rollers(self) -> tuple[str, ...]:
+        """Main, and return where the file has one."""
+        return self.rollers if self.design.return_cam is not None else self.rollers[:1]
+
+    @cached_property
+    def own_links(self) -> tuple[str, ...]:
+        """Without a return roller there is no return rocker."""
+        has = "return" in self.own_rollers
+        return self.links if has else tuple(name for name in self.links if name != "return_rocker")
+
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """From the section `inertia`."""
+        from gearlink.core.mechanism.dynamics import Mass
+
+        given = require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker")
+        found = {
+            "input": Mass(0.0, given.input),
+            "coupler": Mass(given.coupler_mass, given.coupler, complex(0.5 * self.spec.links.coupler)),
+            "output": Mass(0.0, given.output),
+        }
+        if "return" in self.own_rollers:
+            found["return_rocker"] = Mass(0.0, given.return_rocker)
+        return found
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything, with the closing spring."""
+        from dataclasses import replace
+
+        return replace(super().machine, more=self._spring)
+
+    def _spring(self, _mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:
+        """The spring presses both rockers to their cams; it turns with them and does no work."""
+        import numpy as np
+
+        from gearlink.core.mechanism.dynamics import Torque
+        from gearlink.core.mechanism.joints import NEWTON_METER
+
+        if self.spec.spring is None:
+            return []
+        closing = self.design.closure.lift_sense * self.design.closing_torque * NEWTON_METER
+        torque = np.full_like(phi, closing)
+        found: list[Force | Torque] = [Torque("input", -torque)]
+        if "return" in self.own_rollers:
+            found.append(Torque("return_rocker", torque))
+        return found
+
+    @property
+    def own_joints(self) -> list[float]:
+        """Cylinder angles at which the law of the swing changes, its pieces among them [rad]."""
+        return list(self.moving.input.joints)
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """Both dwells."""
+        a, b, c, far, back, near = (math.radians(length) for length in self.spec.phases.lengths())
+        return [(a + b + c, far), (a + b + c + far + back, near)]
+
+    @property
+    def transmission_angle(self) -> float:
+        """The lesser of those at D and C [rad]."""
+        return min(self.design.min_transmission_angle)
+
+    def _cam(self, name: str) -> DiscCam:
+        cam = self.design.main_cam if name == "main" else self.design.return_cam
+        assert cam is not None, "asked for only where the file has it"
+        return cam
+
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller from the cam axis; the cam turns as far as the cylinder."""
+        return roller_on(self._cam(name), phi)
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Out of the reactions."""
+        found: Reals = self.machine.reactions(phi).unknowns[name][0]
+        return found
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """That of the cylinder shaft."""
+        import numpy as np
+
+        return np.full_like(phi, self.speed)
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """The cam angle is the cylinder's."""
+        import numpy as np
+
+        return np.degrees(phi)
+
+    @property
+    def lift_off_speed(self) -> float | None:
+        """Speed at which a roller leaves its cam [sheets/h]; None without a spring."""
+        return None if self.spec.spring is None else self.design.lift_off_speed
+
+    @property
+    def closing_remedy(self) -> str:
+        """What presses the rollers harder."""
+        spring = self.spec.spring
+        if spring is None:
+            return "give spring: {torque: N m}"
+        return f"raise spring.{'torque' if spring.torque is not None else 'preload'}"
+
+    @property
+    def moving(self) -> Motion:
+        """The motion of the links, which needs the cams."""
+        if self.spec.cam is None:
+            raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")
+        return self.design.moving
+
+    def raw(self, name: str) -> Any:
+        """Lists of one roller are what they are; a refused cam says where it could stand."""
+        try:
+            return super().raw(name)
+        except NoSolution as error:
+            raise self.design.cams.explained(error) from error

@@ -1,0 +1,178 @@
+"""The motion of a swing gripper: its law, its linkage, and the loop both ways."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion
+    from gearlink.core.machines.swing_gripper.loop import TwoWays
+    from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
+    from gearlink.core.numerics.arrays import Reals
+
+_STATED = 1e-6
+_TURN = 2.0 * math.pi
+
+
+def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
+    """A section of the design file that a result needs."""
+    value = getattr(spec, section)
+    if value is None:
+        raise MissingSection(f"this needs the section {section}: {words}", key=section)
+    return value
+
+
+class Motion:
+    """Law and linkage of a design file."""
+
+    def __init__(self, spec: SwingGripperSpec) -> None:
+        self.spec = spec
+
+    @cached_property
+    def shaft_speed(self) -> float:
+        """Angular velocity of the cylinder shaft [rad/s]: one turn a sheet."""
+        return self.spec.speed / 3600.0 * 2.0 * math.pi
+
+    @property
+    def turn_time(self) -> float:
+        """Time of a turn of the cylinder shaft [ms]."""
+        return 2e3 * math.pi / self.shaft_speed
+
+    @cached_property
+    def law(self) -> SixPhaseLaw:
+        """The six-phase law; its constant speed is R/l_EF."""
+        from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+        from gearlink.core.parts.cams.laws import law
+
+        spec, laws = self.spec, []
+        for key in ("accelerate", "decelerate", "return"):
+            with at_key(f"laws.{key}"):
+                laws.append(law(getattr(spec.laws, key if key != "return" else "return_")))
+        made = SixPhaseLaw(spec.phases.lengths(), spec.cylinder.radius / spec.arm.length, *laws)
+        self._require_swing_below_a_turn(made)
+        self._require_stated_swing(made)
+        return made
+
+    def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
+        swing = math.degrees(law.total_swing)
+        if swing < 360.0:
+            return
+        raise NoSolution(
+            f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} is too high for "
+            f"these phases; make the arm longer than {self.spec.arm.length * swing / 360.0:.6g} mm, the cylinder's "
+            f"radius less than {self.spec.cylinder.radius * 360.0 / swing:.6g} mm, or the phases shorter",
+            key="arm.length",
+        )
+
+    def _require_stated_swing(self, law: SixPhaseLaw) -> None:
+        stated, swing = self.spec.total_swing, math.degrees(law.total_swing)
+        if stated is None or abs(stated - swing) <= _STATED:
+            return
+        short = stated - swing
+        kappa = law.accelerate.kappa + short / (law.speed * self.spec.phases.accelerate)
+        free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
+        raise NoSolution(
+            f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg: set "
+            f"arm.length to {self.spec.arm.length * swing / stated:.9g}, or change phases.constant by "
+            f"{short / law.speed:+.9g} deg (and another phase as much the other way){free}",
+            key="total_swing",
+        )
+
+    @cached_property
+    def linkage(self) -> GripperLinkage:
+        """The four-bar A-C-D-E driven by the law at ED."""
+        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
+        from gearlink.core.machines.swing_gripper.swing import require_swing
+
+        spec = self.spec
+        self._require_pivots_apart()
+        linkage = GripperLinkage(
+            law=self.law,
+            input_pivot=complex(*spec.pivots.input),
+            output_pivot=complex(*spec.pivots.output),
+            input=spec.links.input,
+            coupler=spec.links.coupler,
+            output=spec.links.output,
+            output_direction=math.radians(spec.output_direction),
+            swing_sense=spec.swing_sense,
+            assembly=spec.assembly,
+        )
+        with at_key("pivots"):
+            require_swing(linkage, math.radians(spec.limits.transmission_angle))
+        return linkage
+
+    def _require_pivots_apart(self) -> None:
+        pivots = self.spec.pivots
+        if pivots.input == pivots.output:
+            raise NoSolution(
+                f"pivots.input and pivots.output are one point, ({pivots.input[0]:g}, {pivots.input[1]:g}) mm, and the "
+                "frame length is 0 mm: cam rocker and gripper turn about axes of their own, move one of them",
+                key="pivots",
+            )
+
+    def rows(self, samples: int | None = None) -> tuple[Reals, GripperMotion]:
+        """Cylinder angles in degrees and the motion there, for the tables."""
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        return degrees, self.linkage.motion(degrees, 2)
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of speed and acceleration of both rockers [rad/s, rad/s^2], and all their places [rad]."""
+        import numpy as np
+
+        from gearlink.core.numerics.motion_extremes import extremes
+
+        joints = [math.radians(start) for start in self.law.starts]
+
+        def curve(name: str, order: int) -> Any:
+            scale = self.shaft_speed**order
+            return lambda theta: getattr(self.linkage.motion(np.degrees(theta), order), name) * scale
+
+        curves = {
+            f"{link}_{rate}": curve(f"{link}_{rate}", order)
+            for link in ("input", "output")
+            for order, rate in enumerate(("velocity", "acceleration"), start=1)
+        }
+        found: dict[str, Any] = dict(extremes(curves, 0.0, _TURN, joints=joints))
+        least = [math.radians(self.law.reaches(each.place)) for each in self.linkage.least_transmission]
+        return found | {"min_transmission_angle_at": least}
+
+    @cached_property
+    def min_transmission_angle(self) -> tuple[float, float]:
+        """Least transmission angles at D and at C over the swing [rad]."""
+        at_d, at_c = self.linkage.least_transmission
+        return at_d.value, at_c.value
+
+    @cached_property
+    def loop(self) -> TwoWays:
+        """Closed form against Newton-Raphson at every degree of the turn."""
+        return self.loop_at()[1]
+
+    def loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
+        """Cylinder angles in degrees, and closed form against Newton-Raphson there."""
+        from gearlink.core.machines.swing_gripper.loop import two_ways
+
+        degrees, motion = self.rows(samples)
+        return degrees, two_ways(self.linkage, motion)
+
+    @property
+    def newton_agreement(self) -> float:
+        """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
+        return float(self.loop.deviation.max())
+
+    @property
+    def newton_iterations(self) -> int:
+        """Most Newton-Raphson steps at a position."""
+        return int(self.loop.iterations.max())
+
+    @property
+    def condition_number(self) -> float:
+        """Largest condition number of the loop over the swing, 1/sin(mu), mu the lesser of the angles at C and D."""
+        return 1.0 / math.sin(min(self.min_transmission_angle))

@@ -1,0 +1,248 @@
+"""The design file of a swing gripper."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, LiteralString, NoReturn
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    Deferred,
+    Distance,
+    Entries,
+    Length,
+    LoadLimits,
+    SignedLength,
+    Spec,
+    TolerancedSpec,
+)
+from gearlink.core.parts.cams.spec import MotionLaw
+
+InertiaMoment = Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})]
+Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]")]
+
+
+def _refuse(key: str, message: LiteralString, **words: str) -> NoReturn:
+    raise PydanticCustomError("GL111", message, {"key": key, **words})
+
+
+class Cylinder(Spec):
+    """The cylinder that takes the sheet over."""
+
+    radius: Length = Field(description="radius R of the cylinder")
+    center: Point | None = Field(None, description="its axis; left out: the axis that fits is reported")
+
+
+class Arm(Spec):
+    """The gripper arm EF, rigid with the output link ED."""
+
+    length: Length = Field(description="EF")
+    direction: Angle = Field(description="direction of EF at the bite")
+
+
+class Links(Spec):
+    """The linkage from the cam rocker to the gripper."""
+
+    input: Length = Field(description="AC, on the cam rocker")
+    coupler: Length = Field(description="CD")
+    output: Length = Field(description="ED, rigid with the gripper arm")
+
+
+class Pivots(Spec):
+    """The fixed pivots."""
+
+    input: Point = Field(description="A, pivot of the cam rocker")
+    output: Point = Field(description="E, pivot of the gripper")
+
+
+class Phases(Spec):
+    """The six phases of a turn; they add up to 360 deg."""
+
+    accelerate: Phase = Field(description="from the bite to the constant speed")
+    constant: Phase = Field(description="at the speed of the cylinder; the handover lies in it")
+    decelerate: Phase = Field(description="to the far dwell")
+    far_dwell: Phase = Field(description="rest at the far end")
+    return_: Phase = Field(alias="return", description="back to the bite")
+    near_dwell: Phase = Field(description="rest at the bite")
+
+    @model_validator(mode="after")
+    def _whole_turn(self) -> Phases:
+        total = sum(self.lengths())
+        if abs(total - 360.0) > 1e-9:
+            raise PydanticCustomError(
+                "GL111",
+                "the six phases add up to {total} deg, not 360: change one of them by {off} deg",
+                {"total": f"{total:g}", "off": f"{360.0 - total:g}"},
+            )
+        return self
+
+    def lengths(self) -> tuple[float, ...]:
+        """The six lengths in their order [deg]."""
+        return (self.accelerate, self.constant, self.decelerate, self.far_dwell, self.return_, self.near_dwell)
+
+
+class Laws(Spec):
+    """The laws of motion of the three moving phases."""
+
+    accelerate: MotionLaw = Field("velocity-345", description="rest-to-speed law")
+    decelerate: MotionLaw = Field("half-cycloidal", description="rest-to-speed law, run backwards")
+    return_: MotionLaw = Field("modified-sine", alias="return", description="rest-to-rest law")
+
+
+class Roller(Spec):
+    """A cam roller on its rocker."""
+
+    arm: Length = Field(description="rocker pivot A to roller centre")
+    angle: Angle = Field(description="from AC (main roller) or from the main roller's arm (return roller)")
+    radius: Length = Field(description="radius of the roller")
+
+
+class GripperCam(Spec):
+    """The cam pair on the cylinder's shaft."""
+
+    center: Point | None = Field(None, description="cam axis; left out: chosen by the section `size`")
+    sense: Assembly = Field(description="+1: cam turns counter-clockwise; -1: clockwise")
+    roller: Roller
+    return_roller: Roller | None = None
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+
+
+class Size(Spec):
+    """How a cam centre that is left out is chosen: the smallest cam for a pressure angle."""
+
+    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="pressure angle that no roller exceeds"
+    )
+    side: Assembly | None = Field(
+        None, description="+1: cam left of the main roller's arm, seen from A; default: on the return roller's side"
+    )
+
+
+class Release(Spec):
+    """The cylinder angles over which one gripper opens and the other closes on the sheet."""
+
+    window: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="cylinder angle before and after the handover"
+    )
+    gap: Length = Field(0.03, description="allowed distance of the gripper tip from the pitch circle")
+
+
+class Inertia(Spec):
+    """Moments of inertia about the links' own axes, and the coupler's mass."""
+
+    input: InertiaMoment = Field(0.0, description="cam rocker about A")
+    output: InertiaMoment = Field(0.0, description="gripper about E")
+    coupler: InertiaMoment = Field(0.0, description="coupler about its centre of mass")
+    coupler_mass: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg"})] = Field(
+        0.0, description="mass of the coupler, its centre at mid-length"
+    )
+    return_rocker: InertiaMoment = Field(0.0, description="return rocker about A")
+
+
+class ClosingSpring(Spec):
+    """The spring that pulls the two rockers together: its torque, or the levers and the pull that make it."""
+
+    torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque on each rocker; or else: arms, angle, preload"
+    )
+    arms: Annotated[list[Length], Field(min_length=2, max_length=2), Entries("[cam rocker, return rocker]")] | None = (
+        Field(None, description="A to the spring's ends on cam rocker and return rocker")
+    )
+    angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="angle between these two arms"
+    )
+    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="pull of the spring; at `length` where a rate is given"
+    )
+    rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+        None, description="rate of the spring"
+    )
+    length: Length | None = Field(None, description="length at which the spring pulls with `preload`")
+    reserve: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N m"})] = Field(
+        0.0, description="least torque that must remain"
+    )
+
+    @model_validator(mode="after")
+    def _torque_or_levers(self) -> ClosingSpring:
+        needed = {"arms": self.arms, "angle": self.angle, "preload": self.preload}
+        missing = [key for key, value in needed.items() if value is None]
+        given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
+        if self.torque is not None and given:
+            text = "torque and {other} exclude each other: give the torque, or the levers that make it"
+            _refuse("torque", text, other=given[0])
+        if self.torque is None and missing:
+            _refuse("torque", "give torque, or arms, angle and preload; {missing} missing", missing=", ".join(missing))
+        if (self.rate is None) != (self.length is None):
+            _refuse("rate", "rate and length go together: the spring pulls with preload at that length")
+        return self
+
+
+class GripperLimits(LoadLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, at D and at C")
+    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle of the cams")
+    accelerate_pressure_angle: AcuteAngle = Field(30.0, description="the same in the phase accelerate; only warns")
+    condition_number: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
+        100.0, description="greatest condition number of the loop, 1/sin(mu); only warns"
+    )
+    handover_place: Length = Field(0.01, description="gripper tip off the line of centres at the handover")
+    least_shaft: Length | None = Field(
+        None, description="radius of the thinnest shaft that would be built; left out: that of the roller"
+    )
+    jerk_step: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="jump of the swing's third derivative by the cylinder angle; only warns; none: no limit"
+    )
+
+
+class SwingGripperSpec(TolerancedSpec):
+    """Six-phase swing gripper with cam rocker, four-bar and cam pair."""
+
+    kind: Literal["swing-gripper"]
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")
+    cylinder: Cylinder
+    arm: Arm
+    links: Links
+    pivots: Pivots
+    output_direction: Angle = Field(description="direction of ED at the bite")
+    swing_sense: Assembly = Field(description="-1: the working stroke turns clockwise")
+    assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
+    phases: Phases
+    handover: Phase = Field(description="cylinder angle of the handover")
+    total_swing: Phase | None = Field(None, description="stated swing: refused where law and phases give another")
+    release: Release | None = None
+    laws: Laws = Laws.model_construct()
+    cam: GripperCam | None = None
+    size: Size | None = None
+    inertia: Inertia | None = None
+    spring: ClosingSpring | None = None
+    limits: GripperLimits = GripperLimits.model_construct()
+    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
+        None,
+        alias="register",
+        description="what the register may lose, for the command register: the tip at the handover",
+    )
+    loads: Annotated[Any, Deferred("machines.swing_gripper.loads_spec:GripperLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _handover_at_speed(self) -> SwingGripperSpec:
+        start, end = self.phases.accelerate, self.phases.accelerate + self.phases.constant
+        if not start <= self.handover <= end:
+            raise PydanticCustomError(
+                "GL108",
+                "the handover at {at} deg lies outside the constant-speed phase: set it from {start} to {end} deg",
+                {"key": "handover", "at": f"{self.handover:g}", "start": f"{start:g}", "end": f"{end:g}"},
+            )
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        cam = ("cam",) if self.cam is not None else ()
+        return ("gripper", *cam, *(("loads",) if self.loads is not None and cam else ()))

@@ -1,0 +1,291 @@
+"""Samples of a three-gear four-bar for the command tolerance: links, centre distances and pins as made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.base.design import in_unit
+from gearlink.core.base.design_axis import Evaluated, Findings, Single, as_arrays, put_in
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.nomenclature import term
+from gearlink.core.base.report import Check
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.as_made.many import DriveSamples
+from gearlink.core.machines.three_gear.as_made.meshes import findings_of_meshes
+from gearlink.core.machines.three_gear.as_made.one import TolerancedDrive
+from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.linkages.checks import WINDOW_FIT
+from gearlink.core.parts.linkages.codes import DWELL_WINDOW
+from gearlink.core.parts.linkages.fourbar.lengths import Lengths
+from gearlink.core.studies.clearance.bodies import Clearance
+from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
+
+_KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
+_PINS = ("A", "B", "C", "D")
+_ARRAYS = (
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "acceleration_ratio_max",
+    "acceleration_ratio_min",
+    "nonuniformity",
+    "min_transmission_angle",
+    "gear_gap",
+    "tolerance_dwell_angle",
+)
+_LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_length": 3}
+_SWING = "dwell_swing"
+_OF_LINKS = {"gear-collision", "shaft-clearance", "transmission-angle", "dwell-window"}
+"""Checks that the links as made decide; those of the meshes hang on the centre distances."""
+
+
+class ThreeGearSamples:
+    """The samples of one drive.
+
+    Parameters
+        nominal : ThreeGearFourBar
+    Notes
+        A pin's play at A or D shifts the loop as a whole; at B and C only its component along the coupler and along
+        the rocker counts, since the gears stand on the pins. Gear teeth scatter in `register` alone.
+    """
+
+    extra = (_SWING,)
+
+    def __init__(self, nominal: ThreeGearFourBar) -> None:
+        if nominal.spec.gears.helix_angle:
+            raise NoSolution(
+                "tolerance and register take spur gears only: leave helix_angle out", key="gears.helix_angle"
+            )
+        if nominal.off_center:
+            raise NoSolution(
+                "tolerance and register take only meshes whose profile shifts add up to 0", key="gears.profile_shift"
+            )
+        self.nominal = nominal
+        links = nominal.linkage
+        self._lengths = (links.crank, links.coupler, links.rocker, links.frame)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Centre distances, pins and gears."""
+        gears, nominal = self.nominal.spec.gears, self.nominal
+        alpha = math.radians(gears.pressure_angle)
+        teeth = {"crank": nominal.crank_teeth, "idler": nominal.idler_teeth, "output": nominal.output_teeth}
+        return Parts(
+            {"crank_idler": self._lengths[1], "idler_output": self._lengths[2]},
+            _PINS,
+            {name: GearOfSource(gears.module, gears.module * abs(z), alpha) for name, z in teeth.items()},
+        )
+
+    def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
+        """Links, centre distances and pins, and what depends on them alone."""
+        known = {*_KEYS, *(f"{group}.{pin}" for group in ("pins", "bearings") for pin in _PINS)}
+        return known.issuperset(keys) and {*_ARRAYS, *_LENGTHS, _SWING}.issuperset(names)
+
+    def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
+        """The drives as made; one without a turning crank is refused."""
+        samples = self._samples(columns)
+        lengths = [np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)]
+        exists = _turns(lengths, self._kind)
+        with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
+            values = {name: self._quantity(name, samples, lengths) for name in names}
+            findings = [*self._of_links(samples), *self._of_meshes(samples, exists)]
+        for value in values.values():
+            value[~exists] = np.nan
+        found = Evaluated(values, findings, np.where(exists, 0, 1), ("links",))
+        other = _turns(lengths, "drag-link" if self._kind == "crank-rocker" else "crank-rocker")
+        alone = np.flatnonzero((samples.unsettled & exists) | other)
+        return put_in(found, alone, self._alone(alone, samples, names)) if alone.size else found
+
+    def _alone(self, places: Any, samples: DriveSamples, names: Sequence[str]) -> Evaluated:
+        """Some of the drives, each by its class."""
+        turned = np.broadcast_to(samples.frame_turn, samples.count)
+        found = []
+        for i in places.tolist():
+            made = self._made(self.nominal, samples.links.part(i), float(turned[i]), _SWING in names)
+            try:
+                values = {name: in_unit(made.raw(name), term(name).unit) for name in names}
+                checks = tuple(check for name in self._checks for check in made.check(name))
+                found.append(Single(values, checks))
+            except NoSolution as error:
+                found.append(Single({}, (), "links", error.message))
+        codes = dict.fromkeys(check.code for one in found for check in one.findings)
+        return as_arrays(found, names, list(codes))
+
+    def _samples(self, columns: Mapping[str, Any]) -> DriveSamples:
+        a, b, c, d = self._lengths
+        crank, frame = columns.get("links.crank", a), columns.get("links.frame", d)
+        coupler, rocker = columns.get("centers.crank_idler", b), columns.get("centers.idler_output", c)
+        loop: Any = frame
+        for group in ("pins", "bearings"):
+            loop = loop + columns.get(f"{group}.D", 0.0) - columns.get(f"{group}.A", 0.0)
+            coupler = coupler + np.real(columns.get(f"{group}.B", 0.0))
+            rocker = rocker + np.real(columns.get(f"{group}.C", 0.0))
+        one, two, three, four = np.broadcast_arrays(crank, coupler, rocker, np.abs(loop))
+        links = Lengths(one, two, three, four, self.nominal.spec.assembly)
+        return DriveSamples(self.nominal, links, np.angle(loop))
+
+    def _quantity(self, name: str, samples: DriveSamples, lengths: list[Reals]) -> Reals:
+        if name in _LENGTHS:
+            return lengths[_LENGTHS[name]].copy()
+        value: Reals = samples.swing(*self._window) if name == _SWING else getattr(samples, name)
+        return np.array(np.degrees(value) if term(name).unit == "deg" else value)
+
+    @cached_property
+    def _window(self) -> tuple[float, float]:
+        """Crank angles that the dwell is meant for: within the tolerance where one is given, else phi13."""
+        nominal = self.nominal
+        if nominal.tolerance_dwell is not None:
+            return nominal.tolerance_dwell.start, nominal.tolerance_dwell.crank_angle
+        if nominal.back_step is None or nominal.dwell_angle is None:
+            raise NoSolution(
+                "dwell_swing needs a dwell: a back-step, or dwell_tolerance in the file", key="tolerance.require"
+            )
+        return nominal.back_step.start, nominal.dwell_angle
+
+    def _made(self, cut: ThreeGearFourBar, links: Lengths, frame_turn: float, in_window: bool) -> TolerancedDrive:
+        """One drive of links as made, whose teeth are those of a drive as cut."""
+        a, b, c, d = (float(length) for length in _four(links))
+        start, length = self._window if in_window else (0.0, 0.0)
+        return TolerancedDrive(cut.spec, (a, b, c, d), (start - frame_turn, length), cut)
+
+    def sets(self, key: str) -> bool:
+        """Whether a source is a length of the loop."""
+        return key in _KEYS or key.startswith(("pins.", "bearings."))
+
+    def design(self, values: Mapping[str, float | complex], cut: Any = None) -> TolerancedDrive:
+        """One drive as made."""
+        cut = self.nominal if cut is None else cut
+        crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
+        samples = self._samples({key: np.array([value]) for key, value in (crank | dict(values)).items()})
+        turned = float(np.broadcast_to(samples.frame_turn, samples.count)[0])
+        links = samples.links.part(0)
+        if cut is not self.nominal:  # its gears may lie at other centre distances
+            _, b, c, _ = self._lengths
+            moved = links.coupler + (cut.coupler_length - b), links.rocker + (cut.rocker_length - c)
+            links = Lengths(links.crank, *moved, links.frame, links.assembly)
+        return self._made(cut, links, turned, self.has_window)
+
+    @property
+    def has_window(self) -> bool:
+        """Whether the nominal drive dwells."""
+        return self.nominal.tolerance_dwell is not None or self.nominal.dwell_angle is not None
+
+    # Over the cycle
+
+    @cached_property
+    def reference(self) -> float | None:
+        """Where the dwell begins; the outputs of drives without one count from crank angle 0."""
+        return math.degrees(self._window[0]) if self.has_window else None
+
+    def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
+        """By how much the outputs lie above that of the nominal drive [rad]."""
+        samples = self._samples(columns)
+        exists = _turns([np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)], self._kind)
+        with np.errstate(invalid="ignore"):
+            start = self._off(samples, self._window[0] if self.has_window else 0.0)
+            off = np.array([self._off(samples, float(phi)) - start for phi in input_angle])
+        off[:, ~exists] = np.nan
+        return off
+
+    def _off(self, samples: DriveSamples, phi: float) -> Reals:
+        """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
+        here = np.broadcast_to(phi - samples.frame_turn, (samples.count,))
+        nominal = motion.output_angle(self.nominal.linkage, samples.train, phi)
+        off: Reals = samples.counted * (samples.angle_at(here, phi) - nominal)
+        return off
+
+    @cached_property
+    def _kind(self) -> str:
+        return self.nominal.linkage.kind()
+
+    # Findings
+
+    @property
+    def _checks(self) -> tuple[str, ...]:
+        return self.nominal.outlines["analyze"].checks
+
+    def _of_links(self, samples: DriveSamples) -> Iterator[Findings]:
+        """What is judged of every drive by its links, and what no deviation changes."""
+        nominal, limits = self.nominal, self.nominal.spec.limits
+        own = set(_OF_LINKS)
+        if nominal.gear_gap is not None:
+            yield _below("GL301", samples.gear_gap, limits.gear_gap, "mm")
+        else:  # a ring and its idler lie in a plane of their own
+            own.remove("gear-collision")
+        angle = limits.transmission_angle
+        yield _below("GL303", np.degrees(samples.min_transmission_angle), angle, "deg", angle + 5.0)
+        for pair in nominal.layout.shaft_pairs:
+            yield self._shaft(pair, samples)
+        if nominal.tolerance_dwell is None:  # no tolerance, or one that the output never leaves
+            own.remove("dwell-window")
+        elif nominal.spec.dwell_window is not None:
+            yield _window(np.degrees(samples.tolerance_dwell_angle), nominal.spec.dwell_window)
+        for name in self._checks:
+            if name not in own and name not in MESH_CHECKS:
+                yield from (_same(check, samples.count) for check in nominal.check(name))
+
+    def _of_meshes(self, samples: DriveSamples, exists: Mask) -> Iterator[Findings]:
+        """What is judged of the teeth at the centre distances as made; a mesh that cannot be takes its drive away."""
+        names = [name for name in self._checks if name in MESH_CHECKS]
+        (_, b, c, _), links = self._lengths, samples.links
+        made = [np.broadcast_to(length, (samples.count,)) for length in (links.coupler, links.rocker)]
+        if all((length == nominal).all() for length, nominal in zip(made, (b, c), strict=True)):
+            yield from (_same(check, samples.count) for name in names for check in self.nominal.check(name))
+            return
+        yield from findings_of_meshes(self.nominal, self._lengths, names, made, exists)
+
+    def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
+        """GL302 of two bodies, as `gearlink.core.studies.clearance.bodies.least_gap` has it."""
+        ends, one, other = "".join(sorted((pair.one.axis, pair.other.axis))), pair.one, pair.other
+        nearest, farthest = samples.distances()[ends]
+        within = np.maximum(one.inner - (farthest + other.outer), other.inner - (farthest + one.outer))
+        gap = np.maximum(nearest - (one.outer + other.outer), within)
+        limit = self.nominal.layout.least_shaft * len(pair.bare)
+        low: Mask = gap < limit
+        return Findings("GL302", gap, np.full(gap.shape, limit), low & (not pair.bare), low & bool(pair.bare), "mm")
+
+
+def _four(links: Lengths) -> tuple[Reals, Reals, Reals, Reals]:
+    return links.crank, links.coupler, links.rocker, links.frame
+
+
+def _turns(lengths: list[Reals], kind: str) -> Mask:
+    """Where the linkage is of the nominal kind: the crank (of a drag link the frame) shortest, by Grashof's rule."""
+    a, b, c, d = lengths
+    shortest, p, q, r = (a, b, c, d) if kind == "crank-rocker" else (d, a, b, c)
+    longest = np.maximum(np.maximum(p, q), r)
+    good: Mask = (
+        (shortest > 0.0) & (shortest < np.minimum(np.minimum(p, q), r)) & (shortest + 2.0 * longest < p + q + r)
+    )
+    return good
+
+
+def _below(code: str, value: Reals, limit: float, unit: str, warning: float | None = None) -> Findings:
+    fails: Mask = ~(value >= limit)
+    warns = np.zeros_like(fails) if warning is None else ~fails & (value < warning)
+    return Findings(code, np.asarray(value), np.full(value.shape, limit), fails, warns, unit)
+
+
+def _window(reached: Reals, asked: float) -> Findings:
+    """GL313, as `gearlink.core.parts.linkages.checks.dwell_window_check` has it."""
+    fails: Mask = ~(reached >= asked * (1.0 - WINDOW_FIT))
+    return Findings(DWELL_WINDOW.code, reached, np.full(fails.shape, asked), fails, np.zeros_like(fails), "deg")
+
+
+def _same(check: Check, count: int) -> Findings:
+    """A finding that no tolerance of these changes."""
+    fails, warns = np.full(count, check.status == "fail"), np.full(count, check.status == "warn")
+    value = np.full(count, math.nan if check.value is None else check.value)
+    return Findings(
+        check.code, value, np.full(count, math.nan if check.limit is None else check.limit), fails, warns, check.unit
+    )

@@ -1,0 +1,246 @@
+"""Standstills, back-step and dwell of the three-gear four-bar with any teeth, in crank-rocker and drag link.
+
+The output stands still where A and the poles of both meshes lie on one line. That is a quadratic in cos^2(beta), beta
+the base angle of the triangle between C and the poles, so there are at most two standstills a turn and none has to be
+searched for; `gearlink.core.machines.three_gear.dwell.momentary_dwell` has the case of the double root.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+    Tangency,
+    crank_angle,
+    tangency,
+    tangency_range,
+    wrap,
+)
+from gearlink.core.machines.three_gear.motion import (
+    GearTrain,
+    forward,
+    output_acceleration,
+    output_angle,
+    output_jerk,
+    output_speed,
+)
+from gearlink.core.numerics.gauss import integral
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.checks import check_linkage
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+from gearlink.core.parts.linkages.standstills import BackStep
+
+UNIDIRECTIONAL = "unidirectional"
+MOMENTARY_DWELL = "momentary-dwell"
+BACK_STEP = "back-step"
+
+# A frame that is off by 1e-9 of its length moves the least speed ratio by about as much. No workshop can tell such
+# frames apart, so nearer to zero than this the output has one standstill, not two or none.
+STANDSTILL_TOLERANCE = 1e-9
+_LINK_TOLERANCE = 1e-9
+
+
+def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
+    """Crank angles at which the output stands still: none, one (a momentary dwell) or two.
+
+    Q X^2 + (2 P g - 4 S^2 h) X + g^2 = 0,   X = cos^2(beta),
+    h = a^2 - r1^2,  g = h + r5^2 - d^2,  S = r1 + 2 r3 + r5,  P = S^2 + r1^2 - r5^2,  Q = P^2 - 4 S^2 r1^2
+
+    Parameters
+        linkage : FourBar [mm] - crank-rocker or drag link; coupler and rocker in proportion to z1 + z3 and z3 + z5
+        train : GearTrain
+    Returns
+        positions : list of float [rad] - ascending in [0, 2 pi)
+    Raises
+        NoSolution - for another linkage, or links that are not the centre distances of the gears
+    Notes
+        With d_t the frame of the momentary dwell the discriminant is 4 S^2 r1^2 (d^2 - d_t^2) (d^2 - d_o^2), and
+        d^2 - d_o^2 = d^2 - d_t^2 + 4 |h| U V/r1^2: a product without cancellation. Both roots belong to the
+        linkage or none does, since the larger one passes 1 only where coupler and rocker stretch straight. A
+        linkage whose speed ratio is zero within 1e-9 of its terms at the tangency has one standstill.
+        The condition number of two standstills is d/|d - d_t|.
+    Example
+        >>> places = dwell_positions(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60))
+        >>> [round(math.degrees(phi), 9) for phi in places]
+        [247.691347727, 306.359940596]
+
+    Source
+        own derivation; thesis 4.2.2 states the condition of the poles
+    """
+    check_linkage(linkage)
+    r1, r3, r5 = _radii(linkage, train)
+    if train.internal:
+        from gearlink.core.machines.three_gear.dwell import internal_dwell
+
+        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        once = [] if touching is None else _momentary(linkage, train, touching, r1, r3, r5)
+        return once or internal_dwell.standstills(linkage, train, (r1, r3, r5))
+    low, high = tangency_range(r1, r3, r5)
+    if not low < linkage.crank < high:
+        return []
+    limit = tangency(r1, r3, r5, linkage.crank)
+    momentary = _momentary(linkage, train, limit, r1, r3, r5)
+    if momentary:
+        return momentary
+    if linkage.frame <= limit.frame:
+        return []
+    return sorted(_two_standstills(linkage, limit, r1, r3, r5))
+
+
+def motion(positions: list[float]) -> str:
+    """Kind of output motion, from its standstills.
+
+    Parameters
+        positions : list of float [rad] - from `dwell_positions`
+    Returns
+        'unidirectional', 'momentary-dwell' or 'back-step'
+    Example
+        >>> motion(dwell_positions(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)))
+        'back-step'
+
+    Source
+        thesis 4.1.2, 4.2.1
+    """
+    return (UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP)[min(len(positions), 2)]
+
+
+def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
+    """The back-step of an output that has one: where it starts and ends, and what it takes back.
+
+    |phi5(2) - phi5(1)|
+
+    Returns
+        back_step : BackStep [rad]
+    Raises
+        NoSolution - when the output does not turn back, or the linkage is not fit, see `dwell_positions`
+    Notes
+        The angle is the integral of the speed where the back-step is short, as the third power of a short
+        back-step's crank angle would cancel in the difference of output angles.
+    Example
+        >>> found = back_step(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60))
+        >>> round(math.degrees(found.crank_angle), 9), round(math.degrees(found.angle), 9)
+        (58.668592868, 1.212200833)
+
+    Source
+        thesis (4-15), (4-16) for I = 1; own derivation otherwise
+    """
+    train = forward(linkage, train)
+    positions = dwell_positions(linkage, train)
+    if len(positions) < 2:
+        raise NoSolution(
+            f"the output of this linkage does not turn back ({motion(positions)}): with crank {linkage.crank:.9g} mm "
+            + _frame_for_back_step(linkage, train)
+        )
+    start, end = positions
+    if output_acceleration(linkage, train, start) > 0.0:
+        start, end = end, start
+    width = wrap(end - start)
+    return BackStep(start, end, width, -gain(linkage, train, start, width))
+
+
+def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
+    """Crank angle phi13 from the start of the back-step to where the output regains its place, exactly.
+
+    phi5(phi(1) + phi13) = phi5(phi(1))
+
+    Parameters
+        step : BackStep - from `back_step`
+    Returns
+        phi13 : float [rad] - phi12 < phi13 < 2 pi
+    Notes
+        Bracketed root between phi(2) and one turn after phi(1): the output rises there all the way.
+    Example
+        >>> linkage, train = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
+        >>> round(math.degrees(dwell_angle(linkage, train, back_step(linkage, train))), 9)
+        88.188661262
+
+    Source
+        own derivation; thesis (4-17) takes 1.5 phi12
+    """
+    train = forward(linkage, train)
+    ends = (min(-step.angle, 0.0), gain(linkage, train, step.start, 2.0 * math.pi))
+    return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi, ends=ends)
+
+
+def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> float:
+    """Output angle gained over a crank interval, without cancellation where the interval is short.
+
+    The speed is analytic in a strip around the real crank angles: gamma reaches 0 or pi, or B reaches D, no nearer to
+    the axis than the least transmission angle and |ln(d/a)| (ad < bc in a linkage that turns).
+    """
+    strip = min(linkage.min_transmission_angle(), abs(math.log(linkage.frame / linkage.crank)))
+    if length < 0.5 * strip:
+        return integral(lambda phi: output_speed(linkage, train, phi), start, start + length)
+    return output_angle(linkage, train, start + length) - output_angle(linkage, train, start)
+
+
+def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:
+    """Reference radii of the gears whose centre distances the coupler and the rocker are."""
+    z1, z3, z5 = train.crank, train.idler, train.output
+    scale = linkage.coupler / abs(z1 + z3)
+    r1, r3 = z1 * scale, z3 * scale
+    rocker = scale * abs(z3 + z5)
+    if abs(rocker - linkage.rocker) > _LINK_TOLERANCE * rocker:
+        raise NoSolution(
+            f"the rocker {linkage.rocker:.9g} mm does not fit the gears: with the coupler {linkage.coupler:.9g} mm and "
+            f"{z1:g}, {z3:g}, {z5:g} teeth it must be {rocker:.9g} mm"
+        )
+    return r1, r3, linkage.rocker * z5 / abs(z3 + z5)
+
+
+def _momentary(linkage: FourBar, train: GearTrain, limit: Tangency, r1: float, r3: float, r5: float) -> list[float]:
+    """The one standstill of a linkage that is a momentary dwell within the tolerance, else an empty list."""
+    if abs(linkage.frame - limit.frame) > 1e-3 * limit.frame:
+        return []
+    reach = (r1 + 2.0 * r3 + r5) * limit.cos_beta
+    phi = crank_angle(r1, r5, reach, limit.pole_offset * limit.cos_beta, limit.sin_beta, linkage.assembly)
+    state = solve(linkage, phi, 1)
+    terms = (
+        abs(train.ratio)
+        + abs(train.coupler_share * state.coupler_velocity)
+        + abs(train.rocker_share * state.rocker_velocity)
+    )
+    if abs(output_speed(linkage, train, phi)) > STANDSTILL_TOLERANCE * terms:
+        return []
+    # One Newton step from the double root of the limit to the least speed of this very linkage.
+    return [wrap(phi - output_acceleration(linkage, train, phi) / output_jerk(linkage, train, phi))]
+
+
+def _two_standstills(linkage: FourBar, limit: Tangency, r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank angles of both roots of the quadratic, the frame being longer than that of the momentary dwell."""
+    a, d = linkage.crank, linkage.frame
+    s = r1 + 2.0 * r3 + r5
+    b = r1 + r3
+    u, v = math.sqrt(b * (b + r5)), math.sqrt(r3 * (r3 + r5))
+    h = (a - r1) * (a + r1)
+    factor = ((u + v) if a < r1 else s * r1 / (u + v)) / r1
+    delta = (d - limit.frame) * (d + limit.frame)
+    four_huv = 4.0 * abs(h) * u * v
+    mean = 2.0 * (u * u + v * v) * delta + four_huv * factor * factor
+    root = 2.0 * s * math.sqrt(delta * (r1 * r1 * delta + four_huv))
+    g = h * factor * factor - delta
+    p = 2.0 * (u * u + v * v)
+    places = []
+    for x2 in ((mean + root) / (4.0 * u * v) ** 2, g * g / (mean + root)):
+        x = math.sqrt(x2)
+        w = (p * x2 + g) / (2.0 * s * x)
+        places.append(crank_angle(r1, r5, s * x, w, math.sqrt(1.0 - x2), linkage.assembly))
+    return places[0], places[1]
+
+
+def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
+    """Which frame, if any, would make the output turn back."""
+    r1, r3, r5 = _radii(linkage, train)
+    if train.internal:
+        from gearlink.core.machines.three_gear.dwell import internal_dwell
+
+        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        if touching is None:
+            return "no frame does that; take another crank or other teeth"
+        side = "longer" if r1 + r3 + r5 > 0.0 else "shorter"
+        return f"it does so with a frame {side} than {touching.frame:.9g} mm"
+    low, high = tangency_range(r1, r3, r5)
+    if not low < linkage.crank < high:
+        return f"no frame does that; take a crank between {low:.9g} and {high:.9g} mm"
+    return f"it does so with a frame longer than {tangency(r1, r3, r5, linkage.crank).frame:.9g} mm"

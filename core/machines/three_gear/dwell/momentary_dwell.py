@@ -1,0 +1,380 @@
+"""Momentary dwell of the three-gear four-bar with any teeth: closed forms for frame and crank angle.
+
+The output stands still where A, the pole F of crank gear and idler (on BC, r1 from B) and the pole E of idler and
+output gear (on CD, r3 from C) lie on one line. The triangle CFE is isosceles; with its base angle beta, x = cos(beta),
+e = AB, S = r1 + 2 r3 + r5 and w = sqrt(e^2 - r1^2 + r1^2 x^2), signed,
+
+    AD^2 = (S x - w)^2 + r5^2 (1 - x^2)
+
+A dwell of just a moment is a stationary value of AD over beta. There w = e_t x: everything is rational in
+e_t = r1 (U -+ V)/(U +- V), U = sqrt(b (b + r5)), V = sqrt(r3 c), where the upper signs hold for a crank shorter than
+r1 (crank-rocker), the lower ones for a longer one (drag link).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+
+class Tangency(NamedTuple):
+    """Where the output just stops: the frame length [mm] of that, cosine and sine of beta, and e_t [mm]."""
+
+    frame: float
+    cos_beta: float
+    sin_beta: float
+    pole_offset: float
+
+
+class Intermediates(NamedTuple):
+    """The thesis's steps to the frame of a momentary dwell: K, L, M [mm^6], beta, alpha [rad], AF, FE, EG, GD [mm]."""
+
+    k: float
+    l: float  # noqa: E741 - the thesis's letter
+    m: float
+    beta: float
+    alpha: float
+    af: float
+    fe: float
+    eg: float
+    gd: float
+
+
+def intermediates(r1: float, r3: float, r5: float, eccentricity: float) -> Intermediates:
+    """The steps of thesis (4-26) to (4-33), with its slips corrected.
+
+    K cos^4 b + L cos^2 b + M = 0,   sin alpha = r1 sin b/e,   AF = r1 cos b - e cos alpha,
+    FE = 2 r3 cos b,   EG = r5 cos b,   GD = r5 sin b,   AD = sqrt((AF + FE + EG)^2 + GD^2)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+        eccentricity : float [mm] - e = AB, crank length
+    Raises
+        NoSolution - as `tangency`
+    Example
+        >>> steps = intermediates(25.0, 25.0, 75.0, 18.0)
+        >>> round(steps.af, 9), round(math.degrees(steps.beta), 9), round(math.degrees(steps.alpha), 9)
+        (13.797431469, 44.5807655, 77.130662947)
+
+    Source
+        thesis (4-26) to (4-33); K with the 2 that its numbers lack, AF with the minus that its formula lacks
+    """
+    found = tangency(r1, r3, r5, eccentricity)
+    s, h = r1 + 2.0 * r3 + r5, (eccentricity - r1) * (eccentricity + r1)
+    k = 16.0 * r1 * r1 * r3 * (r3 + r5) * (r1 + r3) * (r1 + r3 + r5)
+    along = found.pole_offset * found.cos_beta  # e cos(alpha), positive where the pole F lies beyond A
+    sine = r1 * found.sin_beta
+    return Intermediates(
+        k,
+        k * h / (r1 * r1),
+        -((s * h) ** 2),
+        math.atan2(found.sin_beta, found.cos_beta),
+        math.atan2(sine, along),
+        r1 * found.cos_beta - along,
+        2.0 * r3 * found.cos_beta,
+        r5 * found.cos_beta,
+        r5 * found.sin_beta,
+    )
+
+
+def least_eccentricity(r1: float, r3: float, r5: float) -> float:
+    """Crank length down to which a momentary dwell exists; there the linkage stretches straight.
+
+    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo : float [mm] - below r1
+    Raises
+        NoSolution - for a radius that is not positive and finite
+    Example
+        >>> round(least_eccentricity(25.0, 25.0, 75.0), 9)
+        5.628705664
+
+    Source
+        own derivation: cos(beta) = 1 in thesis (4-26)
+    """
+    return r1 * r1 * (r1 + 2.0 * r3 + r5) / _pole_sum(r1, r3, r5) ** 2
+
+
+def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank lengths between which some frame just stops the output, in crank-rocker or drag link.
+
+    e_lo < e < e_hi,   e_hi = r1^2/e_lo
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo, e_hi : float, float [mm] - `least_eccentricity` and its counterpart above r1
+    Raises
+        NoSolution - for a radius that is not positive and finite
+    Example
+        >>> [round(e, 9) for e in tangency_range(25.0, 25.0, 75.0)]
+        [5.628705664, 111.037961003]
+
+    Source
+        own derivation: cos(beta) = 1 with either sign of the root
+    """
+    e_lo = least_eccentricity(r1, r3, r5)
+    return e_lo, r1 * (r1 / e_lo)
+
+
+def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank lengths between which a crank-rocker with a momentary dwell exists.
+
+    e_lo < e < e_up,   e_up = r1 - 2 max(0, r1 - r5) r1^2/(U + V)^2
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo, e_up : float, float [mm] - at e_lo the linkage stretches straight, at e_up it folds
+    Raises
+        NoSolution - for a radius that is not positive and finite, and where the range is empty: an output gear
+            smaller than the crank gear with a small idler
+    Notes
+        e_up is the root of d* - e = r1 - r5 = |b - c|; the other root is -r1. For r5 >= r1 it is r1.
+    Example
+        >>> [round(e, 9) for e in eccentricity_range(25.0, 25.0, 75.0)]
+        [5.628705664, 25.0]
+        >>> [round(e, 9) for e in eccentricity_range(13.0, 5.0, 5.0)]
+        [6.294646736, 9.403059008]
+    """
+    low = least_eccentricity(r1, r3, r5)
+    high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
+    if not low < high:
+        raise NoSolution(
+            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no crank-rocker with a "
+            f"momentary dwell: the crank would have to be longer than {low:.9g} mm and shorter than {high:.9g} mm; "
+            "take a larger idler or an output gear not smaller than the crank gear"
+        )
+    return low, high
+
+
+def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
+    """Frame length at which the output of given gears and crank just stops, in crank-rocker or drag link.
+
+    cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_t^2),   d*^2 = (S - e_t)^2 cos^2(beta) + r5^2 sin^2(beta)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        eccentricity : float [mm] - e = AB, crank length, e_lo < e < e_hi; the linkage is a crank-rocker for
+            e < r1 and a drag link, if it turns at all, for e > r1
+    Returns
+        tangency : Tangency
+    Raises
+        NoSolution - for a crank outside (e_lo, e_hi): there the output stops for no frame
+    Notes
+        cos^2 and sin^2 come from products of differences of the lengths: no loss at either end of the range.
+    Example
+        >>> round(tangency(25.0, 25.0, 75.0, 18.0).frame, 12)
+        115.522215624713
+
+    Source
+        own derivation; replaces thesis (4-26)..(4-33), in whose printed example the numbers have slips
+    """
+    e = eccentricity
+    e_lo, e_hi = tangency_range(r1, r3, r5)
+    if not e_lo < e < e_hi:
+        raise NoSolution(
+            f"a crank of {e:.9g} mm never stops the output, whatever the frame: it must lie between {e_lo:.9g} and "
+            f"{e_hi:.9g} mm; choose it between them or change the gears"
+        )
+    e_t = e_lo if e < r1 else e_hi
+    span = (r1 - e_t) * (r1 + e_t)
+    cos_beta = math.sqrt((r1 - e) * (r1 + e) / span)
+    sin_beta = math.sqrt((e - e_t) * (e + e_t) / span)
+    frame = math.hypot((r1 + 2.0 * r3 + r5 - e_t) * cos_beta, r5 * sin_beta)
+    return Tangency(frame, cos_beta, sin_beta, e_t)
+
+
+def momentary_frame_length(r1: float, r3: float, r5: float, eccentricity: float) -> float:
+    """Frame length of the crank-rocker whose output stops just once a turn, without stepping back.
+
+    d*^2 = r5^2 + (r1^2 - e^2) {[(sqrt(r3 c) + sqrt(b (b + r5)))/r1]^2 - 1},   b = r1 + r3, c = r3 + r5
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+        eccentricity : float [mm] - e, crank length, within `eccentricity_range`
+    Returns
+        frame : float [mm]
+    Raises
+        NoSolution - for a crank outside the range: shorter ones never stop the output, ones from r1 on always make
+            it step back, and between e_up and r1 the linkage does not turn
+    Example
+        >>> round(momentary_frame_length(25.0, 25.0, 75.0, 16.0), 12)
+        122.839414791868
+
+    Source
+        own derivation; thesis (4-26)..(4-33) solve the same task in steps
+    """
+    return _wanted(r1, r3, r5, eccentricity).frame
+
+
+def momentary_crank_angle(r1: float, r3: float, r5: float, eccentricity: float, assembly: int = 1) -> float:
+    """Crank angle at which the output of a momentary-dwell linkage stands still.
+
+    phi = arg(-e_lo x, -r1 s) - arg((S - e_lo) x, -r5 s),   x, s = cos(beta), sin(beta)
+
+    Parameters
+        r1, r3, r5, eccentricity : float [mm] - as in `momentary_frame_length`
+        assembly : +1 or -1 - the mirrored linkage stops at 2 pi - phi
+    Returns
+        phi : float [rad] - 0 <= phi < 2 pi
+    Raises
+        NoSolution - as `momentary_frame_length`
+    Notes
+        Full precision, where the search for a double root of the speed keeps half the digits.
+    Example
+        >>> round(math.degrees(momentary_crank_angle(25.0, 25.0, 75.0, 18.0)), 10)
+        284.240687259
+    """
+    found = _wanted(r1, r3, r5, eccentricity)
+    w = found.pole_offset * found.cos_beta
+    return crank_angle(r1, r5, (r1 + 2.0 * r3 + r5) * found.cos_beta, w, found.sin_beta, assembly)
+
+
+def momentary_linkage(r1: float, r3: float, r5: float, eccentricity: float, assembly: int = 1) -> FourBar:
+    """Four-bar with a momentary dwell: crank e, coupler r1 + r3, rocker r3 + r5, frame d*.
+
+    Raises
+        NoSolution - as `momentary_frame_length`
+    Example
+        >>> momentary_linkage(25.0, 25.0, 75.0, 16.0).kind()
+        'crank-rocker'
+    """
+    return FourBar(eccentricity, r1 + r3, r3 + r5, momentary_frame_length(r1, r3, r5, eccentricity), assembly)
+
+
+def crank_angle(r1: float, r5: float, reach: float, w: float, sin_beta: float, assembly: int) -> float:
+    """Crank angle of a standstill from its pole triangle: reach = S cos(beta), w = AF's part along the pole line.
+
+    Returns
+        phi : float [rad] - 0 <= phi < 2 pi
+
+    Source
+        own derivation: direction of AB less direction of AD, pole line as x axis
+    """
+    phi = math.atan2(-r1 * sin_beta, -w) - math.atan2(-r5 * sin_beta, reach - w)
+    return wrap(assembly * phi)
+
+
+def wrap(angle: float) -> float:
+    """Angle reduced to 0 <= angle < 2 pi.
+
+    Example
+        >>> wrap(-1e-20), wrap(7.0) == 7.0 - 2.0 * math.pi
+        (0.0, True)
+    """
+    turned = angle % (2.0 * math.pi)
+    return turned if turned < 2.0 * math.pi else 0.0
+
+
+def _pole_sum(r1: float, r3: float, r5: float) -> float:
+    """U + V = sqrt(b (b + r5)) + sqrt(r3 c)."""
+    for name, radius in (("r1", r1), ("r3", r3), ("r5", r5)):
+        if not 0.0 < radius < math.inf:
+            raise NoSolution(f"the reference radius {name} is {radius:g} mm; it must be positive and finite")
+    b = r1 + r3
+    return math.sqrt(b * (b + r5)) + math.sqrt(r3 * (r3 + r5))
+
+
+def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
+    """The tangency of a crank-rocker, or the refusal with its limits."""
+    low, high = eccentricity_range(r1, r3, r5)
+    if not low < eccentricity < high:
+        what = "never stops the output, whatever the frame"
+        if eccentricity >= r1:
+            what = "always makes the output step back, whatever the frame"
+        elif eccentricity >= high:
+            what = "cannot turn with the frame of its momentary dwell"
+        raise NoSolution(
+            f"a crank of {eccentricity:.9g} mm {what}: for a momentary dwell of these gears it must lie between "
+            f"{low:.9g} and {high:.9g} mm; choose it between them or change the gears"
+        )
+    return tangency(r1, r3, r5, eccentricity)
+
+
+def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> float:
+    """Crank length whose momentary dwell has a given frame.
+
+    e^2 = r1^2 - (d^2 - r5^2)/kappa,   kappa = (U + V)^2/r1^2 - 1
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        frame : float [mm] - d*(e_up) < d < d*(e_lo)
+    Returns
+        eccentricity : float [mm]
+    Raises
+        NoSolution - for a frame outside the range
+    Example
+        >>> round(eccentricity_for_frame(25.0, 25.0, 75.0, 122.839414791868), 9)
+        16.0
+    """
+    low, high = eccentricity_range(r1, r3, r5)
+    longest = (r1 + 2.0 * r3 + r5) - low
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    shortest = math.sqrt(r5 * r5 + (r1 - high) * (r1 + high) * kappa)
+    if not shortest < frame < longest:
+        raise NoSolution(
+            f"no crank gives these gears a momentary dwell with a frame of {frame:.9g} mm: it must lie between "
+            f"{shortest:.9g} and {longest:.9g} mm"
+        )
+    return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
+
+
+def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float | None:
+    """Longest crank of a momentary-dwell design that keeps B so far from D; None where none does.
+
+    d*(e) - e = G:   e = (-G + sqrt(G^2 + (1 + kappa)(kappa r1^2 + r5^2 - G^2)))/(1 + kappa)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        distance : float [mm] - G, sum of the tip radii of gears 1 and 5 and the wanted gap
+    Returns
+        crank : float [mm]
+    Notes
+        d* falls as e rises, so every shorter crank within `eccentricity_range` has more room.
+    Example
+        >>> round(crank_with_room(25.0, 25.0, 75.0, 105.0), 3)
+        16.418
+    """
+    try:
+        low, high = eccentricity_range(r1, r3, r5)
+    except NoSolution:
+        return None
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    if distance >= (r1 + 2.0 * r3 + r5) - 2.0 * low:
+        return None
+    rest = kappa * r1 * r1 + (r5 - distance) * (r5 + distance)
+    crank = (math.sqrt(distance * distance + (1.0 + kappa) * rest) - distance) / (1.0 + kappa)
+    return min(crank, high)
+
+
+def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
+    """Crank length of the momentary dwell with the greatest least transmission angle: e^2 + d*^2 = b^2 + c^2.
+
+    e_bal^2 = (r5^2 + kappa r1^2 - b^2 - c^2)/(kappa - 1)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+    Returns
+        eccentricity : float [mm]
+    Raises
+        NoSolution - where the balanced linkage has no momentary dwell
+    Example
+        >>> round(balanced_eccentricity(40.0, 72.0, 40.0), 6)
+        28.762469
+    """
+    low, high = eccentricity_range(r1, r3, r5)
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    square = (r5 * r5 + kappa * r1 * r1 - (r1 + r3) ** 2 - (r3 + r5) ** 2) / (kappa - 1.0)
+    if not low * low < square < high * high:
+        raise NoSolution(
+            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no balanced linkage with "
+            "a momentary dwell; give crank or frame"
+        )
+    return math.sqrt(square)

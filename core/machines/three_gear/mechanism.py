@@ -1,0 +1,77 @@
+"""The mechanism of a three-gear four-bar: crank with gear 1, coupler, rocker, idler on C, output gear on D."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.joints import Mesh, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
+from gearlink.core.mechanism.rates import from_start, mixed
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+from gearlink.core.parts.linkages.fourbar.position import solve
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+    from gearlink.core.numerics.arrays import Reals
+
+OUTPUT = turned("output")
+
+
+def motion(design: ThreeGearFourBar) -> Motion:
+    """Links and joints over the crank angle, A at 0 and D on +x; idler and output gear count from crank angle 0.
+
+    th3 = i2 phi + (1 - i2) t2,   th5 = i3 th3 + (1 - i3) t3,   i2 = -z1/z3,  i3 = -z3/z5
+
+    Source
+        thesis (4-21), (4-22)
+    """
+    linkage, train, rolling = design.linkage, design.train, _rolling(design)
+    at_start = solve(linkage, 0.0)
+    i2, i3 = -train.crank / train.idler, -train.idler / train.output
+    section = design.spec.loads
+    holds_idler = "coupler" if section is None else section.idler_pin
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        links = four_bar(linkage, phi, order)
+        b, d = links["coupler"], links["rocker"]
+        coupler, rocker = from_start(b.turn, at_start.coupler_angle), from_start(d.turn, at_start.rocker_angle)
+        idler = mixed((i2, links["crank"].turn), (1.0 - i2, coupler))
+        pins = four_bar_pins(links)
+        links["idler"] = Link(d.at("C"), idler)
+        links["output"] = Link(d.origin, mixed((i3, idler), (1.0 - i3, rocker)))
+        (r1, r3, flank), (r3_out, r5, flank_out) = rolling
+        return Mechanism(
+            links,
+            [
+                *pins,
+                Pin("C_idler", holds_idler, "idler", d.at("C").value),
+                Pin("D_output", FRAME, "output", d.origin.value),
+                Mesh("mesh_13", "crank", "idler", b.origin.value, b.unit, abs(r1), r3, flank, r1 < 0.0, "coupler"),
+                Mesh("mesh_35", "output", "idler", d.origin.value, d.unit, abs(r5), r3_out, flank_out, r5 < 0.0,
+                     "rocker"),
+            ],
+            "crank",
+        )  # fmt: skip
+
+    outputs = Output("Output gear 5", OUTPUT), Output("Rocker CD", turned("rocker"))
+    return Motion(make, Input("crank_angle"), outputs)
+
+
+def _rolling(design: ThreeGearFourBar) -> list[tuple[float, float, float]]:
+    """Working radii [mm] of both meshes, a ring's negative and first, and the tangent of their pressure angle."""
+    if design.own_teeth:
+        crank, output = design.meshes.values()
+        (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
+        return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
+    train, gears = design.train, design.spec.gears
+    tangent = math.tan(math.radians(gears.pressure_angle))
+    r1, r3, r5 = (0.5 * gears.module * teeth for teeth in (train.crank, train.idler, train.output))
+    return [(r1, r3, tangent), (r3, r5, tangent)]
+
+
+def _rolling_of(pair: Any) -> tuple[float, float, float]:
+    r1, r2 = pair.working_radius
+    return r1, r2, math.tan(pair.working_pressure_angle)

@@ -1,0 +1,166 @@
+"""The design file of a three-gear four-bar."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
+
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.real_speed import other_speed
+from gearlink.core.base.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.parts.gears.train.keys import TrainKeys
+from gearlink.core.parts.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
+
+
+def _some_teeth(teeth: int) -> int:
+    if teeth == 0:
+        raise PydanticCustomError("GL108", "teeth must be 1 or more, or -1 or less for a ring gear, not 0")
+    return teeth
+
+
+SignedTeeth: TypeAlias = Annotated[
+    int,
+    Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}}),
+    AfterValidator(_some_teeth),
+]
+
+
+class Gears(TrainKeys):
+    """The three gears in mesh; the idler stands on the pin of coupler and rocker."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("crank", "idler", "output")
+
+    module: Length = Field(description="module of all three gears")
+    crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
+    idler: Teeth | None = Field(None, description="teeth of the idler; chosen by a synthesis when left out")
+    output: SignedTeeth = Field(description="teeth of the output gear on the rocker's axis; negative: a ring gear")
+    i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="-idler/output, in place of idler"
+    )
+    rim: Length | None = Field(
+        None, description="outer radius of the output ring; left out: 2 modules outside its root circle"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    def rings(self) -> tuple[bool, ...]:
+        """Crank and output gear may be rings."""
+        return self.crank < 0, False, self.output < 0
+
+    @model_validator(mode="after")
+    def _rings_are_larger(self) -> Gears:
+        for key, teeth in (("crank", self.crank), ("output", self.output)):
+            if teeth < 0 and self.idler is not None and -teeth <= self.idler:
+                message = "a ring gear of {ring} teeth does not take an idler of {idler}: give it more teeth"
+                words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
+                raise PydanticCustomError("GL111", message, words)
+        if self.i3 is not None and min(self.crank, self.output) < 0:
+            message = "i3 goes with external gears: give idler in place of i3"
+            raise PydanticCustomError("GL111", message, {"key": "i3"})
+        ring = -self.output if self.output < 0 else None
+        require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
+        return self
+
+    @model_validator(mode="after")
+    def _one_ratio(self) -> Gears:
+        if self.i3 is not None and self.idler is not None:
+            raise PydanticCustomError("GL111", "i3 and idler exclude each other: give one", {"key": "i3"})
+        if self.i3 is not None and self.crank != self.output:
+            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
+            raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
+        return self
+
+
+class Links(Spec):
+    """The links that the gears do not fix."""
+
+    crank: Length = Field(description="crank AB")
+    frame: Length = Field(description="frame AD")
+
+
+class ThreeGearSpec(DrivenSpec):
+    """Gear on the crank, idler on the coupler pin, output gear on the rocker's axis."""
+
+    kind: Literal["three-gear-four-bar"]
+    gears: Gears
+    links: Links | None = None
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    dwell: Annotated[Any, Deferred("machines.three_gear.synthesis.dwell_spec:Dwell")] | None = Field(
+        None,
+        description="asked of `synth dwell`: a crank angle until the output is back, or one within a tolerance",
+    )
+    back_step: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:BackStep")] | None = Field(
+        None, description="asked of `synth back-step`"
+    )
+    speed: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Speed")] | None = Field(
+        None, description="asked of `synth variable-speed`; the input turns at the mean of the two"
+    )
+    momentary: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Momentary")] | None = Field(
+        None, description="asked of `synth momentary-dwell`: one of the four"
+    )
+    dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
+    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output must stay within that tolerance"
+    )
+    dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(
+        None, description="play at the output gear's reference circle, in place of dwell_tolerance"
+    )
+    feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
+        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+    )
+    limits: LinkageLimits = LinkageLimits.model_construct()
+    shafts: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Shafts")] | None = Field(
+        None, description="shafts that pass through the plane of the gears"
+    )
+    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
+        None, alias="register", description="what the output may lose in its dwell, for the command register"
+    )
+    loads: Annotated[Any, Deferred("machines.three_gear.loads_spec:ThreeGearLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _one_tolerance(self) -> ThreeGearSpec:
+        if self.dwell_tolerance is not None and self.dwell_backlash is not None:
+            raise PydanticCustomError(
+                "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
+            )
+        if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
+            message = "dwell_tolerance and dwell.tolerance ask for the same: give one"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+        if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
+            message = "dwell_window goes with dwell_tolerance or dwell_backlash: give one of them"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_window"})
+        return self
+
+    @model_validator(mode="after")
+    def _one_speed(self) -> ThreeGearSpec:
+        if self.speed is None or self.gears.crank != self.gears.output or self.speed.crank or self.speed.frame:
+            return self
+        if wrong := other_speed(self.input_speed, 0.5 * (self.speed.min + self.speed.max)):
+            raise PydanticCustomError("GL111", "{wrong}", {"key": "input_speed", "wrong": wrong})
+        return self
+
+    def syntheses(self) -> tuple[str, ...]:
+        """The syntheses that the file has a section for."""
+        asked = {
+            "synth dwell": self.dwell,
+            "synth back-step": self.back_step,
+            "synth variable-speed": self.speed,
+            "synth momentary-dwell": self.momentary,
+        }
+        return tuple(command for command, section in asked.items() if section is not None)
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for: a synthesis per section, an analysis where the links are given."""
+        asked = {"analyze": self.links, "loads": self.loads if self.links is not None else None}
+        analysis = [command for command, section in asked.items() if section is not None]
+        gears = ("gear",) if self.gears.drawing else ()
+        return (*((*self.syntheses(), *analysis) or ("analyze",)), *gears)
+
+    def sized_by(self, command: str) -> str:
+        """The one synthesis of the file, where it leaves out what an analysis or the gears need."""
+        needs_links = command == "analyze" and self.links is None
+        needs_idler = command == "gear" and self.gears.idler is None and self.gears.i3 is None
+        asked = self.syntheses()
+        return asked[0] if (needs_links or needs_idler) and len(asked) == 1 else ""

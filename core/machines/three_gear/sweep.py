@@ -1,0 +1,142 @@
+"""The three-gear four-bar over arrays: motion over a turn, and frames of the momentary dwell for many designs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.parts.linkages.fourbar import position as fourbar
+from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
+
+_BLOCK = 8192
+
+
+@dataclass(frozen=True, slots=True)
+class OutputMotion:
+    """Motion over crank angles, fields of their shape.
+
+    output_angle [rad] (0 at crank angle 0, continuous), speed_ratio, acceleration_ratio [1/rad],
+    transmission_angle [rad] (0..pi/2)
+    """
+
+    output_angle: Reals
+    speed_ratio: Reals
+    acceleration_ratio: Reals
+    transmission_angle: Reals
+
+
+@dataclass(frozen=True, slots=True)
+class MomentaryDwells:
+    """Momentary-dwell designs: frame length [mm], crank angle of the standstill [rad], both NaN where not `exists`."""
+
+    frame: Reals
+    crank_angle: Reals
+    exists: Mask
+
+
+def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) -> OutputMotion:
+    """Output angle, speed and acceleration ratio and transmission angle over an array of crank angles.
+
+    phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3, and its first and second derivative with respect to phi
+
+    Parameters
+        linkage : FourBar
+        train : GearTrain
+        crank_angle : array of any shape [rad]
+    Returns
+        motion : OutputMotion
+    Raises
+        NoSolution - when the linkage does not close, or stands in a dead point, at one of the angles
+    Notes
+        Agrees with `gearlink.core.machines.three_gear.motion` to a few ulp times the condition number.
+    Example
+        >>> motion = output_motion(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60), np.radians([0.0, 90.0]))
+        >>> np.round(motion.speed_ratio, 9).tolist()
+        [0.217279175, 0.724759]
+
+    Source
+        thesis (4-23)..(4-25)
+    """
+    phi = np.asarray(crank_angle, dtype=float)
+    state, start = fourbar_sweep.solve(linkage, phi, 2), fourbar.solve(linkage, 0.0)
+    p, q = train.coupler_share, train.rocker_share
+    coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
+    return OutputMotion(
+        train.ratio * phi + p * coupler + q * rocker,
+        train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
+        p * state.coupler_acceleration + q * state.rocker_acceleration,
+        dead_point_distance(state.transmission_angle),
+    )
+
+
+def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: ArrayLike) -> MomentaryDwells:
+    """Frame length and crank angle of the momentary dwell for many gears and cranks.
+
+    d*^2 = (S - e_lo)^2 cos^2(beta) + r5^2 sin^2(beta),   cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_lo^2)
+
+    Parameters
+        r1, r3, r5, eccentricity : arrays that broadcast [mm] - positive
+    Returns
+        dwells : MomentaryDwells - `exists` where a crank-rocker has one: e_lo < e < e_up as in
+            `momentary_dwell.eccentricity_range`; assembly +1
+    Raises
+        NoSolution - for a length that is not positive and finite
+    Example
+        >>> found = momentary_dwells(25.0, 25.0, 75.0, [5.0, 16.0, 18.0, 26.0])
+        >>> found.exists.tolist(), np.round(found.frame[1:3], 9).tolist()
+        ([False, True, True, False], [122.839414792, 115.522215625])
+
+    Source
+        own derivation; scalar form in `gearlink.core.machines.three_gear.dwell.momentary_dwell`
+    """
+    arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)))
+    if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):
+        raise NoSolution("radii and eccentricities must all be positive and finite")
+    shape = arrays[0].shape
+    flat = [x.reshape(-1) for x in arrays]
+    frame, angle, exists = np.empty(flat[0].size), np.empty(flat[0].size), np.empty(flat[0].size, dtype=bool)
+    with np.errstate(invalid="ignore"):
+        for start in range(0, frame.size, _BLOCK):
+            block = slice(start, start + _BLOCK)
+            exists[block] = _momentary_block([x[block] for x in flat], frame[block], angle[block])
+    return MomentaryDwells(frame.reshape(shape), angle.reshape(shape), exists.reshape(shape))
+
+
+def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
+    """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
+    r1, r3, r5, e = given
+    b, outer = r1 + r3, r3 + r5
+    s = b + outer
+    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * outer))
+    share *= share
+    e_lo = share * s
+    exists: Mask = e_lo < e
+    share *= -2.0
+    share *= np.maximum(0.0, r1 - r5)
+    share += r1
+    exists &= e < share
+    span = (r1 - e_lo) * (r1 + e_lo)
+    x, sine = (r1 - e) * (r1 + e), (e - e_lo) * (e + e_lo)
+    for square in (x, sine):
+        square /= span
+        np.sqrt(square, out=square)
+    reach, rise = (s - e_lo) * x, r5 * sine
+    e_lo *= x
+    sine *= r1
+    np.subtract(np.arctan2(rise, reach), np.arctan2(sine, -e_lo), out=angle)
+    np.add(angle, 2.0 * math.pi, out=angle, where=angle < 0.0)
+    reach *= reach
+    rise *= rise
+    reach += rise
+    np.sqrt(reach, out=frame)
+    if not exists.all():
+        frame[~exists] = angle[~exists] = math.nan
+    return exists

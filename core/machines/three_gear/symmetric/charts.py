@@ -1,0 +1,157 @@
+"""The design charts of the symmetric three-gear four-bar (I = 1): its closed forms over arrays.
+
+Arguments broadcast. The scalar forms, and what each quantity means, stand in
+`gearlink.core.machines.three_gear.symmetric.family` and `gearlink.core.machines.three_gear.symmetric.back_step`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
+
+_SERIES_BELOW = (
+    0.25  # tan h; a chart does with fewer terms than `gearlink.core.machines.three_gear.symmetric.back_step`
+)
+
+
+def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
+    """Frame ratio d over i3 at constant crank angle of the back-step.
+
+    d = s cos(h) + sqrt(s^2 cos^2(h) + 1),   s = sqrt(i3 (i3 - 2)),   h = phi12/2
+
+    Parameters
+        i3 : array [1] - negative
+        back_step_crank_angle : array [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        frame_ratio : array [1] - above 1
+    Raises
+        NoSolution - for a value outside its range
+    Example
+        >>> frame_ratio_at_crank_angle([-1.0, -2.0], np.radians(90.0)).round(6).tolist()
+        [2.805884, 4.236068]
+
+    Source
+        thesis (4-18)
+    """
+    ratio, h = _ratios(i3), _half_angles(back_step_crank_angle)
+    sc = np.sqrt(ratio * (ratio - 2.0)) * np.cos(h)
+    return np.asarray(sc + np.hypot(sc, 1.0))
+
+
+def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
+    """Back-step of the output over i3 at constant crank angle of the back-step, as a magnitude.
+
+    |phi5(2) - phi5(1)| = 2 n atan(tan(h)/n) - 2 h,   n = 1 - i3,   h = phi12/2
+
+    Parameters
+        i3 : array [1] - negative
+        back_step_crank_angle : array [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        angle : array [rad]
+    Raises
+        NoSolution - for a value outside its range
+    Notes
+        As the scalar form: a series in tan(h) for small h, an addition theorem for larger; some ulp everywhere.
+    Example
+        >>> np.degrees(back_step_at_crank_angle([-1.0, -2.0], np.radians(120.0))).round(6).tolist()
+        [43.573579, 60.0]
+
+    Source
+        thesis (4-19), figure 4-5
+    """
+    ratio, h = np.broadcast_arrays(_ratios(i3), _half_angles(back_step_crank_angle))
+    v, t = ratio / (ratio - 1.0), np.tan(h)
+    x = 1.0 - v
+    large = np.maximum(t, _SERIES_BELOW)
+    plain = v * np.arctan(large * x) / x - np.arctan(v / (1.0 / large + x * large))
+    return np.where(t < _SERIES_BELOW, _series(v, np.minimum(t, _SERIES_BELOW)), 2.0 * plain)
+
+
+def _series(v: Reals, t: Reals) -> Reals:
+    log_x = np.log1p(-v)
+    total = np.zeros_like(t)
+    for j in range(14, 0, -1):
+        total += (-1.0) ** j * t ** (2 * j + 1) / (2 * j + 1) * np.expm1(2 * j * log_x)
+    return 2.0 * total
+
+
+def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
+    """The share y of the frame ratio in the swing of the speed: W_max, W_min = 1 +- 2 (1 - i3) y.
+
+    y = d/(d^2 + 1)
+
+    Parameters
+        frame_ratio : array [1] - d, at least 1 (there the linkage folds flat and y = 1/2)
+    Returns
+        share : array [1] - at most 1/2; the output stops where it is 1/(2 (1 - i3)) or more
+    Raises
+        NoSolution - for d < 1
+    Example
+        >>> speed_swing_share([1.0, 2.0, 3.0]).tolist()
+        [0.5, 0.4, 0.3]
+
+    Source
+        thesis (4-13), figure 4-4
+    """
+    d = np.asarray(frame_ratio, dtype=float)
+    wrong = ~((d >= 1.0) & (d < np.inf))
+    if np.any(wrong):
+        raise NoSolution(f"the frame ratio is {d[wrong].flat[0]:.9g}; frame/crank starts at 1 in the family I = 1")
+    return np.asarray(1.0 / (d + 1.0 / d))
+
+
+def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Reals:
+    """Frame ratio d over i3 at constant nonuniformity of the output speed.
+
+    d = q + sqrt(q^2 - 1),   q = 2 (1 - i3)/delta,   delta = 2 (W_max - W_min)/(W_max + W_min)
+
+    Parameters
+        i3 : array [1] - negative
+        nonuniformity : array [1] - 0 < delta < 2 (1 - i3); at 2 the output just stops, above it steps back
+    Returns
+        frame_ratio : array [1] - above 1; not a number where this i3 does not reach the nonuniformity
+    Raises
+        NoSolution - for a nonuniformity that is not positive, and where no i3 reaches it
+    Example
+        >>> frame_ratio_at_nonuniformity(-1.0, [1.0, 2.0]).round(6).tolist()
+        [7.872983, 3.732051]
+
+    Source
+        thesis (4-20), figure 4-6
+    """
+    ratio, delta = np.broadcast_arrays(_ratios(i3), np.asarray(nonuniformity, dtype=float))
+    wrong = ~((delta > 0.0) & (delta < 2.0 * (1.0 - ratio)))
+    if np.any(~(delta > 0.0)) or np.all(wrong):
+        at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
+        raise NoSolution(
+            f"no frame ratio gives the nonuniformity {value:.9g} at i3 = {at:.9g}: it must lie above 0 and below "
+            f"2 (1 - i3) = {2.0 * (1.0 - at):.9g}; reduce it or make -i3 larger"
+        )
+    q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
+    return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
+
+
+def _ratios(i3: ArrayLike) -> Reals:
+    ratio = np.asarray(i3, dtype=float)
+    wrong = ~((ratio > -np.inf) & (ratio < 0.0))
+    if np.any(wrong):
+        raise NoSolution(
+            f"i3 = {ratio[wrong].flat[0]:.9g}: -idler/output teeth must be negative and finite (external meshes)"
+        )
+    return ratio
+
+
+def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
+    phi12 = np.asarray(back_step_crank_angle, dtype=float)
+    wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
+    if np.any(wrong):
+        raise NoSolution(
+            f"the crank angle of the back-step is {math.degrees(float(phi12[wrong].flat[0])):.9g} deg; it must lie "
+            "from 0 (momentary dwell) to below 180 deg"
+        )
+    return np.asarray(0.5 * phi12)

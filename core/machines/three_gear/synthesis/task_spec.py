@@ -1,0 +1,65 @@
+"""Sections of a three-gear four-bar that few of its files have: what the other syntheses are asked for, shafts."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Length, SignedLength, Spec
+from gearlink.core.machines.three_gear.synthesis.dwell_spec import Placing
+
+
+class BackStep(Placing):
+    """Asked of `synth back-step`."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="back-step of the output"
+    )
+    crank_angle: Annotated[float, Field(ge=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle phi12 of the back-step"
+    )
+
+    @model_validator(mode="after")
+    def _something(self) -> BackStep:
+        if self.angle is None and self.crank_angle is None:
+            raise PydanticCustomError("GL106", "give angle, crank_angle or both", {"key": "angle"})
+        return self
+
+
+class Speed(Placing):
+    """Asked of `synth variable-speed`; the input turns at the mean of the two."""
+
+    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] = Field(description="least output speed")
+    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="greatest output speed")
+
+
+class Momentary(Spec):
+    """Asked of `synth momentary-dwell`: one of the four."""
+
+    eccentricity: Length | None = Field(None, description="crank length e; the frame is sought")
+    frame: Length | None = Field(None, description="frame AD, in place of eccentricity; the crank is sought")
+    gap: SignedLength | None = Field(
+        None, description="gap between the tips of gears 1 and 5 at the closest, in place of eccentricity"
+    )
+    balanced: Literal[True] | None = Field(
+        None, description="true, in place of eccentricity: the transmission angle deviates equally at both ends"
+    )
+
+    @model_validator(mode="after")
+    def _one_length(self) -> Momentary:
+        given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
+        if not given:
+            raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
+        if len(given) > 1:
+            message = "eccentricity, frame, gap and balanced exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1]})
+        return self
+
+
+class Shafts(Spec):
+    """Shafts that pass through the plane of the gears."""
+
+    input_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    output_radius: Length | None = Field(None, description="radius of the output shaft at D")

@@ -1,0 +1,405 @@
+"""Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.cams.contact import (
+    contact_end,
+    fitting_roller,
+    middle_step,
+    roller_before_middle,
+)
+from gearlink.core.machines.wide_swing.cams.curve import PitchCurve, StrokeLaw
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import maximum_over, minimum_over
+
+LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
+
+Layout = Literal["twin-cam", "twin-rocker"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CamPoints:
+    """Points of a cam in its own frame, origin on the cam axis, mid-swing on the x axis.
+
+    Fields
+        k : (N,) array - fraction of the stroke
+        cam_angle, polar_angle : (N,) arrays [rad] - theta = (k - 1/2) phi_ud, and Theta of the pitch point, both
+            from mid-swing
+        pitch, profile : (N,) complex arrays [mm] - roller centre and contact point
+        pressure_angle : (N,) array [rad]
+        curvature_radius : (N,) array [mm] - of the pitch curve, positive with the centre towards the cam axis,
+            infinite where straight
+    """
+
+    k: Reals
+    cam_angle: Reals
+    polar_angle: Reals
+    pitch: Points
+    profile: Points
+    pressure_angle: Reals
+    curvature_radius: Reals
+
+
+@dataclass(frozen=True)
+class WideSwingCam:
+    """One cam of a twin-cam or twin-rocker mechanism; every property is computed when it is read.
+
+    r = a/(B alpha + 1) external, a/(B alpha - 1) internal, alpha = gamma/phi_ud
+
+    Parameters
+        layout : "twin-cam" (external profile) or "twin-rocker" (internal profile)
+        law : StrokeLaw - law of motion of the rocker
+        cycle_angle : float [rad] - phi_ud, cam angle of one stroke
+        center_distance, roller_radius : float [mm] - a, r_p
+        given_rocker_radius : float or None [mm] - in place of the r of (18) or (24)
+        angle_words : str - what a refusal calls the cam angle of the stroke
+    Raises
+        NoSolution - for lengths that are not positive, a cycle angle outside (0, 360 deg], and a twin-rocker with
+            B alpha <= 1
+    Notes
+        With the r of (18), (24) the roller centre passes the velocity pole at mid-swing: the pressure angle is
+        zero there and the pitch curve has a cusp, rho - rho_mid = p t^2, tangential q t^3.
+    Example
+        >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> cam = WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)
+        >>> round(cam.rocker_radius, 9), round(math.degrees(cam.phase_angle), 9)
+        (74.417949578, 38.401731774)
+
+    Source
+        wide-swing dissertation (18) to (22), (24) to (26); cusp, transition zone and existence: own derivation
+    """
+
+    layout: Layout
+    law: StrokeLaw
+    cycle_angle: float
+    center_distance: float
+    roller_radius: float
+    given_rocker_radius: float | None = None
+    angle_words: str = field(default="the cycle angle", compare=False)
+
+    def __post_init__(self) -> None:
+        _require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
+        if not 0.0 < self.cycle_angle <= 2.0 * math.pi:
+            raise NoSolution(
+                f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: a stroke needs more than 0, at most 360 deg"
+            )
+        if self.speed_ratio_peak < LEAST_SPEED_RATIO:
+            raise too_small_swing(self.law.swing, self.speed_ratio_peak)
+        if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
+            limit = math.degrees(self.law.velocity_peak * self.law.swing)
+            raise NoSolution(
+                f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker needs more "
+                f"than 1: reduce {self.angle_words} below {safely_below(limit)} deg, best to "
+                f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
+            )
+
+    @property
+    def sense(self) -> int:
+        """sigma: +1 where cam and rocker turn against each other (twin-cam), -1 where together (twin-rocker)."""
+        return 1 if self.layout == "twin-cam" else -1
+
+    @property
+    def speed_ratio(self) -> float:
+        """alpha = gamma/phi_ud, mean speed of the rocker over the cam's."""
+        return self.law.swing / self.cycle_angle
+
+    @property
+    def speed_ratio_peak(self) -> float:
+        """B alpha."""
+        return self.law.velocity_peak * self.speed_ratio
+
+    @property
+    def nominal_rocker_radius(self) -> float:
+        """r of (18) or (24) [mm]."""
+        return self.center_distance / (self.speed_ratio_peak + self.sense)
+
+    @property
+    def rocker_radius(self) -> float:
+        """r, from the rocker's pivot to the roller centre [mm]."""
+        return self.nominal_rocker_radius if self.given_rocker_radius is None else self.given_rocker_radius
+
+    @cached_property
+    def ratio(self) -> float:
+        """Signed lambda = sigma r/a."""
+        return self.sense * self.rocker_radius / self.center_distance
+
+    @cached_property
+    def _middle_gap(self) -> float:
+        """e at mid-swing: 0 but for a given rocker radius."""
+        if self.given_rocker_radius is None:
+            return 0.0
+        return 1.0 - self.given_rocker_radius / self.nominal_rocker_radius
+
+    @cached_property
+    def curve(self) -> PitchCurve:
+        """The pitch curve in centre distances."""
+        return PitchCurve(self.law, self.cycle_angle, self.sense, self.ratio, self._middle_gap)
+
+    @cached_property
+    def middle_radius(self) -> float:
+        """Pitch radius at mid-swing, a - r external, a + r internal [mm]."""
+        return abs(1.0 - self.ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at the ends of the stroke [mm] (dissertation (20))."""
+        half = self.ratio * math.sin(0.5 * self.law.swing)
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(0.5 * self.law.swing), half)
+
+    @property
+    def min_radius(self) -> float:
+        """Least pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def profile_correction(self) -> float:
+        """xi at the end of the stroke, polar angle of the roller against the centre line [rad] ((19), (25))."""
+        half = 0.5 * self.law.swing
+        ratio = abs(self.ratio)
+        return math.atan2(ratio * math.sin(half), 1.0 - self.ratio * math.cos(half))
+
+    @cached_property
+    def largest_profile_correction(self) -> float:
+        """Largest xi of the stroke: asin lambda where the roller arm touches the pitch point's ray [rad]."""
+        ratio = self.ratio
+        if abs(ratio) < 1.0 and math.cos(0.5 * self.law.swing) < ratio:
+            return math.asin(abs(ratio))
+        return self.profile_correction
+
+    @property
+    def phase_angle(self) -> float:
+        """Phi = phi_ud/2 - xi, cam angle of the run-up profile [rad] ((21), (22))."""
+        return 0.5 * self.cycle_angle - self.profile_correction
+
+    @cached_property
+    def start_curvature_radius(self) -> float:
+        """R of the pitch curve at the start of the stroke, negative with its centre away from the cam axis [mm].
+
+        R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho)
+        """
+        curvature = float(self.curve.curvature(self.curve.state(np.zeros(1)))[0])
+        return self.center_distance / curvature if curvature != 0.0 else math.inf
+
+    @cached_property
+    def cusp(self) -> tuple[float, float]:
+        """p and q of the pitch curve's cusp, rho - rho_mid = p t^2, tangential q t^3, t cam angle [mm, mm]."""
+        ratio, arm = self.ratio, abs(self.ratio)
+        third = self.law.swing * abs(self.law.middle_jerk) / self.cycle_angle**3
+        bracket = (1.0 + ratio) / ratio**2 + arm * third / (1.0 - ratio)
+        a = self.center_distance
+        return 0.5 * a * self.speed_ratio_peak, a * (1.0 - ratio) / 6.0 * bracket
+
+    @cached_property
+    def transition_zone_estimate(self) -> float:
+        """`transition_zone` to leading order in r_p/a.
+
+        Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2): the pitch curvature radius has fallen to r_p at t_c
+
+        Raises
+            NoSolution - where the pitch curve has a loop in place of the cusp (q <= 0)
+        """
+        p, q = self.cusp
+        if q <= 0.0:
+            raise NoSolution(self._loop_message(q))
+        return q * self.roller_radius / (p * p * self.cycle_angle)
+
+    @cached_property
+    def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Parts of the stroke in which the roller touches the profile.
+
+        Raises
+            NoSolution - for a profile that does not exist, or where the roller at mid-swing covers its start
+        """
+        self.require_profile()
+        end = contact_end(self)
+        return (0.0, end), (1.0 - end, 1.0)
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
+
+        Raises
+            NoSolution - for a profile that does not exist
+        Notes
+            1/2 where the roller at mid-swing covers the profile of the whole run-up.
+        """
+        self.require_profile()
+        try:
+            return 0.5 - self.contact[0][1]
+        except NoSolution:
+            return 0.5
+
+    def largest_roller(self, zone: float) -> float:
+        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
+        most = fitting_roller(*(float(part[0]) for part in middle_step(self, np.array([zone]))))
+        return most if self._middle_gap == 0.0 else min(most, roller_before_middle(self, 0.5 - zone))
+
+    @cached_property
+    def loop_margin(self) -> float:
+        """Least of (dTheta/dtheta) rho^2/(1 - cos phi) over the stroke: the profile exists where it is positive.
+
+        h = (1 - lambda) e/s + lambda (1 + A), at mid-swing 6 q lambda^2/rho_mid
+        """
+        if self._middle_gap != 0.0:
+            return math.inf if self._middle_gap > 0.0 else -math.inf
+        inside = minimum_over(lambda k: self.curve.loop_measure(self.curve.state(k)), 0.0, 0.499, samples=256).value
+        return min(inside, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
+
+    def _loop_message(self, value: float) -> str:
+        safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
+        return (
+            f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce "
+            f"{self.angle_words} to {safely_below(safe)} deg or less, where the arm is no longer than the centre "
+            "distance, or increase the swing or the spring's mounting stretch"
+        )
+
+    def require_profile(self) -> None:
+        """Refuse a profile that does not exist.
+
+        Raises
+            NoSolution - for a rocker radius above that of (18), (24), a loop, or a phase angle that is not positive
+        Source
+            wide-swing dissertation (21), (22), (25); the loop condition: own derivation
+        """
+        if self._middle_gap < 0.0:
+            raise NoSolution(
+                f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm and the "
+                "pitch curve has a loop: leave the rocker radius out, or make it at most "
+                f"{safely_below(self.nominal_rocker_radius, 9)} mm"
+            )
+        if self.loop_margin <= 0.0:
+            raise NoSolution(self._loop_message(self.loop_margin))
+        if self.phase_angle <= 0.0:
+            raise NoSolution(
+                f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
+                f"increase {self.angle_words} above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
+            )
+
+    @cached_property
+    def max_pressure_angle(self) -> float:
+        """Largest magnitude of the pressure angle where the roller touches the profile [rad].
+
+        Raises
+            NoSolution - where it touches nothing
+        Notes
+            With a rocker radius below that of (18), (24) the contact lasts to mid-swing, where the angle is 90 deg.
+        """
+        return maximum_over(lambda k: np.abs(self.pressure_angle(k)), *self.contact[0], samples=128).value
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
+
+        tan delta = (lambda A - cos phi)/sin phi
+        """
+        return self.curve.pressure_angle(self.curve.state(k))
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
+
+        Raises
+            NoSolution - where it touches nothing
+        Notes
+            In the transition zone the radius falls to zero at mid-swing whatever the design. Infinite where the
+            curve bulges nowhere outside it.
+        """
+        peak = maximum_over(self.bulge, *self.contact[0], samples=128).value
+        return 1.0 / peak if peak > 0.0 else math.inf
+
+    def bulge(self, k: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
+        curvature: Reals = self.sense / self.center_distance * self.curve.curvature(self.curve.state(k))
+        return curvature
+
+    def points(self, k: Reals) -> CamPoints:
+        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
+
+        z = e^{i theta}(-1 + lambda e^{i phi}), tan delta = (lambda A - cos phi)/sin phi
+        R = |1 - lambda A e^{i phi}|^3/(1 - lambda A (1 + A) cos phi + lambda^2 A^3 - lambda phi'' sin phi)
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        Returns
+            points : CamPoints
+        Raises
+            NoSolution - for k outside 0 to 1, or a profile that does not exist
+        Notes
+            The body lies inside an external and outside an internal profile. k = 1/2 is taken as the end of the
+            run-up. The profile points between the two parts of `contact` are cut away by the slot that the
+            roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13 up to the cusp itself.
+        Example
+            >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+            >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+            >>> points = WideSwingCam("twin-cam", law, math.radians(120), 1.0, 0.04).points(np.array([0.25]))
+            >>> points.profile.round(9).tolist()
+            [(-0.724642568+0.156427799j)]
+
+        Source
+            wide-swing dissertation, chapter 3 and (26); curvature: own derivation
+        """
+        self.require_profile()
+        state = self.curve.state(np.asarray(k, dtype=np.float64))
+        pitch = self.curve.pitch(state)
+        profile = pitch + self.sense * self.roller_radius / self.center_distance * self.curve.normal(state)
+        curvature, place = self.curve.curvature(state), self.center_distance
+        with np.errstate(divide="ignore"):
+            radius = self.center_distance / curvature
+        return CamPoints(
+            k=state.k,
+            cam_angle=state.theta,
+            polar_angle=state.theta - self.curve.correction(state),
+            pitch=place * _mirrored(pitch, self.sense),
+            profile=place * _mirrored(profile, self.sense),
+            pressure_angle=self.curve.pressure_angle(state),
+            curvature_radius=radius,
+        )
+
+
+def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
+    """The refusal of a swing whose cam rounding would not distinguish from a circle.
+
+    Parameters
+        swing : float [rad]
+        speed_ratio_peak : float - below LEAST_SPEED_RATIO, to which it grows with the swing
+    Returns
+        error : NoSolution - names the least swing
+    Example
+        >>> print(too_small_swing(math.radians(1e-9), 1e-11).message.partition("; ")[2])
+        set swing to at least 1.0001e-08 deg
+    """
+    least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
+    return NoSolution(
+        f"a swing of {math.degrees(swing):.6g} deg is too small to compute a cam with: the roller "
+        f"would hardly leave the cam's own circle; set swing to at least {least} deg",
+        key="swing",
+    )
+
+
+def _mirrored(w: Points, sense: int) -> Points:
+    """From the common form to the layout's own frame."""
+    result: Points = w if sense > 0 else -np.conj(w)
+    return result
+
+
+def _require_lengths(center_distance: float, roller_radius: float, rocker_radius: float | None) -> None:
+    lengths = {"centre distance": center_distance, "roller radius": roller_radius}
+    if rocker_radius is not None:
+        lengths["rocker radius"] = rocker_radius
+    for name, value in lengths.items():
+        if not 0.0 < value < math.inf:
+            raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")

@@ -1,0 +1,363 @@
+"""Oscillating cam of a wide-swing mechanism: the cam rides on the rocker of a crank-rocker.
+
+The cam does not turn evenly but swings by chi(k) between the dead centres of the crank-rocker while its crank
+turns evenly; the wide-swing rocker follows its law of motion over the same stroke.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.cams.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
+from gearlink.core.machines.wide_swing.cams.contact import covered, fitting_roller
+from gearlink.core.machines.wide_swing.cams.curve import StrokeLaw
+from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+from gearlink.core.machines.wide_swing.law.elastic_law import MiddleView
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import maximum_over
+
+_STOP = 1e-4
+"""Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
+_AT_STOP = 1e-8
+"""So near to a stop the first derivative has no more right digits in its direction than the limit there."""
+_FAR = 0.49
+_NOISE = 1e-15
+"""How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """Where the roller stands on the cam and how it goes on, at fractions of the stroke.
+
+    Fields
+        view : MiddleView - of the rocker's motion
+        chi : three (N,) arrays [rad] - cam angle from mid-swing and its derivatives with respect to k
+        arm : (N,) complex array - roller centre from the cam axis
+        first, second : (N,) complex arrays - its derivatives with respect to k in the cam, turned back with the cam
+        along : (N,) complex array - unit vector of its way, at a stop the limit of the way there
+    """
+
+    view: MiddleView
+    chi: tuple[Reals, ...]
+    arm: Points
+    first: Points
+    second: Points
+    along: Points
+
+
+@dataclass(frozen=True)
+class OscillatingCam:
+    """External cam on the rocker of a crank-rocker, guiding a wide-swing rocker.
+
+    z = e^{i chi}(-1 + lambda e^{i phi}) a, lambda = r/a = 1/(1 + gamma B/|chi'|) at mid-swing
+
+    Parameters
+        drive : CrankRockerDrive
+        law : StrokeLaw - law of motion of the wide-swing rocker
+        center_distance, roller_radius : float [mm] - a, r_p
+    Raises
+        NoSolution - for lengths that are not positive
+    Notes
+        The pitch curve has cusps at mid-swing and, because cam and rocker stop together, at both ends, where the
+        third derivative of the cam's motion leaves its curvature without bound.
+    Example
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
+        >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+        >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
+        >>> cam = OscillatingCam(drive, ElasticLaw(Pneumatic(2.5), math.radians(120)), 1.0, 0.02)
+        >>> round(cam.rocker_radius, 12), round(math.degrees(cam.middle_pressure_angle), 9)
+        (0.267872782028, 1.946891616)
+
+    Source
+        wide-swing dissertation, chapter 4, combined cam mechanisms; own derivation
+    """
+
+    drive: CrankRockerDrive
+    law: StrokeLaw
+    center_distance: float
+    roller_radius: float
+
+    def __post_init__(self) -> None:
+        for name, value in (("centre distance", self.center_distance), ("roller radius", self.roller_radius)):
+            if not 0.0 < value < math.inf:
+                raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+
+    @property
+    def cycle_angle(self) -> float:
+        """Crank angle of one stroke [rad]."""
+        return self.drive.crank_span
+
+    @cached_property
+    def _middle(self) -> tuple[float, float]:
+        """chi' and chi'' at mid-swing."""
+        _, first, second = self.drive.motion(np.array([0.5]))
+        return float(first[0]), float(second[0])
+
+    @cached_property
+    def ratio(self) -> float:
+        """lambda = r/a."""
+        peak = self.law.swing * self.law.velocity_peak / self._middle[0]
+        if peak < LEAST_SPEED_RATIO:
+            raise too_small_swing(self.law.swing, peak)
+        return 1.0 / (1.0 + peak)
+
+    @property
+    def rocker_radius(self) -> float:
+        """r, from the rocker's pivot to the roller centre [mm]."""
+        return self.ratio * self.center_distance
+
+    @cached_property
+    def middle_pressure_angle(self) -> float:
+        """Pressure angle that remains at mid-swing, in the sign of `WideSwingCam` [rad].
+
+        tan delta = -(1 - lambda) chi''/(chi' phi'): zero only where the cam is at its speed extremum
+        """
+        first, second = self._middle
+        return -math.atan((1.0 - self.ratio) * second / (first * self.law.swing * self.law.velocity_peak))
+
+    @property
+    def loop_margin(self) -> float:
+        """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
+        return self._stop(0.5)[0]
+
+    def _stop(self, k: float) -> tuple[float, float]:
+        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
+        _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
+        swing, r = self.law.swing, self.ratio
+        view = self.law.middle_view(np.array([k]))
+        phi1, phi2 = swing * float(view.velocity[0]), swing * float(view.acceleration[0])
+        # at the ends the rocker stands still, and the jerk that the law gives it with it
+        phi3 = swing * self.law.middle_jerk if k == 0.5 else 0.0
+        arm = r * cmath.exp(1j * float(view.angle[0]))
+        f, f1 = arm - 1.0, 1j * phi1 * arm
+        f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
+        second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
+        third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
+        third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
+        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+
+    @property
+    def transition_zone_estimate(self) -> float:
+        """`transition_zone` to leading order in r_p/a.
+
+        Dk = q r_p/p^2 = 2 r_p Im(conj(z2) z3)/(3 a |z2|^3), p = |z2|/2, q = Im(conj(z2) z3)/(6 |z2|)
+
+        Raises
+            NoSolution - where the pitch curve has a loop
+        """
+        self.require_profile()
+        return self._left(self._stop(0.5))
+
+    def _left(self, stop: tuple[float, float]) -> float:
+        """Part of the stroke over which the roller leaves a stop, to leading order."""
+        bend, second = stop
+        return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
+
+    @cached_property
+    def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Parts of the stroke in which the roller touches the profile.
+
+        Raises
+            NoSolution - for a loop, or where the roller, standing at a stop, covers the profile of half the stroke
+        Notes
+            Cam and rocker stop together at both ends, so the pitch curve begins and ends with radius 0. Where it
+            bulges there, the standing roller covers the first points of the profile as its slot does at mid-swing.
+        """
+        self.require_profile()
+        start, end = self._cover(0.0, 1.0), self._cover(1.0, -1.0)
+        return (start, self._cover(0.5, -1.0)), (self._cover(0.5, 1.0), end)
+
+    def _cover(self, stop: float, side: float) -> float:
+        """How far from a stop, on one side of it, the roller that stands there covers the profile."""
+        shape = self._stop(stop)
+        if shape[0] <= 0.0:
+            return stop
+        return stop + side * covered(
+            lambda t: self._step(stop + side * t, stop), self.roller_radius, _FAR, self._left(shape), _NOISE
+        )
+
+    def _step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
+        """Lengths of the pitch point's steps from a stop, and their parts against the profile's normal [mm]."""
+        points = self.points(np.append(k, stop))
+        step = points.pitch[:-1] - points.pitch[-1]
+        normal = (points.profile - points.pitch)[:-1] / self.roller_radius
+        return np.abs(step), -(step * np.conj(normal)).real
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part of the stroke beside mid-swing, on its wider side, where the roller has left the profile in its slot.
+
+        Raises
+            NoSolution - where the pitch curve has a loop
+        Notes
+            1/2 where the roller covers the profile of half the stroke.
+        """
+        self.require_profile()
+        try:
+            (_, before), (after, _) = self.contact
+        except NoSolution:
+            return 0.5
+        return max(0.5 - before, after - 0.5)
+
+    def largest_roller(self, zone: float) -> float:
+        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
+        lengths, depths = self._step(np.array([0.5 - zone, 0.5 + zone]), 0.5)
+        return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
+
+    @property
+    def middle_radius(self) -> float:
+        """Pitch radius at mid-swing, a - r [mm]."""
+        return (1.0 - self.ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at both ends of the stroke [mm]."""
+        half = 0.5 * self.law.swing
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(half), self.ratio * math.sin(half))
+
+    @property
+    def min_radius(self) -> float:
+        """Least pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def max_pressure_angle(self) -> float:
+        """Largest magnitude of the pressure angle over the whole stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        """
+
+        def size(k: Reals) -> Reals:
+            return np.abs(self.pressure_angle(k))
+
+        # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
+        inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(0.5,), samples=256).value
+        return max(inside, float(size(np.array([0.0, 1.0])).max()))
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions of the stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        """
+        return self.points(k).pressure_angle
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
+
+        Raises
+            NoSolution - for a loop, or where the roller touches nothing
+        Notes
+            Outside `contact` the radius falls to zero at mid-swing, and at an end that bulges, whatever the design.
+            At an end that is hollow nothing is to be found.
+        """
+        (first, start), (end, last) = self.contact
+        parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
+        peak = max(maximum_over(self.bulge, *part, samples=128).value for part in parts)
+        return 1.0 / peak if peak > 0.0 else math.inf
+
+    def bulge(self, k: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
+        radius = self.points(k).curvature_radius
+        curvature = np.full_like(radius, math.inf)
+        np.divide(1.0, radius, out=curvature, where=radius != 0.0)
+        for end in (0.0, 1.0):  # infinite as it is in the middle, but towards a hollow where the curve leaves it so
+            curvature[k == end] *= math.copysign(1.0, self._stop(end)[0])
+        return curvature
+
+    def require_profile(self) -> None:
+        """Refuse a pitch curve with a loop.
+
+        Raises
+            NoSolution - with what to change
+        """
+        if self.loop_margin <= 0.0:
+            raise NoSolution(
+                f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0): "
+                "put mid-swing nearer to the cam's largest speed by changing the link lengths"
+            )
+
+    def points(self, k: Reals) -> CamPoints:
+        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
+
+        tan delta = [lambda (chi' + phi') - chi' cos phi]/(chi' sin phi)
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        Returns
+            points : CamPoints - cam_angle is chi, from mid-swing
+        Raises
+            NoSolution - for k outside 0 to 1, or a pitch curve with a loop at mid-swing
+        Notes
+            Curvature by the parametric formula; at k = 0, 1/2 and 1 its radius is zero.
+        """
+        self.require_profile()
+        step = self.step(k)
+        (chi, chi1, chi2), view, first, second = step.chi, step.view, step.first, step.second
+        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
+        turn: Points = np.exp(1j * chi)
+        pitch, along = turn * step.arm, turn * step.along
+        stop = (k == 0.0) | (k == 0.5) | (k == 1.0)
+        size = np.where(stop, 1.0, np.abs(first))
+        bend = np.where(stop, math.inf, (np.conj(first) * second).imag / size**3)
+        profile = pitch + self.roller_radius / self.center_distance * 1j * along
+        with np.errstate(divide="ignore"):
+            radius = self.center_distance / bend
+        return CamPoints(
+            k=k,
+            cam_angle=chi,
+            polar_angle=np.angle(-pitch),
+            pitch=self.center_distance * pitch,
+            profile=self.center_distance * profile,
+            pressure_angle=self._pressure_angle(view.angle, (chi1, chi2), (phi1, phi2), k),
+            curvature_radius=radius,
+        )
+
+    def step(self, k: Reals) -> Step:
+        """The roller's centre and its way over the cam, in centre distances and in the frame of the line of centres.
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        """
+        view = self.law.middle_view(k)
+        chi, chi1, chi2 = self.drive.motion(k)
+        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
+        reach: Points = self.ratio * np.exp(1j * view.angle)
+        arm = reach - 1.0
+        first = 1j * (chi1 * arm + phi1 * reach)
+        second = 1j * (chi2 * arm + phi2 * reach) - chi1**2 * arm - phi1 * reach * (phi1 + 2.0 * chi1)
+        near = np.abs(k - np.round(2.0 * k) / 2.0) <= _AT_STOP
+        # where the curve stops its direction is that of the second derivative: before the stop it points back
+        along: Points = np.where(near, np.where((k < 0.25) | ((k > 0.5) & (k < 0.75)), second, -second), first)
+        return Step(view, (chi, chi1, chi2), arm, first, second, along / np.abs(along))
+
+    def _pressure_angle(
+        self,
+        phi: Reals,
+        chi: tuple[Reals, Reals],
+        rate: tuple[Reals, Reals],
+        k: Reals,
+    ) -> Reals:
+        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place.
+
+        Notes
+            So it does next to a standstill, where the ratio of the velocities has no right digits: off by 1e-8 there.
+        """
+        end = np.minimum(k, 1.0 - k) <= _AT_STOP
+        cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])
+        across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
+        side = np.where(along < 0.0, -1.0, 1.0)
+        return np.where(k == 0.5, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))

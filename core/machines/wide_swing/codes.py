@@ -1,0 +1,136 @@
+"""The rules that the checks of the wide-swing cam mechanism judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+TURNABILITY = Rule(
+    "GL504",
+    "unloader cannot follow the swing",
+    "The pivot ratio is too small for the length that cylinder or spring needs when it is shortest.",
+    "The device would reach its end stop, or its coils, before mid-swing.",
+    "Increase unloader.pivot_ratio to the value of the message, or reduce the swing.",
+    "cylinder: lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: lambda_min = 1 + "
+    "(l_0 + l_k + S_0)/r_d; of a spring without a length, or with a stretch_capacity above 2, "
+    "warns below the ratio of steel, stretched by 2 l_0",
+    "wide-swing dissertation (3), (4)",
+    ("unloader-turnability",),
+    ("unloader.pivot_ratio", "unloader"),
+)
+PROFILE_EXISTS = Rule(
+    "GL505",
+    "cam profile does not exist",
+    "The pitch curve makes a loop, or the run-up takes no cam angle, or a twin-rocker turns no faster than its cam (no "
+    "value is given then).",
+    "A cam with a loop cannot be made.",
+    "Change cycle_angle, cycle.working or the swing as the message says; a twin-rocker needs a swing above 100 deg.",
+    "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
+    "wide-swing dissertation (21), (22), (25); the loop: own derivation",
+    ("profile-exists",),
+    ("cycle_angle", "cycle", "swing"),
+)
+TRANSITION_ZONE = Rule(
+    "GL507",
+    "contact changes sides over too much of the stroke",
+    "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone; "
+    "whatever that allows, more than 0.1 each side is a warning.",
+    "Within this zone the device alone guides the rocker; play and wear grow with it.",
+    "Take a smaller roller, or a larger cam.center_distance.",
+    "|z(1/2 - Dk) + r_p n - z(1/2)| = r_p; for small rollers Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2), p and q of "
+    "the pitch curve's cusp",
+    "own derivation",
+    ("transition-zone",),
+    ("cam.roller_radius", "cam"),
+    side="<=",
+)
+BALANCING = Rule(
+    "GL508",
+    "unloader does harm at low speed",
+    "The machine works at a speed at which the device raises the torque on the rocker axis (a warning).",
+    "The device's torque stays while the inertia's falls with the square of the speed: below n0/sqrt(2) more "
+    "torque is needed with the device than without.",
+    "Lower its force or rate for slow running, or take it off.",
+    "K_y1 = n^2/(|n^2 - (1 + rho) n0^2| + f n0^2) > 1, that is n > n0 sqrt((1 + rho + f)/2)",
+    "wide-swing dissertation, chapter 5; own derivation",
+    ("balancing",),
+    ("operating_speed_min", "unloader"),
+)
+FORCE_CLOSURE = Rule(
+    "GL509",
+    "spring slack at mid-swing",
+    "The unloading spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
+    "There it does not press the roller to its cam: play shows just where the roller changes sides.",
+    "Make unloader.stretch_ratio above 0, such as 0.1.",
+    "epsilon = mounting stretch at mid-swing over the stroke of the spring > 0",
+    "wide-swing dissertation, chapter 2; own derivation",
+    ("force-closure",),
+    ("unloader.stretch_ratio", "unloader"),
+)
+CYCLE_ANGLES = Rule(
+    "GL510",
+    "two strokes take more than a turn",
+    "Working and return stroke together take more cam angle than a turn has; of a cycle, a rest has no length (a "
+    "warning).",
+    "The two profiles would overlap; without a rest between them the hollows of both strokes meet in an edge.",
+    "Reduce cycle_angle to 180 deg or less; give both rests of a cycle some degrees.",
+    "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, rests above 0",
+    "own derivation",
+    ("cycle-angles",),
+    ("cycle_angle", "cycle"),
+    side="<=",
+)
+FORCE_RESERVE = Rule(
+    "GL511",
+    "roller leaves its cam at speed",
+    "The speed above which the roller leaves its cam is below the design speed (fails), or less than a tenth above it, "
+    "as without a reserve (warns).",
+    "A device that just balances the inertia presses no roller to its cam: play, friction or a little more speed and "
+    "the rocker swings free of it.",
+    "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
+    "the reserve.",
+    "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
+    "swings home the greatest acceleration of the rocker over that of the stroke at the same place; in the stroke "
+    "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
+    "own derivation",
+    ("force-reserve",),
+    ("unloader.reserve", "unloader"),
+)
+CLOSED_CONTOUR = Rule(
+    "GL512",
+    "roller cuts into the closed contour",
+    "On its way round the whole turn a roller would cut into its own cam: beside a joint, in the sector where the "
+    "other cam guides, or where two hollows come near each other.",
+    "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
+    "Take a smaller cam.roller_radius or cam.free_clearance, longer rests, or a larger cam.center_distance.",
+    "least distance of contour and path of the roller's centre >= r_p",
+    "own derivation",
+    ("closed-contour",),
+    ("cam.roller_radius", "cam.free_clearance", "cycle", "cam"),
+)
+PROFILE_PLANES = Rule(
+    "GL513",
+    "profiles of one cam need two planes",
+    "The internal and the external profile of a twin-rocker's cam overlap as seen along its axis (a warning).",
+    "A body with both in one plane would lack the metal between them.",
+    "Put the profiles side by side, or take smaller rollers.",
+    "rho_2 - r_p > rho_1 + r_p during the rests, rho_1 the external profile's pitch radius, rho_2 the internal one's",
+    "own derivation",
+    ("profile-planes",),
+    ("cam.roller_radius", "cam"),
+)
+SIDE_CHANGE = Rule(
+    "GL514",
+    "device pushes the roller off its profile",
+    "With a slider the device changes sides at mid-swing, but the roller changes sides of the profile where the rocker "
+    "is fastest; the slot of the roller does not reach from one to the other.",
+    "Between the two the device pushes the roller away from the profile, whatever its reserve, and nothing guides the "
+    "rocker.",
+    "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing: the reduced "
+    "inertia is stationary there, and so is the rocker's speed. Where that is its least, since the slider's mass slows "
+    "it, take a lighter slider or more inertia of the rocker.",
+    "k_mid within the slot; c(k_mid) = 0 where d2s/dphi2 = 0 at mid-swing",
+    "own derivation",
+    ("side-change",),
+    ("slider.middle_angle", "slider"),
+    side="<=",
+)

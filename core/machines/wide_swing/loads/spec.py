@@ -1,0 +1,49 @@
+"""The section `loads` of a wide-swing mechanism: inertia and device stand in its own sections."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from gearlink.core.base.spec import Spec
+from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller
+
+Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+
+
+class SwingMasses(Spec):
+    """Masses of what has none elsewhere; those of rocker and slider are the keys inertia and slider.mass."""
+
+    cam: Body | None = Field(
+        None, description="cam, in the frame of main_cam; one on a crank-rocker with its rocker, x to C"
+    )
+    return_cam: Body | None = Field(
+        None, description="second cam of a twin-cam with its cycle, in the frame of return_cam"
+    )
+    rod: Body | None = Field(None, description="rod to the slider, from the rocker's pin E to F")
+    crank: Body | None = Field(None, description="crank of the drive, from its pivot A to B")
+    coupler: Body | None = Field(None, description="coupler of the drive, from B to C")
+
+
+class SwingLoads(CommonLoads):
+    """Forces, rollers and vibration of a wide-swing mechanism; its speed, inertia and device are its own.
+
+    Directions are counter-clockwise from the line of centres: from D to O of a twin-cam, from O to D of a twin-rocker.
+    """
+
+    device_direction: Direction | None = Field(
+        None, description="direction from the rocker's axis D to the base pin of the device; left out: no force at D"
+    )
+    slider_direction: Direction | None = Field(
+        None,
+        description="direction from D in which the slider is farthest; left out: -90, and no force at D",
+    )
+    drive_direction: Direction | None = Field(
+        None, description="direction from the cam's axis O to the crank's pivot A; left out: -60, and no force at O"
+    )
+    links: SwingMasses = Field(
+        SwingMasses.model_construct(), description="masses of cams, rod and crank-rocker; what is left out has none"
+    )
+    roller: Roller | None = None
+    material: Material | None = None

@@ -1,0 +1,232 @@
+"""The mechanism of a wide swing: rocker, its cam or cams, and the links beside them.
+
+The input angle is that of the cam, or of the crank that swings it, from the start of the working stroke. In a stroke
+its own cam guides the rocker, and in the rest after it that cam's arc holds it. The cam axis O is at 0, the rocker's
+axis D on the line of centres. The slider stands below D and the crank's pivot 60 deg below the line of centres where
+the file does not say which way they stand.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.core.machines.wide_swing.cams.outline import middle_of
+from gearlink.core.machines.wide_swing.strokes import strokes_of
+from gearlink.core.mechanism.closures import dyad, slider
+from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Pin, SharedContact
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
+from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, standing, steady
+from gearlink.core.numerics.extremes import share_of
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+    from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.slider import SliderDrive
+    from gearlink.core.numerics.arrays import Points, Reals
+
+SLIDER_DIRECTION, DRIVE_DIRECTION = -90.0, -60.0
+
+
+def motion(design: WideSwingDesign) -> Motion:
+    """Links and joints over the input angle: over a turn where the file tells all of it, else over the stroke.
+
+    Without `cam` there are the rocker and its slider alone, about D at 0.
+    """
+    spec, angle = design.spec, design.motion.cycle_angle
+    whole = spec.cycle is not None or (spec.drive is not None and spec.cam is not None)
+    outputs = [Output("Rocker", turned("rocker"))]
+    if spec.slider is not None:
+        outputs.append(Output("Slider", coordinate("slider", along=slider_way(design))))
+    given, highest = Input(end=TURN if whole else angle, turns=1 if whole else None), design.motion.highest
+    if spec.cam is None:
+        return Motion(lambda phi, order, _: _alone(design, phi, order), given, tuple(outputs), highest)
+    machine = _WithCams(design, whole)
+    given = Input(end=given.end, turns=given.turns, joints=machine.joints)
+    return Motion(machine.at, given, tuple(outputs), highest)
+
+
+def slider_way(design: WideSwingDesign) -> complex:
+    """The direction from D in which the slider is farthest."""
+    section = design.spec.loads
+    given = None if section is None else section.slider_direction
+    return cmath.rect(1.0, math.radians(_or(given, SLIDER_DIRECTION)))
+
+
+def _alone(design: WideSwingDesign, phi: Reals, order: int) -> Mechanism:
+    """The rocker over its working stroke, with its slider, where nothing says what guides it."""
+    law, angle, swing = design.motion.law, design.motion.cycle_angle, design.motion.swing
+    a, *rates = law.invariants(share_of(phi, angle), order)
+    turn = Turn((a - 0.5) * swing, *(swing / angle**n * rate for n, rate in enumerate(rates, 1)))
+    links = {"rocker": Link(fixed(0j, phi, order=order), turn)}
+    joints: list[Connection] = [Pin("D", FRAME, "rocker", links["rocker"].origin.value)]
+    travel = {}
+    if design.spec.slider is not None:
+        travel["slider"] = slider_way(design)
+        hung, more = with_slider(links["rocker"], design.motion.slider.drive, travel["slider"])
+        links, joints = links | hung, joints + more
+    return Mechanism(links, joints, "rocker", travel=travel)
+
+
+class _WithCams:
+    """The links at input angles, as the cams guide them."""
+
+    def __init__(self, design: WideSwingDesign, whole: bool) -> None:
+        self.design, self.spec, self.whole = design, design.spec, whole
+        self.strokes = strokes_of(design)
+        self.has_return_cam = self.spec.cycle is not None and self.spec.layout == "twin-cam"
+        self.side = -1.0 if self.spec.layout == "twin-cam" else 1.0
+        """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
+        if self.spec.drive is not None:
+            phases: tuple[float, ...] = (self.strokes[0].width, 0.0, self.strokes[1].width, 0.0)
+        else:
+            phases = design.motion.cycle_angles if whole else (self.strokes[0].width,)
+        self.edges = np.concatenate(([0.0], np.cumsum(phases)))
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """The ends of the strokes, and where the rollers change sides [rad]."""
+        ends = [
+            stroke.start + share * stroke.width
+            for stroke in self.strokes
+            for share in (0.0, stroke.at_profile(middle_of(stroke.cam)), 1.0)
+        ]
+        return tuple(sorted(angle for angle in ends if angle > 0.0))
+
+    def at(self, phi: Reals, order: int, side: int) -> Mechanism:
+        """Rocker, cams and what hangs on them."""
+        sector, share = self._share(phi, side)
+        turn, place, normal = self._rocker(sector, share, order)
+        links, connections, sense, crank = self._driven(phi, order)
+        pivot = fixed(complex(self.side * self.design.cam.center_distance), phi, order=order)
+        links["rocker"] = Link(pivot, turn)
+        connections.append(Pin("D", FRAME, "rocker", pivot.value))
+        shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
+        if self.has_return_cam:
+            shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
+        travel = {}
+        if self.spec.slider is not None:
+            travel["slider"] = slider_way(self.design)
+            hung, joints = with_slider(links["rocker"], self.design.motion.slider.drive, travel["slider"])
+            links |= hung
+            connections += joints
+        connections.append(SharedContact("roller", "rocker", place, normal, shares))
+        drive = "crank" if self.spec.drive is not None else "cam"
+        return Mechanism(links, connections, drive, sense, crank, travel)
+
+    def _share(self, phi: Reals, side: int) -> tuple[Any, Reals]:
+        """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
+        edges = self.edges
+        turned_by = np.mod(phi, TURN) if self.whole else phi
+        sector = np.searchsorted(edges[1:-1], turned_by, side="right" if side > 0 else "left")
+        width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
+        # The phases add up to the turn but for rounding, and what asks on which side of its end a stroke changes sign
+        # looks a millionth of a radian beyond it, where the rocker rests.
+        return sector, share_of(turned_by - edges[sector], width[sector])
+
+    def _rocker(self, sector: Any, share: Reals, order: int) -> tuple[Turn, Points, Points]:
+        """The rocker's angle, the centre of the guided roller [mm], and the direction in which its cam pushes it."""
+        rows = len(share)
+        turn, place, normal = np.zeros((order + 1, rows)), *np.zeros((2, rows), dtype=np.complex128)
+        for number, stroke in enumerate(self.strokes):
+            moving, resting = sector == 2 * number, sector == 2 * number + 1
+            if moving.any():
+                turn[:, moving] = stroke.turn(share[moving], order)
+                place[moving], normal[moving] = stroke.roller(share[moving])
+            if resting.any():
+                turn[0, resting] = stroke.turn(np.ones(1), 0).value
+                place[resting], normal[resting] = stroke.roller(np.ones(1), resting=True)
+        return Turn(*turn), place, normal
+
+    def _driven(self, phi: Reals, order: int) -> tuple[dict[str, Link], list[Connection], float, complex]:
+        """The cams with what drives them, their pins, the sense of the driven link and its pivot [mm]."""
+        axis = fixed(0j, phi, order=order)
+        if self.spec.drive is not None:
+            section = self.spec.loads
+            given = None if section is None else section.drive_direction
+            return with_drive(phi, axis, self.design.motion.drive, math.radians(_or(given, DRIVE_DIRECTION)))
+        middles = [stroke.start + middle_of(stroke.cam) * stroke.width for stroke in self.strokes]
+        links, connections = with_shafts(phi, axis, self.side, middles[: 1 + self.has_return_cam])
+        return links, connections, self.side, 0j
+
+
+def _or(given: float | None, default: float) -> float:
+    return default if given is None else given
+
+
+def with_slider(rocker: Link, drive: SliderDrive, away: complex) -> tuple[dict[str, Link], list[Connection]]:
+    """Rod and slider, their pins E and F, and the guide.
+
+    Parameters
+        rocker : Link - its angle counted from mid-swing
+        drive : SliderDrive [mm]
+        away : complex - direction from D in which the slider is farthest
+    """
+    pin = rocker.at(drive.crank * cmath.rect(1.0, drive.middle_angle) * away)
+    line = complex(rocker.origin.value[0]) - 1j * away * drive.offset
+    turn, block = slider(pin, drive.rod, line, away)
+    links = {"rod": Link(pin, turn), "slider": Link(block, standing(cmath.phase(away), turn.value, order=turn.order))}
+    joints: list[Connection] = [
+        Pin("E", "rocker", "rod", pin.value),
+        Pin("F", "rod", "slider", block.value),
+        Guide("guide", FRAME, "slider", block.value, away),
+    ]
+    return links, joints
+
+
+def with_shafts(
+    phi: Reals, axis: Point, sense: float, middles: Sequence[float]
+) -> tuple[dict[str, Link], list[Connection]]:
+    """The cam that turns evenly, and a second one that a train turns the other way, each in the frame of its table.
+
+    Parameters
+        phi : (N,) array [rad] - input angle
+        axis : Point [mm] - of both cams
+        sense : float - in which the first one turns
+        middles : by cam - input angle at which its roller stands on the line of centres [rad]
+    """
+    links = {"cam": Link(axis, steady(phi, sense, -sense * middles[0], order=axis.order))}
+    joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
+    if len(middles) > 1:
+        links["return_cam"] = Link(axis, steady(phi, -sense, sense * middles[1], order=axis.order))
+        joints += [
+            Pin("O_return", FRAME, "return_cam", axis.value),
+            Coupling("train", "cam", "return_cam", axis.value, -1.0),
+        ]
+    return links, joints
+
+
+def with_drive(
+    phi: Reals, axis: Point, drive: CrankRockerDrive, direction: float
+) -> tuple[dict[str, Link], list[Connection], float, complex]:
+    """Crank, coupler and cam, the pins A, B, C and O, the sense in which the crank turns, and the place of its pivot.
+
+    Parameters
+        phi : (N,) array [rad] - input angle from the start of the stroke
+        axis : Point [mm] - of the cam, on which the rocker of the crank-rocker turns
+        drive : CrankRockerDrive [mm]
+        direction : float [rad] - from the cam's axis to the crank's pivot
+    Notes
+        The cam turns clockwise in the stroke; a crank-rocker whose rocker turns the other way is mirrored.
+    """
+    bar, sense = drive.linkage, -drive.rising
+    place = complex(axis.value[0]) + bar.frame * cmath.rect(1.0, direction)
+    turn = steady(phi, sense, direction + math.pi + sense * drive.crank_angles[0], order=axis.order)
+    pivot = fixed(place, phi, order=axis.order)
+    pin = carried(pivot, turn, bar.crank)
+    along, cam = dyad(pin, axis, bar.coupler, bar.rocker, round(sense) * bar.assembly)
+    links = {"crank": Link(pivot, turn), "coupler": Link(pin, along), "cam": Link(axis, cam)}
+    end = axis.value + bar.rocker * np.exp(1j * cam.value)
+    joints: list[Connection] = [
+        Pin("A", FRAME, "crank", pivot.value),
+        Pin("B", "crank", "coupler", pin.value),
+        Pin("C", "coupler", "cam", end),
+        Pin("O", FRAME, "cam", axis.value),
+    ]
+    return links, joints, sense, place

@@ -1,0 +1,233 @@
+"""The rocker of a wide-swing mechanism in motion: its device, its law, and the drive that times the stroke."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.report import safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.remedies import drive_repair, slider_repair, with_number
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+    from gearlink.core.machines.wide_swing.law.device import Device
+    from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+    from gearlink.core.machines.wide_swing.slider import SliderLaw
+    from gearlink.core.machines.wide_swing.spec import SwingSlider, WideSwingSpec
+    from gearlink.core.numerics.arrays import Reals
+
+
+MOST_STRETCH = 2.0
+"""Stretch over closed length that a spring of steel bears at most."""
+
+
+class Motion:
+    """How the rocker moves, from the design file; every result is computed when it is read."""
+
+    def __init__(self, spec: WideSwingSpec) -> None:
+        self.spec = spec
+
+    @cached_property
+    def swing(self) -> float:
+        """Whole swing gamma [rad]."""
+        return math.radians(self.spec.swing)
+
+    # Device
+
+    @cached_property
+    def device(self) -> Device:
+        """The unloading device, without dimension."""
+        from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
+
+        unloader = self.spec.unloader
+        with at_key("unloader.pivot_ratio"):
+            if unloader.pivot_ratio <= 1.0:
+                raise NoSolution(
+                    f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the circle "
+                    f"of the arm; make unloader.pivot_ratio at least {safely_above(self.usual_pivot_ratio)}"
+                )
+            if unloader.type == "pneumatic":
+                return Pneumatic(unloader.pivot_ratio)
+            return Spring(unloader.pivot_ratio, unloader.stretch_ratio)
+
+    @property
+    def usual_pivot_ratio(self) -> float:
+        """Least pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
+        from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_pneumatic
+
+        return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
+
+    @cached_property
+    def min_pivot_ratio(self) -> float | None:
+        """Least pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
+        from gearlink.core.machines.wide_swing.law import device
+
+        unloader = self.spec.unloader
+        with at_key("unloader"):
+            if unloader.type == "pneumatic":
+                return device.least_pivot_ratio_pneumatic(self.swing, unloader.extension_ratio)
+            fittings, stretch, arm = unloader.end_fittings, unloader.stretch_ratio, unloader.arm
+            if unloader.closed_length is not None:
+                return device.least_pivot_ratio_spring(self.swing, stretch, arm, unloader.closed_length, fittings)
+            if unloader.stretch_capacity is not None:
+                capacity = unloader.stretch_capacity
+                return device.least_pivot_ratio_spring_material(self.swing, stretch, capacity, fittings / arm)
+        return None
+
+    @property
+    def least_ratio_of_steel(self) -> float:
+        """Least pivot ratio between whose pins a spring of steel finds room, whatever its length."""
+        from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_spring_material
+
+        unloader = self.spec.unloader
+        assert unloader.type == "spring", "a cylinder has a length"
+        fittings = unloader.end_fittings / unloader.arm
+        with at_key("unloader"):
+            return least_pivot_ratio_spring_material(self.swing, unloader.stretch_ratio, MOST_STRETCH, fittings)
+
+    # Law
+
+    @cached_property
+    def plain_law(self) -> ElasticLaw:
+        """The law of motion that the device gives a rocker alone."""
+        from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+
+        device = self.device
+        with at_key("swing"):
+            return ElasticLaw(device, self.swing)
+
+    @cached_property
+    def slider(self) -> SliderLaw:
+        """The law of motion of rocker and slider together; a refusal at a dead centre names the angle to change."""
+        from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
+
+        section = self._slider_section
+        with at_key("slider.rod"):
+            drive = SliderDrive(section.crank, section.rod, math.radians(section.middle_angle), section.offset)
+        try:
+            with at_key("slider.middle_angle"):
+                massless = SliderLaw(self.device, self.swing, drive, 1.0)
+                return SliderLaw(self.device, self.swing, drive, self._inertia_with(massless.stroke)[1])
+        except NoSolution as error:
+            if error.key != "slider.middle_angle":
+                raise
+            raise with_number(error, slider_repair(section, self.swing)) from error
+
+    @property
+    def _slider_section(self) -> SwingSlider:
+        if self.spec.slider is None:
+            raise MissingSection("this needs the section slider: crank, rod, middle_angle, mass", key="slider")
+        return self.spec.slider
+
+    def _inertia_with(self, stroke: float) -> tuple[float, float]:
+        from gearlink.core.machines.wide_swing.slider import reference_inertia
+
+        return reference_inertia(self.spec.inertia, self._slider_section.mass, stroke, self.swing)
+
+    @property
+    def law(self) -> ElasticLaw | SliderLaw:
+        """The law of motion of the rocker, with its slider where it has one."""
+        return self.plain_law if self.spec.slider is None else self.slider
+
+    @property
+    def highest(self) -> int:
+        """The highest derivative that the law has."""
+        return 3 if self.spec.slider is None else 2
+
+    def torque(self, k: Reals) -> Reals:
+        """Torque of the device that balances the inertia, over J gamma/T^2: c, with a slider (N/2) E_a.
+
+        Parameters
+            k : (N,) array - fractions of the stroke
+        """
+        if self.spec.slider is None:
+            return self.plain_law.invariants(k, 2)[2]
+        return self.slider.device_torque(k)
+
+    @property
+    def reference_inertia(self) -> float:
+        """J_ref of rocker and slider, what stands for J in the energy parameter [kg m^2]."""
+        return self._inertia_with(self.slider.stroke)[0]
+
+    @property
+    def inertia(self) -> float:
+        """J, or J_ref where there is a slider [kg m^2]."""
+        return self.spec.inertia if self.spec.slider is None else self.reference_inertia
+
+    def rocker_alone(self, name: str) -> ElasticLaw:
+        """The law for a quantity that a slider does not allow."""
+        if self.spec.slider is not None:
+            raise NoSolution(f"{name} is that of a rocker without a slider: leave out slider", key="slider")
+        return self.plain_law
+
+    # Drive
+
+    @cached_property
+    def drive(self) -> CrankRockerDrive:
+        """The crank-rocker that carries the cam; its refusal names the length to change."""
+        from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+        from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+        section = self.spec.drive
+        if section is None:
+            raise MissingSection("this needs the section drive: crank, coupler, rocker, frame", key="drive")
+        try:
+            with at_key("drive"):
+                linkage = FourBar(section.crank, section.coupler, section.rocker, section.frame, section.assembly)
+                return CrankRockerDrive(linkage, section.stroke == "outward")
+        except NoSolution as error:
+            raise with_number(error, drive_repair(section)) from error
+
+    @property
+    def transmission_angles(self) -> dict[str, float]:
+        """Least transmission angles [rad] by the key of the part that they are of: `drive`, `slider.rod`."""
+        found = {}
+        if self.spec.drive is not None:
+            found["drive"] = self.drive.linkage.min_transmission_angle()
+        if self.spec.slider is not None:
+            found["slider.rod"] = self.slider.drive.least_transmission(self.swing)
+        return found
+
+    @cached_property
+    def cycle_angle(self) -> float:
+        """phi_ud, turn of the shaft that runs evenly during the working stroke [rad]."""
+        if self.spec.cycle is not None:
+            return math.radians(self.spec.cycle.working)
+        given = self.spec.cycle_angle
+        return self.drive.crank_span if given is None else math.radians(given)
+
+    @property
+    def return_angle(self) -> float:
+        """The same of the return stroke [rad]."""
+        return self.cycle_angle if self.spec.cycle is None else math.radians(self.spec.cycle.return_)
+
+    @property
+    def cycle_angles(self) -> tuple[float, float, float, float]:
+        """Working stroke, far dwell, return stroke, near dwell [rad]."""
+        if self.spec.cycle is None:
+            words = "this needs the section cycle: working, far_dwell, return, near_dwell"
+            raise MissingSection(words, key="cycle")
+        working, far, back, near = (math.radians(length) for length in self.spec.cycle.lengths())
+        return working, far, back, near
+
+    @property
+    def device_angle(self) -> float:
+        """Cam angle of the shorter stroke [rad]: one device serves both, and its free swing takes one time."""
+        return min(self.cycle_angle, self.return_angle)
+
+    @cached_property
+    def stroke_time(self) -> float:
+        """Time of the shorter stroke at the design speed [s]; the device is sized by it."""
+        return self._time_of(self.device_angle)
+
+    @cached_property
+    def working_time(self) -> float:
+        """Time of the working stroke at the design speed [s]."""
+        return self._time_of(self.cycle_angle)
+
+    def _time_of(self, angle: float) -> float:
+        from gearlink.core.machines.wide_swing.law.balancing import stroke_time
+
+        return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)

@@ -1,0 +1,373 @@
+"""Wide-swing rocker that drives a slider: the rocker is a crank of non-uniform speed, the slider carries the mass.
+
+The unloading device swings rocker and slider together; the reduced inertia changes with the swing and with it
+the law of motion loses its symmetry about mid-swing.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.law.device import Device, DeviceGeometry
+from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.wide_swing.law.kept import Kept, kept_for
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
+from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.periodic import CosineSeries, cosine_series
+from gearlink.core.numerics.rising import RisingTable
+from gearlink.core.parts.linkages.slider_crank.sweep import slider
+
+_NEWTON_STEPS = 60
+_TOO_SHARP = (
+    "the slider changes the inertia of the rocker too sharply within the stroke: move the stroke off the place where "
+    "rod and arm stand in line (slider.middle_angle), lengthen the rod, or give the rocker more inertia"
+)
+_GRID = np.linspace(0.0, math.pi, 257)
+# A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
+_FAINTEST = 1e-300
+
+
+def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: float) -> tuple[float, float]:
+    """Inertia that takes J's place in the energy parameter, and the rocker's share in it.
+
+    J_ref = J0 + m H^2/gamma^2, j0 = J0/J_ref
+
+    Parameters
+        rocker_inertia : float [kg m^2] - J0 of what turns with the rocker
+        mass : float [kg] - m of what moves with the slider
+        stroke : float [mm] - H of the slider
+        swing : float [rad] - gamma
+    Returns
+        J_ref, j0 : float [kg m^2], float
+    Raises
+        NoSolution - when the sum is not positive
+    Example
+        >>> [round(x, 12) for x in reference_inertia(0.02, 4.0, 200.0, 2.0)]
+        [0.06, 0.333333333333]
+
+    Source
+        own derivation after the wide-swing dissertation (16), (17)
+    """
+    total = rocker_inertia + mass * (1e-3 * stroke / swing) ** 2
+    if not (rocker_inertia >= 0.0 and mass >= 0.0 and 0.0 < total < math.inf):
+        raise NoSolution(
+            f"inertia {rocker_inertia:.6g} kg m^2 and mass {mass:.6g} kg: neither may be negative, one must be above 0"
+        )
+    return total, rocker_inertia / total
+
+
+@dataclass(frozen=True)
+class SliderDrive:
+    """Slider moved by the rocker through a rod.
+
+    Parameters
+        crank, rod : float [mm] - rocker arm R and rod l
+        middle_angle : float [rad] - arm at mid-swing, counted from the direction in which the slider is farthest
+        offset : float [mm] - of the slide line, signed
+    Raises
+        NoSolution - when the rod does not exceed crank plus offset
+    Source
+        wide-swing dissertation, chapter 2, combined mechanisms
+    """
+
+    crank: float
+    rod: float
+    middle_angle: float
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.crank + abs(self.offset) < self.rod:
+            reach = self.crank + abs(self.offset)
+            raise NoSolution(
+                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, {reach:.6g} mm; lengthen the rod, "
+                f"best to {safely_above(3.0 * reach)} mm or more"
+            )
+
+    def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
+        """Slider position at rocker angles phi from mid-swing, with derivatives with respect to phi up to 2 [mm]."""
+        return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
+
+    def least_transmission(self, swing: float) -> float:
+        """Least angle between the rod and the normal of the slide line over a swing [rad].
+
+        mu = 90 deg - max |asin((R sin psi + e)/l)|, psi the arm's angle, middle_angle +- swing/2
+
+        Parameters
+            swing : float [rad]
+        Example
+            >>> drive = SliderDrive(crank=1.0, rod=2.0, middle_angle=0.0)
+            >>> [round(math.degrees(drive.least_transmission(math.radians(each)))) for each in (60, 180)]
+            [76, 60]
+        """
+        start, end = self.middle_angle - 0.5 * swing, self.middle_angle + 0.5 * swing
+        square = (0.5 + math.ceil(start / math.pi - 0.5)) * math.pi  # the first place of a square arm from the start on
+        places = (start, end, *(place for place in (square, square + math.pi) if place <= end))
+        return math.acos(max(abs(self.crank * math.sin(psi) + self.offset) for psi in places) / self.rod)
+
+    def dead_centers(self) -> tuple[float, float]:
+        """Rocker angles from mid-swing, within one turn, where arm and rod are in line [rad]."""
+        extended = -math.asin(self.offset / (self.rod + self.crank))
+        folded = math.pi - math.asin(self.offset / (self.rod - self.crank))
+        return extended - self.middle_angle, folded - self.middle_angle
+
+
+@dataclass(frozen=True)
+class SliderLaw:
+    """Law of motion of a rocker with a slider, swung by an unloading device.
+
+    b^2 = N E(a)/j(a), j = j0 + (1 - j0) b_kp^2, b_kp = (gamma/H) ds/dphi;  sqrt N = (1/gamma) Int sqrt(j) F du
+
+    Parameters
+        device : Pneumatic or Spring
+        swing : float [rad] - gamma
+        drive : SliderDrive
+        rocker_share : float - j0 = J0/J_ref in [0, 1]; 0 is the pure slider mass of the dissertation
+    Raises
+        NoSolution - for a swing outside (0, 300 deg], j0 outside [0, 1], a slider without stroke, and, where
+            j0 = 0, a dead centre of the slider in the swing, at which the speed would have no bound
+    Notes
+        The integral runs over the whole stroke; b(1/2) is neither the velocity at mid-swing nor the peak.
+    Example
+        >>> from gearlink.core.machines.wide_swing.law.elastic_law import Pneumatic
+        >>> drive = SliderDrive(crank=1.0, rod=3.0, middle_angle=math.pi / 2)
+        >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), drive)
+        >>> round(law.energy_parameter, 12), round(law.middle_place, 12)
+        (3.317777365941, 0.592915351375)
+
+    Source
+        wide-swing dissertation (16), (17); with the rocker's own inertia and the quadrature: own derivation
+    """
+
+    device: Device
+    swing: float
+    drive: SliderDrive
+    rocker_share: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.rocker_share <= 1.0:
+            raise NoSolution(f"rocker share {self.rocker_share:.6g} of the inertia: it must lie between 0 and 1")
+        if abs(self._stroke) <= 1e-12 * self.drive.crank:
+            raise NoSolution("the slider ends where it began: turn the arm's mid-swing away from the slide line")
+        if self.rocker_share == 0.0:
+            self._require_no_dead_center()
+
+    def _require_no_dead_center(self) -> None:
+        for angle in self.drive.dead_centers():
+            nearest = math.remainder(angle, 2.0 * math.pi)
+            if abs(nearest) <= 0.5 * self.swing:
+                raise NoSolution(
+                    f"the slider's dead centre lies {math.degrees(nearest):.4g} deg from mid-swing, inside the half "
+                    f"swing of {math.degrees(0.5 * self.swing):.4g} deg: turn the swing away from it, or count the "
+                    "rocker's own inertia"
+                )
+
+    @cached_property
+    def _half(self) -> ElasticLaw:
+        """The same device with the rocker alone: its integrand and its geometry."""
+        return ElasticLaw(self.device, self.swing)
+
+    @property
+    def geometry(self) -> DeviceGeometry:
+        """Lengths of the device in arms."""
+        return self._half.geometry
+
+    @cached_property
+    def _stroke(self) -> float:
+        ends = self.drive.depth(np.array([-0.5, 0.5]) * self.swing)[0]
+        return float(ends[1] - ends[0])
+
+    @property
+    def stroke(self) -> float:
+        """H, distance of the slider's positions at the ends of the swing [mm]."""
+        return abs(self._stroke)
+
+    def _slider_rate(self, phi: Reals) -> tuple[Reals, Reals]:
+        """b_kp and its derivative with respect to a."""
+        _, first, second = self.drive.depth(phi, 2)
+        return self.swing / self.stroke * first, self.swing**2 / self.stroke * second
+
+    def _inertia(self, rate: Reals) -> Reals:
+        result: Reals = self.rocker_share + (1.0 - self.rocker_share) * rate**2
+        return result
+
+    def _angle(self, sine: Reals, cosine: Reals) -> Reals:
+        """phi where sin(phi/2) = -m sin u."""
+        g = self.geometry
+        return -2.0 * np.arctan2(g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine))
+
+    def _slowness(self, sine: Reals, cosine: Reals) -> Reals:
+        root = np.sqrt(self._inertia(self._slider_rate(self._angle(sine, cosine))[0]))
+        return root * self._half.slowness(sine, cosine)
+
+    def _integrand(self, z: Reals) -> Reals:
+        quarter = complete_integral(self._half.modulus_complement)
+        second = z > quarter
+        folded = np.where(second, 2.0 * quarter - z, z)
+        cosine, sine = jacobi_sn_cn(folded, self._half.modulus, self._half.modulus_complement)
+        sine = np.where(second, -sine, sine)
+        return self._slowness(sine, cosine) * self.geometry.length(sine) / self.geometry.longest
+
+    @cached_property
+    def clock(self) -> CosineSeries:
+        """gamma sqrt(N) dk/dz as a cosine series over the whole stroke."""
+        with at_key("slider"):
+            return cosine_series(self._integrand, 2.0 * complete_integral(self._half.modulus_complement), _TOO_SHARP)
+
+    @cached_property
+    def _clock_from_end(self) -> CosineSeries:
+        return self.clock.from_far_end()
+
+    @property
+    def energy_parameter(self) -> float:
+        """N = 2 P r_d T^2/(J_ref gamma^2) [-]."""
+        return (self.clock.total / self.swing) ** 2
+
+    @cached_property
+    def middle_place(self) -> float:
+        """k at which the rocker passes mid-swing."""
+        half = np.array([0.5 * self.clock.span])
+        return float(self.clock.integral(half)[0]) / self.clock.total
+
+    @cached_property
+    def velocity_peak(self) -> float:
+        """Largest velocity invariant of the rocker [-]."""
+        return maximum_over(lambda k: self.invariants(k, 1)[1], 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def acceleration_peak(self) -> float:
+        """Largest magnitude of the rocker's acceleration invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.invariants(k)[2]), 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def slider_velocity_peak(self) -> float:
+        """Largest magnitude of the slider's velocity invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[1]), 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def slider_acceleration_peak(self) -> float:
+        """Largest magnitude of the slider's acceleration invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[2]), 0.0, 1.0, samples=128).value
+
+    def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
+        """Displacement, velocity and acceleration invariants of the rocker.
+
+        c = (N/2)(E_a/j - E j_a/j^2)
+
+        Parameters
+            k : (N,) array - fraction of the stroke, 0 to 1
+            order : int - 0 to 2
+        Returns
+            invariants : tuple of order + 1 arrays
+        Raises
+            NoSolution - for k outside 0 to 1
+        """
+        sine, cosine = self._pendulum(k)
+        first_half = self._half.displacement(np.abs(sine), cosine)
+        return (np.where(sine < 0.0, 1.0 - first_half, first_half), *self._rates(sine, cosine))[: order + 1]
+
+    def device_torque(self, k: Reals) -> Reals:
+        """Torque of the device over J_ref gamma/T^2.
+
+        (N/2) E_a = j c + b^2 j_a/2,   j_a = 2 (1 - j0) b_kp b_kp,a
+
+        Parameters
+            k : (N,) array - fraction of the stroke, 0 to 1
+        Raises
+            NoSolution - for k outside 0 to 1
+        """
+        sine, cosine = self._pendulum(k)
+        b, c = self._rates(sine, cosine)
+        rate, slope = self._slider_rate(self._angle(sine, cosine))
+        torque: Reals = self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * slope * b * b
+        return torque
+
+    def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
+        """Displacement, velocity and acceleration invariants of the slider.
+
+        a_s = (s - s_0)/H, b_s = b_kp b, c_s = b_kp c + b_kp,a b^2
+
+        Parameters
+            k : (N,) array - fraction of the stroke, 0 to 1
+        Returns
+            a_s, b_s, c_s : (N,) arrays - negative where the slider comes nearer
+        Raises
+            NoSolution - for k outside 0 to 1
+        """
+        sine, cosine = self._pendulum(k)
+        b, c = self._rates(sine, cosine)
+        phi = self._angle(sine, cosine)
+        rate, change = self._slider_rate(phi)
+        start = self.drive.depth(np.array([-0.5 * self.swing]))[0]
+        return (self.drive.depth(phi)[0] - start) / self.stroke, rate * b, rate * c + change * b**2
+
+    def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
+        g, parameter = self.geometry, self.energy_parameter
+        rate, change = self._slider_rate(self._angle(sine, cosine))
+        inertia = self._inertia(rate)
+        inertia_change = 2.0 * (1.0 - self.rocker_share) * rate * change
+        energy = (g.reach * g.half_sine * cosine) ** 2 * g.mean_force(sine) / (g.longest + g.length(sine))
+        lever = 2.0 * g.half_sine * sine * np.hypot(g.half_cosine, g.half_sine * cosine) / g.length(sine)
+        push = g.ratio * self.swing * g.force(sine) * lever
+        b = np.sqrt(parameter * energy / inertia)
+        return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
+
+    def _pendulum(self, k: Reals) -> tuple[Reals, Reals]:
+        """sin u and cos u of every k."""
+        return kept_for(self._kept, k, self._turned)
+
+    @cached_property
+    def _kept(self) -> Kept[tuple[Reals, Reals]]:
+        return {}
+
+    def _turned(self, k: Reals) -> tuple[Reals, Reals]:
+        if not bool(np.all((k >= 0.0) & (k <= 1.0))):
+            raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
+        late = k > 0.5
+        sine, cosine = np.empty_like(k), np.empty_like(k)
+        for part, fraction, clock, side in (
+            (~late, k, self.clock, 1.0),
+            (late, 1.0 - k, self._clock_from_end, -1.0),
+        ):
+            v = self._invert(fraction[part], clock, side)
+            sine[part], cosine[part] = side * np.cos(v), np.sin(v)
+        return sine, cosine
+
+    def _invert(self, k: Reals, clock: CosineSeries, side: float) -> Reals:
+        """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
+        v = (self._from_start if side > 0.0 else self._from_end).places_of(k)
+        left = np.arange(k.size)
+        for _ in range(_NEWTON_STEPS):
+            at = v[left]
+            step = (self._time_of(at, clock) - k[left] * clock.total) / self._slowness(side * np.cos(at), np.sin(at))
+            # a step past an end of the stroke stops there; the next one starts from the end
+            v[left] = at = np.clip(at - step, 0.0, math.pi)
+            left = left[~(np.abs(step) <= 1e-13 * at + _FAINTEST)]
+            if not left.size:
+                return v
+        raise NoSolution(_TOO_SHARP, key="slider")
+
+    @cached_property
+    def _from_start(self) -> RisingTable:
+        """Fractions of the stroke by the angle v from the start."""
+        return self._table(self.clock, 1.0)
+
+    @cached_property
+    def _from_end(self) -> RisingTable:
+        """The same, backwards from the end."""
+        return self._table(self._clock_from_end, -1.0)
+
+    def _table(self, clock: CosineSeries, side: float) -> RisingTable:
+        slopes = self._slowness(side * np.cos(_GRID), np.sin(_GRID)) / clock.total
+        return RisingTable(_GRID, self._time_of(_GRID, clock) / clock.total, slopes)
+
+    def _time_of(self, v: Reals, clock: CosineSeries) -> Reals:
+        complement = self._half.modulus_complement
+        z = incomplete_integral(np.sin(v), np.abs(np.cos(v)), self._half.modulus, complement)
+        return clock.integral(np.where(np.cos(v) < 0.0, clock.span - z, z))

@@ -1,0 +1,260 @@
+"""The design file of a wide-swing cam mechanism with an unloading device."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, LiteralString, NoReturn, TypeAlias
+
+from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    Deferred,
+    Distance,
+    Length,
+    LoadLimits,
+    Ratio,
+    Share,
+    SignedLength,
+    Spec,
+    TolerancedSpec,
+)
+
+
+def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **words: str) -> NoReturn:
+    raise PydanticCustomError(code, message, {"key": key, **words})
+
+
+Phase: TypeAlias = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
+Residual: TypeAlias = Annotated[
+    float,
+    Field(
+        ge=0,
+        le=1,
+        description="share of the inertia torque that friction and force error leave at the design speed",
+        json_schema_extra={"unit": "1"},
+    ),
+]
+Reserve: TypeAlias = Annotated[
+    float,
+    Field(
+        ge=0,
+        description="force above the one that balances the inertia at the design speed, as a share of it",
+        json_schema_extra={"unit": "1"},
+    ),
+]
+
+
+class Pneumatic(Spec):
+    """A cylinder under constant pressure."""
+
+    type: Literal["pneumatic"] = Field(description="kind of device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    arm: Length = Field(description="arm r_d on the rocker")
+    extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
+        13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
+    )
+    residual: Residual = 0.0
+    reserve: Reserve = 0.0
+
+
+class SpringDevice(Spec):
+    """A tension spring."""
+
+    type: Literal["spring"] = Field(description="kind of device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    arm: Length = Field(description="arm r_d on the rocker")
+    stretch_ratio: Share = Field(description="mounting stretch at mid-swing over the stroke")
+    closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
+    stretch_capacity: Ratio | None = Field(
+        None, description="allowable stretch over closed length, in place of closed_length; steel 1 to 2"
+    )
+    end_fittings: Distance = Field(0.0, description="length of the end fittings")
+    residual: Residual = 0.0
+    reserve: Reserve = 0.0
+
+    @model_validator(mode="after")
+    def _one_length(self) -> SpringDevice:
+        if self.closed_length is not None and self.stretch_capacity is not None:
+            _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other: give one")
+        return self
+
+
+class SwingCam(Spec):
+    """The cam pair."""
+
+    center_distance: Length = Field(description="cam axis to rocker axis")
+    roller_radius: Length = Field(description="radius of the roller")
+    rocker_radius: Length | None = Field(None, description="rocker radius, in place of the one with no pressure angle")
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+    free_clearance: Distance = Field(
+        0.5, description="room between a roller and the sector of a closed contour in which the other cam guides"
+    )
+
+
+class SwingCycle(Spec):
+    """Cam angles of a whole cycle, in place of cycle_angle; their sum is 360."""
+
+    working: Phase = Field(gt=0, description="working stroke, run-up and run-out")
+    far_dwell: Phase = Field(description="rest at the far end")
+    return_: Phase = Field(alias="return", gt=0, description="return stroke")
+    near_dwell: Phase = Field(description="rest at the near end")
+
+    @model_validator(mode="after")
+    def _one_turn(self) -> SwingCycle:
+        total = math.fsum(self.lengths())
+        if abs(total - 360.0) > 1e-9:
+            given = "working, far_dwell, return and near_dwell"
+            raise PydanticCustomError(
+                "GL108",
+                "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change} deg",
+                {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "change": f"{360.0 - total:+.7g}"},
+            )
+        return self
+
+    def lengths(self) -> tuple[float, float, float, float]:
+        """The four angles in their order [deg]."""
+        return self.working, self.far_dwell, self.return_, self.near_dwell
+
+
+class SwingShaft(Spec):
+    """The drive of the cam shaft; with it go the dynamic coefficient and the torque of the cam shaft."""
+
+    natural_frequency: Annotated[float, Field(gt=0, json_schema_extra={"unit": "Hz"})] = Field(
+        description="natural frequency of the drive in torsion, in cycles a second"
+    )
+    damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+        0.0, description="damping ratio of the drive"
+    )
+    linkage_share: Share = Field(
+        0.0, description="torque of the links that the device does not unload, share of the rocker's inertia torque"
+    )
+
+
+class SwingSlider(Spec):
+    """A slider that the rocker moves through a rod."""
+
+    crank: Length = Field(description="arm of the rocker that the rod is joined to")
+    rod: Length = Field(description="connecting rod")
+    middle_angle: Angle = Field(description="that arm at mid-swing, from the direction in which the slider is farthest")
+    offset: SignedLength = Field(0.0, description="offset of the slide line")
+    mass: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})] = Field(description="mass of the slider")
+
+
+class SwingDrive(Spec):
+    """A crank-rocker whose rocker carries the cam."""
+
+    crank: Length = Field(description="crank, turning evenly at `speed`")
+    coupler: Length = Field(description="coupler")
+    rocker: Length = Field(description="rocker that carries the cam")
+    frame: Length = Field(description="distance of the two pivots")
+    assembly: Assembly = Field(1, description="+1: the coupler's end left of the vector from crank pin to rocker pivot")
+    stroke: Literal["outward", "homeward"] = Field(
+        "outward", description="outward: from the extended to the folded dead centre; homeward: back"
+    )
+
+
+class SwingLimits(LoadLimits):
+    """Limits of the checks."""
+
+    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle outside the transition zone")
+    transmission_angle: AcuteAngle = Field(
+        40.0, description="least transmission angle of `drive` and of a slider's rod"
+    )
+    transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
+        0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
+    )
+
+
+class WideSwingSpec(TolerancedSpec):
+    """Twin-cam or twin-rocker mechanism with spring or pneumatic unloading."""
+
+    kind: Literal["wide-swing-cam"]
+    layout: Literal["twin-cam", "twin-rocker"] = Field(
+        description="twin-cam: external profile; twin-rocker: internal profile"
+    )
+    drive: SwingDrive | None = None
+    cycle: SwingCycle | None = None
+    swing: Annotated[float, Field(gt=0, le=300, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
+    cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, validate_default=True, description="cam angle of one stroke; left out where a cycle or a drive gives it"
+    )
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
+    inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
+        description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
+    )
+    unloader: Pneumatic | SpringDevice = Field(discriminator="type", description="device that bears the inertia")
+    operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="least speed at which the machine works; then the device is checked for harm there"
+    )
+    method: Literal["exact", "iteration"] = Field(
+        "exact", description="iteration: show the source's own iteration and its error beside the exact law"
+    )
+    iteration_steps: Annotated[int, Field(ge=1, le=100_000, json_schema_extra={"unit": "1"})] = Field(
+        20, description="its steps per half stroke"
+    )
+    cam: SwingCam | None = None
+    slider: SwingSlider | None = None
+    shaft: SwingShaft | None = None
+    limits: SwingLimits = SwingLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.wide_swing.loads.spec:SwingLoads")] | None = Field(
+        None, description="roller, material and vibration, for the command loads"
+    )
+
+    @field_validator("cycle_angle")
+    @classmethod
+    def _given_unless_driven(cls, value: float | None, info: ValidationInfo) -> float | None:
+        """With the other fields, so that a missing key is reported together with every other error of the file."""
+        drive, cycle = (info.data.get(name, ...) for name in ("drive", "cycle"))
+        if value is None and drive is None and cycle is None:
+            words = "cycle_angle: cam angle of one stroke, run-up and run-out; or the section cycle of a whole turn"
+            _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)
+        return value
+
+    @model_validator(mode="after")
+    def _sections_agree(self) -> WideSwingSpec:
+        if self.slider is None and self.inertia == 0.0:
+            _refuse("inertia", "inertia must be above 0 where no slider carries the mass", "GL108")
+        if self.cycle is not None and self.cycle_angle is not None:
+            _refuse("cycle_angle", "cycle_angle and cycle exclude each other: give one")
+        if self.drive is not None:
+            self._agree_with_drive()
+        if self.slider is not None:
+            if self.cam is not None:
+                self._cam_with_slider(self.cam)
+            for name in ("drive", "shaft"):
+                if getattr(self, name) is not None:
+                    _refuse(
+                        name,
+                        "a slider makes the law unsymmetric: leave out {name}, made for the rocker alone",
+                        name=name,
+                    )
+        return self
+
+    def _cam_with_slider(self, cam: SwingCam) -> None:
+        if self.layout != "twin-cam":
+            _refuse("layout", "the cam of a rocker with a slider has an external profile: layout must be twin-cam")
+        if self.cycle is not None:
+            _refuse("cycle", "a cycle is that of a rocker without a slider: give cycle_angle")
+        if cam.rocker_radius is not None:
+            _refuse("cam.rocker_radius", "the law of a slider gives the rocker radius: leave out cam.rocker_radius")
+
+    def _agree_with_drive(self) -> None:
+        if self.cycle is not None:
+            _refuse("cycle", "the drive's dead centres give the crank angles of both strokes: leave out cycle")
+        if self.cycle_angle is not None:
+            _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke: leave out cycle_angle")
+        if self.cam is None:
+            _refuse("cam", "a drive needs the section cam: center_distance, roller_radius", "GL106")
+        if self.layout != "twin-cam":
+            _refuse("layout", "an oscillating cam has an external profile: layout must be twin-cam")
+        if self.cam.rocker_radius is not None:
+            _refuse("cam.rocker_radius", "the drive gives the rocker radius: leave out cam.rocker_radius")
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        cam = ("cam",) if self.cam is not None else ()
+        return ("swing", *cam, *(("loads",) if self.loads is not None and cam else ()))

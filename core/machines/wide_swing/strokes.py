@@ -1,0 +1,167 @@
+"""A stroke of a wide-swing mechanism: how the rocker turns in it, and where its roller stands on the cam.
+
+The world has the cam axis O at 0 and the rocker's axis D on the line of centres; the rocker turns counter-clockwise
+in the working stroke. k is the fraction of the stroke in time; where the roller then stands on the profile is a
+fraction of the stroke that the profile was made for, another one on the way home of a cam that swings.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from gearlink.core.machines.wide_swing import way_back
+from gearlink.core.machines.wide_swing.roller import path
+from gearlink.core.mechanism.rates import Turn
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
+    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
+    from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.numerics.arrays import Points, Reals
+
+Parts: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A stroke over the fractions k of it.
+
+    Fields
+        name : str - of its roller: main, return
+        cam : AnyCam - that guides it
+        start : float [rad] - input angle at which it starts
+        design : WideSwingDesign
+    """
+
+    name: str
+    cam: AnyCam
+    start: float
+    design: WideSwingDesign
+
+    @property
+    def width(self) -> float:
+        """Input angle that it takes [rad]."""
+        return self.cam.cycle_angle
+
+    @property
+    def words(self) -> str:
+        """What it is called."""
+        return "working stroke" if self.name == "main" else "return stroke"
+
+    @property
+    def cam_words(self) -> str:
+        """What its cam is called beside that of the working stroke."""
+        return "cam" if self.name == "main" else "return cam"
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether it goes the other way round on a cam of its own."""
+        return self.name != "main"
+
+    def profile(self, k: Reals) -> tuple[Reals, Reals]:
+        """Where on the profile the roller stands, as a fraction of the profile's stroke, and how fast that goes."""
+        return k, np.ones_like(k)
+
+    def at_profile(self, place: float) -> float:
+        """Fraction k of this stroke at which the roller stands at a place of the profile."""
+        return place
+
+    def turn(self, k: Reals, order: int) -> Turn:
+        """The rocker's angle from mid-swing, with its derivatives by the input angle."""
+        motion = self.design.motion
+        a, *rates = motion.law.invariants(k, order)
+        swing = -motion.swing if self.mirrored else motion.swing
+        return Turn((a - 0.5) * swing, *(swing / self.width**n * rate for n, rate in enumerate(rates, 1)))
+
+    def to_world(self, z: Points) -> Points:
+        """From the frame in which cams are computed to the world; a mirrored stroke is its mirror image."""
+        if self.design.spec.layout == "twin-rocker":
+            return np.asarray(-np.conj(z))
+        return np.asarray(np.conj(z)) if self.mirrored else z
+
+    def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:
+        """Roller centre [mm] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
+        at = path(self.cam, self.profile(k)[0], resting=resting)
+        return self.to_world(self.cam.center_distance * at.arm), self.to_world(at.outward)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Parts of the stroke in which the roller touches the profile."""
+        return self.design.contact_of(self.cam)
+
+
+class WayHome(Stroke):
+    """The way home of a cam on a crank-rocker, over the profile of the stroke; k is its fraction from the far end."""
+
+    cam: OscillatingCam
+
+    @property
+    def width(self) -> float:
+        """What the stroke leaves of the crank's turn [rad]."""
+        return 2.0 * math.pi - self.cam.cycle_angle
+
+    @property
+    def words(self) -> str:
+        """What it is called."""
+        return "way home"
+
+    @property
+    def cam_words(self) -> str:
+        """It is the same cam as that of the stroke."""
+        return self.words
+
+    @property
+    def mirrored(self) -> bool:
+        """It is the same cam that goes back."""
+        return False
+
+    def _home(self, k: Reals, order: int = 2) -> way_back.Home:
+        """The cam there; at both ends, where the profile bends without bound, it stands at the stop itself."""
+        at = way_back.home(self.cam, self.start + k * self.width, order)
+        return at._replace(k=np.where(k == 0.0, 1.0, np.where(k == 1.0, 0.0, at.k)))
+
+    def profile(self, k: Reals) -> tuple[Reals, Reals]:
+        """The place goes backwards, and its speed is that over the stroke's."""
+        at = self._home(k)
+        return at.k, at.first * self.cam.cycle_angle
+
+    def at_profile(self, place: float) -> float:
+        """Fraction k of the way home at which the cam stands at a place of the stroke."""
+        turned = float(way_back.crank_angle(self.cam, np.array([place]))[0])
+        return (turned - self.start) / self.width
+
+    def turn(self, k: Reals, order: int) -> Turn:
+        """The rocker follows the cam, at whose places the profile has it as in the stroke."""
+        at, motion = self._home(k, max(order, 2)), self.design.motion
+        a, *rates = motion.law.invariants(at.k, order)
+        parts = [(a - 0.5) * motion.swing]
+        if order > 0:
+            parts.append(motion.swing * rates[0] * at.first)
+        if order > 1:
+            parts.append(motion.swing * (rates[1] * at.first**2 + rates[0] * at.second))
+        if order > 2:
+            bend = 3.0 * rates[1] * at.first * at.second + rates[0] * at.third
+            parts.append(motion.swing * (rates[2] * at.first**3 + bend))
+        return Turn(*parts)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Parts of the way home in which the roller touches the profile."""
+        (first, start), (end, last) = self.design.contact_of(self.cam)
+        a, b, c, d = (self.at_profile(place) for place in (last, end, start, first))
+        return (a, b), (c, d)
+
+
+def strokes_of(design: WideSwingDesign) -> tuple[Stroke, ...]:
+    """The working stroke, and what brings the rocker back where the whole turn is known."""
+    main = Stroke("main", design.cam, 0.0, design)
+    if design.spec.drive is not None:
+        return main, WayHome("return", design.cam, design.cam.cycle_angle, design)
+    if design.spec.cycle is None:
+        return (main,)
+    return main, Stroke("return", design.return_cam or design.cam, sum(design.motion.cycle_angles[:2]), design)

@@ -1,0 +1,1 @@
+"""Formulas of parts: gears, linkages, cams; closed forms, tooth geometry, laws, profiles."""

@@ -1,0 +1,74 @@
+"""The rules that the checks of every cam judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+LARGER = "enlarge the base circle"
+"""What a refusal of a cam recommends; a kind without a base radius in its file says which key does it."""
+PRESSURE_ANGLE = Rule(
+    "GL401",
+    "pressure angle too large",
+    "The angle between the follower's motion and the common normal at the contact exceeds limits.pressure_angle, or no "
+    "cam can make the motion at all (no value is given then).",
+    "The cam pushes aside instead of along: high side forces, wear, and in the end jamming.",
+    "Enlarge the base circle, give the motion more cam angle, or move the cam centre; for a translating follower "
+    "30 deg is usual, for a rocking one 45 deg.",
+    "tan(alpha) = Im(q/u)/Re(q/u), q = i B' + eps B (B roller centre, u its direction of motion); wide-swing: "
+    "tan(delta) = (lambda A - cos phi)/sin phi",
+    "VDI 2142; wide-swing dissertation, chapter 3",
+    ("pressure-angle",),
+    ("limits.pressure_angle", "cam"),
+    side="<=",
+)
+CAM_UNDERCUT = Rule(
+    "GL402",
+    "roller undercuts the cam",
+    "The roller is as large as the least convex curvature radius of the pitch curve, or cuts into the profile "
+    "elsewhere.",
+    "The cutter removes part of the profile: the follower does not make the motion that was asked for. The tables show "
+    "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
+    "Take a roller below 0.8 of the least curvature radius, or enlarge the base circle.",
+    "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
+    "VDI 2142; own derivation of the cut elsewhere",
+    ("cam-undercut",),
+    ("cam.roller_radius", "cam.roller", "cam"),
+    side="<=",
+)
+VELOCITY_STEP = Rule(
+    "GL403",
+    "velocity of the lift jumps",
+    "At a joint of the law the first derivative of the lift has a step.",
+    "The acceleration would be infinite there: a blow, at any speed.",
+    "Choose laws whose end velocities agree; in a press let the zone start where bed and cylinder are equally fast.",
+    "|s'(t+) - s'(t-)| <= 1e-5 of the largest |s'|",
+    "VDI 2143",
+    ("velocity-step",),
+    ("sync.start", "laws", "cam"),
+    side="<=",
+)
+ACCELERATION_STEP = Rule(
+    "GL404",
+    "acceleration of the lift jumps",
+    "At a joint of the law the second derivative of the lift has a step (a warning).",
+    "The force on the follower jumps: vibration and noise at high speed, and the roller may lift off.",
+    "Choose laws without end acceleration; in a press a lead_in, transition quartic and return_law cycloidal.",
+    "|s''(t+) - s''(t-)| <= 1e-5 of the largest |s''|",
+    "VDI 2143",
+    ("acceleration-step",),
+    ("cam.lead_in", "laws", "cam"),
+    side="<=",
+)
+JERK_STEP = Rule(
+    "GL407",
+    "jerk of the lift jumps",
+    "At a joint of the law the third derivative of the motion has a step larger than limits.jerk_step (a warning; "
+    "without that key it is only reported).",
+    "A step of the jerk excites vibration at high speed, though far less than a step of the acceleration.",
+    "Take laws that end without jerk: polynomial-4567, velocity-4567 or {septic: 0.5}.",
+    "|s'''(t+) - s'''(t-)| <= limits.jerk_step",
+    "VDI 2143",
+    ("jerk-step",),
+    ("limits.jerk_step", "laws"),
+    side="<=",
+)

@@ -1,0 +1,193 @@
+"""A closed disc cam with a roller: its extremes, refined between the joints of its law, and its undercut."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from gearlink.core.base.errors import at_key
+from gearlink.core.base.report import Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
+from gearlink.core.numerics.extremes import (
+    Extreme,
+    convex_radius,
+    extremes_over,
+    least_convex_radius,
+    maximum_over,
+    minimum_over,
+)
+from gearlink.core.numerics.together import Function, kept_last
+from gearlink.core.parts.cams import profile
+from gearlink.core.parts.cams.profile import CamProfile, RollerPath
+from gearlink.core.parts.cams.undercut import Undercut, undercut
+
+_TURN = 2.0 * math.pi
+SAMPLES = 512
+FOUND_TOGETHER = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
+
+
+@cache
+def _whole_turn() -> Reals:
+    """Close cam angles over the turn, one array for all: a motion that is kept for it serves both cams."""
+    angles = np.linspace(0.0, _TURN, 2049)
+    angles.flags.writeable = False
+    return angles
+
+
+def seek_together(cams: Sequence[DiscCam]) -> None:
+    """Seek pressure angle, curvature and radii of cams of one motion in common rounds; the cams keep what is found.
+
+    Notes
+        The values are those of each search alone: only the motion is computed once a round.
+    """
+    functions: list[tuple[Function, bool]] = []
+    for cam in cams:
+        near = replace(cam, path=_kept(cam.path))
+        functions += [(near.size_of_pressure_angle, True), (near.curvature, True)]
+        functions += [(near.radius, True), (near.radius, False)]
+    found = iter(extremes_over(functions, joints=cams[0].bounds, samples=SAMPLES))
+    for cam in cams:
+        angle, curvature, greatest, least = next(found), next(found), next(found), next(found)
+        extremes = angle, convex_radius(curvature), greatest.value, least.value
+        vars(cam).update(zip(FOUND_TOGETHER, extremes, strict=True))
+
+
+def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:
+    """Pressure angle of largest magnitude of each cam between two cam angles [rad], its sign kept."""
+    near = [replace(cam, path=_kept(cam.path, 1)) for cam in cams]
+    wanted = [(cam.pressure_angle, greatest) for cam in near for greatest in (True, False)]
+    found = iter(extremes_over(wanted, start, end, samples=samples))
+    return [max(next(found), next(found), key=lambda extreme: abs(extreme.value)) for _ in cams]
+
+
+def _kept(path: Callable[[Reals, int], RollerPath], order: int = 2) -> Callable[[Reals, int], RollerPath]:
+    """A path that keeps what it last gave, with as many derivatives as any will ask for, for the very same array."""
+    kept = kept_last(lambda cam_angle: path(cam_angle, order))
+    return lambda cam_angle, _order: kept(cam_angle)
+
+
+@dataclass(frozen=True)
+class DiscCam:
+    """A cam over one turn; nothing is computed before it is asked for.
+
+    Parameters
+        name : str - what messages call it
+        path : function (cam angles (N,) [rad], order) -> RollerPath with that many derivatives filled
+        sense : +1 or -1 - the cam turns counter-clockwise or clockwise
+        roller_radius : float [mm]
+        joints : cam angles [rad] - where the law changes; extremes are sought on each side
+        key : str - of the design file, which refusals name that have none of their own
+    """
+
+    name: str
+    path: Callable[[Reals, int], RollerPath]
+    sense: int
+    roller_radius: float
+    joints: tuple[float, ...] = ()
+    key: str = ""
+
+    @cached_property
+    def bounds(self) -> tuple[float, ...]:
+        """The joints within the turn."""
+        return tuple(joint % _TURN for joint in self.joints)
+
+    def at(self, cam_angle: Reals) -> CamProfile:
+        """Points, pressure angle and curvature at cam angles [rad]."""
+        with at_key(self.key):
+            path = self.path(cam_angle, 2)
+            return profile.profile(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+
+    def pressure_angle(self, cam_angle: Reals) -> Reals:
+        """Signed pressure angle [rad] at cam angles."""
+        with at_key(self.key):
+            return profile.pressure_angle(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
+    def size_of_pressure_angle(self, cam_angle: Reals) -> Reals:
+        """Its magnitude."""
+        return np.abs(self.pressure_angle(cam_angle))
+
+    def curvature(self, cam_angle: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], convex positive, at cam angles."""
+        with at_key(self.key):
+            return profile.curvature(cam_angle, self.path(cam_angle, 2), sense=self.sense)
+
+    def points(self, cam_angle: Reals) -> tuple[Points, Points]:
+        """Pitch and profile points [mm] at cam angles, in the cam's frame."""
+        with at_key(self.key):
+            path = self.path(cam_angle, 1)
+            pitch = profile.pitch_points(cam_angle, path, sense=self.sense)
+            contact = profile.profile_points(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+            return pitch, contact
+
+    def normals(self, cam_angle: Reals) -> Points:
+        """Direction from the profile to the roller's centre at cam angles, in the frame of the machine."""
+        with at_key(self.key):
+            return profile.normals(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
+    def radius(self, cam_angle: Reals) -> Reals:
+        """Distance of the roller from the cam axis [mm] at cam angles.
+
+        Notes
+            Where the pitch curve is farthest from the axis or nearest to it, its normal passes through the axis:
+            the extremes of |P| - r_g are those of the profile. Where the profile loops, the body that the roller
+            leaves has the same least radius and stays within the greatest; the loop does not.
+        """
+        return np.abs(profile.pitch_points(cam_angle, self.path(cam_angle, 1), sense=self.sense)) - self.roller_radius
+
+    @cached_property
+    def max_pressure_angle(self) -> Extreme:
+        """Greatest magnitude of the pressure angle [rad] and its place."""
+        return maximum_over(self.size_of_pressure_angle, joints=self.bounds, samples=SAMPLES)
+
+    @cached_property
+    def min_curvature_radius(self) -> Extreme:
+        """Least convex radius of the pitch curve [mm] and its place."""
+        return least_convex_radius(self.curvature, joints=self.bounds, samples=SAMPLES)
+
+    @cached_property
+    def max_radius(self) -> float:
+        """Largest radius of the profile; where that loops, of its parts that no roller cuts away at most [mm]."""
+        return maximum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
+
+    @cached_property
+    def min_radius(self) -> float:
+        """Smallest radius of the profile [mm]."""
+        return minimum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
+
+    @cached_property
+    def undercut(self) -> Undercut:
+        """Deepest cut of the roller into the profile.
+
+        Notes
+            A profile without a cusp whose polar angle runs one way cannot cross itself, and an offset curve
+            that neither has a cusp nor crosses itself is the true one; the search for far cuts is left to the
+            others.
+        """
+        if self.roller_radius < self.min_curvature_radius.value and self._star_shaped():
+            return Undercut(0.0, 0.0, 0.0)
+        return undercut(self.points, self.roller_radius)
+
+    def _star_shaped(self) -> bool:
+        profile = self.points(_whole_turn())[1]
+        turn = -self.sense * np.imag(np.conj(profile[:-1]) * profile[1:])
+        return bool(np.all(turn > 0.0))
+
+    def table(self, name: str, samples: int | None = None) -> Table:
+        """The cam as a table over the cam angle, as many rows as asked for."""
+        degrees = turn_degrees(samples)
+        cam = self.at(np.radians(degrees))
+        columns = {
+            "cam_angle": (degrees, "deg"),
+            "pitch_x": (cam.pitch.real, "mm"),
+            "pitch_y": (cam.pitch.imag, "mm"),
+            "x": (cam.profile.real, "mm"),
+            "y": (cam.profile.imag, "mm"),
+            "pressure_angle": (np.degrees(cam.pressure_angle), "deg"),
+            "curvature_radius": (cam.curvature_radius, "mm"),
+        }
+        return Table.of(name, columns)

@@ -1,0 +1,67 @@
+"""The cams of a machine as one part of it: what stands of them, and why there are none."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+
+
+class DiscCams:
+    """Base of the cams of a machine: they may be impossible where its motion is not."""
+
+    @property
+    def discs(self) -> tuple[DiscCam, ...]:
+        """Main cam, and the return cam where there is one."""
+        raise NotImplementedError
+
+    def require_motion(self) -> None:
+        """Compute the motion that the cams are to make.
+
+        Raises
+            NoSolution - where the motion itself does not exist
+        """
+        raise NotImplementedError
+
+    def explained(self, refusal: NoSolution) -> NoSolution:
+        """The refusal of a cam, with what would help where it does not say so itself."""
+        return refusal
+
+    def seek(self) -> None:
+        """Seek the extremes of all cams together, unless some are known; where a cam cannot be, each search says so."""
+        from gearlink.core.parts.cams.disc_cam import FOUND_TOGETHER, seek_together
+
+        with suppress(NoSolution):
+            if not any(name in vars(cam) for cam in self.discs for name in FOUND_TOGETHER):
+                seek_together(self.discs)
+
+    @cached_property
+    def refusal(self) -> NoSolution | None:
+        """Why there are no such cams; None where there are.
+
+        Raises
+            NoSolution - where the motion itself does not exist
+        """
+        self.require_motion()
+        self.seek()
+        try:
+            for cam in self.discs:
+                _ = cam.max_pressure_angle, cam.min_curvature_radius
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            return self.explained(error)
+        return None
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether the cams alone are impossible; a motion that is refused says so itself."""
+        try:
+            return self.refusal is not None
+        except NoSolution:
+            return False

@@ -1,0 +1,349 @@
+"""Limit checks of an external gear pair: undercut, tips, contact ratio, interference, root clearance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import reduce
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+from gearlink.core.base.remedies.ways import Way, down, up
+from gearlink.core.base.report import Check, Status, safely_above
+from gearlink.core.parts.gears.codes import (
+    CONTACT_RATIO,
+    INTERFERENCE,
+    ROOT_CLEARANCE,
+    SLIDING,
+    TIP_FOULING,
+    TIP_THICKNESS,
+    TOOTH_FORM,
+    UNDERCUT,
+)
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+
+
+class GearQuantities:
+    """What can be asked of a gear mesh, and so of a design that has one: mm and radians, of two gears a pair."""
+
+    working_pressure_angle: float
+    center_distance: float
+    reference_center_distance: float
+    shift_sum: float
+    center_distance_modification: float
+    tip_shortening: float | tuple[float, float]
+    contact_ratio: float
+    profile_shift: tuple[float, float]
+    reference_radius: tuple[float, float]
+    base_radius: tuple[float, float]
+    working_radius: tuple[float, float]
+    tip_radius: tuple[float, float]
+    root_radius: tuple[float, float]
+    tooth_thickness: tuple[float, float]
+    tip_pressure_angle: tuple[float, float]
+    tip_thickness: tuple[float, float]
+    min_shift_no_undercut: tuple[float, float | None]
+    span_measurement: tuple[float, float | None]
+    span_teeth: tuple[int, int | None]
+    specific_sliding: tuple[float, float] | None
+
+
+GEAR_QUANTITIES = tuple(GearQuantities.__annotations__)
+GEAR_CHECKS = tuple(
+    rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM, SLIDING)
+)
+_USUAL_TIP = 0.15
+"""So many modules above the least tip thickness a tip is no longer called thin."""
+_MORE_CONTACT = 0.1
+"""So much above the least contact ratio it is no longer called little."""
+_UNUSUAL_SLIDING = 8.0
+FILLET_NOISE = 1e-4
+"""So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
+
+
+def gear_ways(*teeth: Way, angle: str = "gears.pressure_angle") -> dict[str, tuple[Way, ...]]:
+    """How a file without profile shifts may be changed where one of the checks of a mesh fails.
+
+    Parameters
+        teeth : the ways to more teeth
+        angle : str - key of the pressure angle
+    """
+    steeper, flatter = up(angle, step=0.5), down(angle, step=0.5)
+    fewer = tuple(Way(way.keys, -way.step, way.tie) for way in teeth)
+    return {
+        UNDERCUT.name: (*teeth, steeper),
+        TIP_THICKNESS.name: (flatter, *teeth),
+        CONTACT_RATIO.name: (*teeth, flatter),
+        INTERFERENCE.name: (*teeth, *fewer, steeper),
+        TIP_FOULING.name: (*teeth, *fewer, steeper),
+        TOOTH_FORM.name: (*teeth, flatter),
+    }
+
+
+class Limits(Protocol):
+    """What the checks read of a spec's `limits`."""
+
+    @property
+    def undercut(self) -> float: ...
+    @property
+    def tip_thickness(self) -> float: ...
+    @property
+    def contact_ratio(self) -> float: ...
+    @property
+    def sliding(self) -> float | None: ...
+
+
+def gear_quantity(pair: GearPair, name: str) -> Any:
+    """A quantity of a pair, or None where the teeth have none: no bound of the sliding where a tip reaches the
+    mate's base tangent point.
+
+    Notes
+        The check `involute-interference` fails where it goes beyond and says so.
+    """
+    if name == "specific_sliding" and not pair.slides:
+        return None
+    value = getattr(pair, name)
+    if not pair.internal:
+        return value
+    from gearlink.core.parts.gears.data import shown
+
+    return shown(name, value)
+
+
+def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False) -> Iterator[Check]:
+    """The findings of one of GEAR_CHECKS on a pair.
+
+    Parameters
+        name : str - one of GEAR_CHECKS
+        pair : GearPair
+        limits : the `limits` section of a spec
+        mesh : str - name of the mesh in a design with several, put before the message
+        shifts : bool - the design file has keys of the profile shifts, which messages may then name
+    Source
+        ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance, sliding)
+    """
+    before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
+    if name == CONTACT_RATIO.name:
+        remedy = f"take more teeth, {_either(shifts, 'a smaller pressure angle or less profile shift')}"
+        yield contact_check(pair.contact_ratio, limits, f"{before}the contact ratio", remedy)
+        return
+    for gear in (0, 1):
+        which = _Gear(pair, gear, f"{before}{{}}gear {gear + 1}", shifts)
+        yield from _OF_ONE_GEAR[name](which, limits)
+
+
+def _either(shifts: bool, words: str) -> str:
+    return words if shifts else "or a smaller pressure angle"
+
+
+class _Gear(NamedTuple):
+    """A gear of a pair, what its messages begin with, and whether they may name shifts."""
+
+    pair: GearPair
+    place: int
+    words: str
+    shifts: bool
+
+    def of(self, quantity: str) -> float:
+        """A quantity of this gear."""
+        return float(getattr(self.pair, quantity)[self.place])
+
+    def measured(self, name: str, limits: Limits) -> Measured:
+        """What a check compares of this gear."""
+        return measured(name, self.pair, self.place, limits)
+
+    def named(self, part: str = "") -> str:
+        """The gear, or a part of it, in words."""
+        return self.words.format(part)
+
+
+def measured(name: str, pair: GearPair, gear: int, limits: Limits) -> Measured:
+    """What a check of GEAR_CHECKS compares: the value fails below the first limit and warns below the second.
+
+    Parameters
+        name : str - one of GEAR_CHECKS but the sliding, which has no bound everywhere
+        pair : GearPair - one, or many over arrays
+        gear : int - 0 or 1; of the contact ratio either
+        limits : the `limits` section of a spec
+    """
+    return _MEASURES[name](pair, gear, limits)
+
+
+class Measured(NamedTuple):
+    """A value, the limit below which it fails, and the one below which it warns."""
+
+    value: float
+    fails_below: float
+    warns_below: float
+
+    @property
+    def status(self) -> Status:
+        """As it is judged."""
+        return "fail" if self.value < self.fails_below else "warn" if self.value < self.warns_below else "pass"
+
+
+def most_sliding(limits: Any) -> float:
+    """Specific sliding beyond which GL209 warns."""
+    given: float | None = limits.sliding
+    return _UNUSUAL_SLIDING if given is None else given
+
+
+def contact_measure(ratio: Any, limits: Any) -> Measured:
+    """A contact ratio beside its limits: below 1, where the drive is interrupted, it warns whatever the file allows."""
+    least = limits.contact_ratio
+    return Measured(ratio, least, max(least + _MORE_CONTACT, 1.0))
+
+
+def contact_check(ratio: float, limits: Any, subject: str, remedy: str) -> Check:
+    """GL203."""
+    found = contact_measure(ratio, limits)
+    if found.status == "warn" and ratio < 1.0:
+        text = f"{subject} is {ratio:.6g}, below 1, so that the drive is interrupted: {remedy}"
+        return CONTACT_RATIO.check("warn", text, ratio, found.fails_below)
+    return CONTACT_RATIO.below(*found, "1", subject, remedy)
+
+
+def _contact_measure(pair: GearPair, _gear: int, limits: Limits) -> Measured:
+    return contact_measure(pair.contact_ratio, limits)
+
+
+def _undercut_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
+    return Measured(pair.profile_shift[gear] - pair.min_shift_of(gear), -limits.undercut, 0.0)
+
+
+def _tip_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
+    limit = limits.tip_thickness
+    return Measured(pair.tip_thickness[gear] / pair.module, limit, limit + _USUAL_TIP)
+
+
+def _interference_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    return Measured(pair.interference_margin[gear], 0.0, 0.0)
+
+
+def _clearance_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    """Clearance at the root of a gear over the module; that of the profile where the tips keep it, free of rounding."""
+    kept = pair.keeps_clearance
+    clearance = pair.clearance if kept else pair.fn.round(pair.tip_clearance[1 - gear] / pair.module, 12)
+    return Measured(clearance, 0.05, 0.15)
+
+
+def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
+    """Parts of a tooth that no tool can cut where they are 0 or less [mm]."""
+    thickness, root = pair.tooth_thickness[gear], pair.root_radius[gear]
+    return {
+        "the height of the teeth of ": pair.tip_radius[gear] - root,
+        "the root radius of ": root * pair.signs[gear],
+        "the tip thickness of ": pair.tip_thickness[gear],
+        "the tooth thickness on the reference circle of ": thickness,
+        "the tooth space on the reference circle of ": math.pi * pair.module - thickness,
+    }
+
+
+_FORM_REMEDIES = {
+    "the height of the teeth of ": "lower the sum of the profile shifts, or shorten the tips less",
+    "the root radius of ": "raise its profile shift or take more teeth",
+    "the tip thickness of ": "lower its profile shift or its addendum",
+}
+
+
+def _form_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    return Measured(reduce(pair.fn.least, form_parts(pair, gear).values()), 0.0, 0.0)
+
+
+_MEASURES: dict[str, Callable[[GearPair, int, Limits], Measured]] = {
+    UNDERCUT.name: _undercut_measure,
+    TIP_THICKNESS.name: _tip_measure,
+    CONTACT_RATIO.name: _contact_measure,
+    INTERFERENCE.name: _interference_measure,
+    ROOT_CLEARANCE.name: _clearance_measure,
+    TOOTH_FORM.name: _form_measure,
+}
+
+
+def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    if gear.pair.teeth[gear.place] < 0:
+        return
+    found = gear.measured(UNDERCUT.name, limits)
+    x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
+    teeth = gear.pair.teeth[gear.place]
+    text = f"{gear.named()} ({teeth} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
+    if found.status != "pass":
+        remedy = f"raise its profile shift to {safely_above(least, 4)} or take more teeth"
+        text += f": {remedy if gear.shifts else 'take more teeth, or a larger pressure angle'}"
+    yield UNDERCUT.check(found.status, text, found.value, found.fails_below)
+
+
+def _tip_thickness(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    subject = f"{gear.named('the tip thickness of ')} over the module"
+    remedy = "lower its profile shift or its addendum"
+    if not gear.shifts:
+        remedy = "take more teeth or a smaller pressure angle"
+    yield TIP_THICKNESS.below(*gear.measured(TIP_THICKNESS.name, limits), "1", subject, remedy)
+
+
+def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("the tip of ")
+    margin = found.value
+    if found.status == "pass":
+        text = f"{tip} stays {margin:.4g} mm short of the mate's base tangent point"
+        yield INTERFERENCE.check("pass", text, margin, 0.0, "mm")
+        return
+    one, mate = gear.place + 1, 2 - gear.place
+    remedy = (
+        f"raise the profile shift of gear {mate} or lower the addendum of gear {one}"
+        if gear.shifts
+        else f"take more teeth on gear {mate}, or a larger pressure angle"
+    )
+    text = f"{tip} goes {-margin:.4g} mm beyond the mate's base tangent point: {remedy}"
+    yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+
+
+def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found = gear.measured(ROOT_CLEARANCE.name, limits)
+    subject = f"{gear.named('the clearance at the root of ')} over the module"
+    deeper = gear.pair.tools[gear.place] is not None
+    remedy = f"raise the {'addendum of its tool' if deeper else 'clearance coefficient'}"
+    if not deeper and gear.pair.keeps_clearance:
+        remedy += f" to {found.fails_below if found.status == 'fail' else found.warns_below:g} or more"
+    else:
+        remedy += f", or shorten the tips of gear {2 - gear.place}"
+    yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
+
+
+def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
+    part, worst = min(form_parts(gear.pair, gear.place).items(), key=lambda each: each[1])
+    text = f"{gear.named(part)} is {worst:.4g} mm"
+    if worst > 0.0:
+        text = (
+            f"{gear.named('a tool can cut the teeth of ')}: {text}, the smallest of their height, thickness and space"
+        )
+    else:
+        most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))
+        nearer = f"bring its profile shift {gear.of('profile_shift'):.6g} nearer to 0 (|x| below {most:.3g})"
+        remedy = _FORM_REMEDIES.get(part, nearer) if gear.shifts else "take more teeth"
+        text += f", a tooth that no tool can cut: {remedy}"
+    yield TOOTH_FORM.check("fail" if worst <= 0.0 else "pass", text, worst, 0.0, "mm")
+
+
+def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found = gear_quantity(gear.pair, "specific_sliding")
+    limit = most_sliding(limits)
+    if found is None or (limits.sliding is None and abs(found[gear.place]) <= limit):
+        return
+    size = abs(found[gear.place])
+    text = f"{gear.named('the specific sliding at the root of ')} is {found[gear.place]:.5g}"
+    if size > limit:
+        remedy = "raise its profile shift" if gear.shifts else "take more teeth"
+        text += f", beyond the limit of {limit:g}: {remedy}, so that the mate's tip stays off its base circle"
+    yield SLIDING.check("warn" if size > limit else "pass", text, size, limit)
+
+
+_OF_ONE_GEAR: dict[str, Callable[[_Gear, Limits], Iterator[Check]]] = {
+    UNDERCUT.name: _undercut,
+    TIP_THICKNESS.name: _tip_thickness,
+    INTERFERENCE.name: _interference,
+    ROOT_CLEARANCE.name: _root_clearance,
+    TOOTH_FORM.name: _tooth_form,
+    SLIDING.name: _sliding,
+}

@@ -1,0 +1,187 @@
+"""The rules that the checks of a pair of gears judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+
+def _within(*keys: str) -> tuple[str, ...]:
+    """Keys as they stand in the section of gears of a machine."""
+    return tuple(f"{section}.{key}" for section in ("gears", "input_gears") for key in keys)
+
+
+_TEETH = ("profile_shift", "teeth", "gears", "input_gears")
+
+AT_LIMITS = tuple(f"{name}-at-limits" for name in ("contact-ratio", "interference", "root-clearance", "tip-fouling"))
+"""Names of the checks that look at the limits of the centre distance."""
+
+UNDERCUT = Rule(
+    "GL201",
+    "tooth root undercut",
+    "The profile shift is less than a rack cutter needs to leave the involute whole; fails beyond limits.undercut.",
+    "The cutter takes away part of the flank at the root: the tooth is weaker and contact ratio is lost.",
+    "Raise the profile shift of that gear to x_min, take more teeth, or a larger pressure angle.",
+    "x >= x_min = h - z sin^2(alpha_t)/(2 cos(beta)), h = h_a* or to where the tool's straight flank ends; fails "
+    "below x_min - limits.undercut (0.05), warns below x_min",
+    "own derivation: the cutter's tip line passes the base tangent point; quantities of ISO 21771",
+    ("undercut",),
+    _TEETH,
+)
+TIP_THICKNESS = Rule(
+    "GL202",
+    "tooth tip too thin",
+    "The tooth is thinner at its tip than limits.tip_thickness times the module.",
+    "A pointed tip is weak, and hardened through it breaks out.",
+    "Lower the gear's profile shift or its addendum.",
+    "s_a = r_a (s/r - 2 (inv(alpha_a) - inv(alpha))); fails below 0.25 m, warns below 0.4 m",
+    "ISO 21771; the limit is usual practice",
+    ("tip-thickness",),
+    _TEETH,
+)
+CONTACT_RATIO = Rule(
+    "GL203",
+    "contact ratio too small",
+    "On average too few tooth pairs are in contact.",
+    "Below 1 the drive is interrupted; a little above 1 it runs roughly with worn or inaccurate teeth.",
+    "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
+    "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
+    "limits.contact_ratio (1.1), warns up to 0.1 above, and below 1 whatever the limit; of helical gears with "
+    "face_width eps_gamma is judged; fails below 1 with the gears as far out of mesh as center_distance_allowance lets "
+    "them",
+    "ISO 21771; the limit is usual practice",
+    ("contact-ratio", AT_LIMITS[0]),
+    _TEETH,
+)
+INTERFERENCE = Rule(
+    "GL204",
+    "tip beyond the involute of the mate",
+    "A tip circle passes the point where the line of action touches the mate's base circle, or that of the pinion "
+    "cutter that shapes a ring.",
+    "There the mate has no involute: the tip digs into its root or jams; and the cutter leaves none to the ring's tip.",
+    "Raise the mate's profile shift, lower the addendum of the gear whose tip is too high, or take a cutter of more "
+    "teeth.",
+    "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
+    "ISO 21771; own derivation of the margin",
+    ("involute-interference", AT_LIMITS[1]),
+    _TEETH,
+)
+ROOT_CLEARANCE = Rule(
+    "GL205",
+    "root clearance too small",
+    "The tip of a gear comes too near to the root of its mate.",
+    "Dirt, wear or a bent shaft then make tip and root touch.",
+    "Raise the clearance coefficient, or shorten the mate's tips.",
+    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 with the gears as deep in mesh as "
+    "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
+    "ISO 21771; the limits are usual practice",
+    ("root-clearance", AT_LIMITS[2]),
+    ("clearance", *_TEETH),
+)
+SLIDING = Rule(
+    "GL209",
+    "flanks slide much",
+    "The sliding speed at the root end of an active flank is many times the rolling speed there (a warning).",
+    "Such flanks wear and score: contact comes near to the base circle, where rolling ends.",
+    "Raise the gear's profile shift, take more teeth, or lower the mate's addendum.",
+    "|zeta| = |1 - (w_mate rho_mate)/(w rho)| <= limits.sliding; without that key only |zeta| > 8 is reported",
+    "ISO 21771; the limit is usual practice",
+    ("sliding",),
+    ("limits.sliding", *_TEETH),
+    side="<=",
+)
+TOOTH_FORM = Rule(
+    "GL212",
+    "no tooth that a tool can cut",
+    "The tip lies inside the root, the flanks meet below the tip, or tooth or space vanish on the reference circle.",
+    "The numbers describe a tooth that does not exist.",
+    "Bring the profile shift nearer to 0, or take more teeth.",
+    "r_a > r_f > 0, s_a > 0, 0 < s = m (pi/2 + 2 x tan(alpha)) < pi m",
+    "ISO 21771; the range of x: own derivation, a rack then leaves both tooth and space",
+    ("tooth-form",),
+    _TEETH,
+)
+TIP_FOULING = Rule(
+    "GL206",
+    "tips foul in an internal mesh",
+    "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact; or the "
+    "planet cannot be put into its ring along the line of centres (radial-assembly: a warning, a failure with "
+    "assembly: radial).",
+    "The gears cannot turn, or cannot be put together.",
+    "Give the ring gear more teeth or the planet fewer: at 20 deg about 8 teeth of difference are needed; or shorten "
+    "the tips.",
+    "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha_wt >= 0, delta the angles from "
+    "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
+    "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of least room",
+    "own derivation",
+    ("tip-fouling", "radial-assembly", AT_LIMITS[3]),
+    ("gears", "teeth"),
+)
+FILLET = Rule(
+    "GL207",
+    "the mate's tip meets the root fillet",
+    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mate's tip cuts "
+    "into the fillet outside the path of contact.",
+    "The tip of the mate runs on the fillet, which is no involute: noise, scoring, jamming.",
+    "Raise the profile shift, shorten the mate's tips (tip_shortening), or take a tool with a smaller rounding or a "
+    "larger addendum. Tips of a ring of full height always reach into the fillet of a standard tool.",
+    "r_Nf >= r_Ff - 1e-4 m, and the corner's least gap along its circle >= -1e-4 m; fails where the file names a tool "
+    "or cutter, for rings and helical gears, else warns, as for rings of machines whose file says nothing of the teeth",
+    "ISO 21771; form radius: own derivation, compared with a rolled tool",
+    ("fillet-interference", "ring-tips"),
+    ("tool", "cutter", "gears.tool", "gears.cutter", "input_gears.tool", *_TEETH),
+)
+BACKLASH = Rule(
+    "GL208",
+    "backlash too small",
+    "The least backlash that thickness allowances and centre distance leave is negative (or below limits.backlash).",
+    "Without backlash the teeth jam, heat up and wear.",
+    "Thin the teeth by larger allowances, or change the centre distance; of a ring and its pinion a larger distance "
+    "takes backlash away.",
+    "j_bn at the upper allowances and the tighter centre distance >= 0; fails below -1e-6 m, warns below "
+    "limits.backlash (0). Theoretical: temperature, bearings and deviations of the teeth are not in it",
+    "DIN 3967; the form exact in the centre distance: own derivation",
+    ("backlash",),
+    ("allowances", "center_distance_allowance", "center_distance", *_within("allowances"), *_TEETH),
+)
+INSPECTION = Rule(
+    "GL213",
+    "a measure that cannot be taken",
+    "A ball or pin that the file names does not lie between the flanks: it falls through the space, touches beyond the "
+    "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it. Or the planes of the "
+    "span measurement touch a helical gear beyond its face.",
+    "The measure is then not that of the drawing, and a good gear is rejected or a bad one passed.",
+    "Take the preferred size that the finding names, or leave pin_diameter out; span fewer teeth, or measure over "
+    "balls.",
+    "form circle <= d_M <= tip circle, root circle clear, M beyond the tip circle; tan(alpha_M) = tan(alpha_K) - "
+    "D cos(beta_b)/d_b; b >= W_k sin(beta_b) + 1.2 mm cos(beta_b)",
+    "DIN 21773",
+    ("inspection",),
+    ("pin_diameter", "span_teeth", "gears.span_teeth", *_within("pin_diameter")),
+)
+PITTING = Rule(
+    "GL210",
+    "safety against pitting too small",
+    "The contact stress is too near to what the material bears. K factors and life factors are inputs, 1 where the "
+    "file gives none.",
+    "Flanks break out in small pits and wear away.",
+    "Widen the gears, take a larger module or centre distance, or a better material.",
+    "S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/(Z_B,D sigma_H0 sqrt(K_A K_v K_Hb K_Ha)) >= limits.safety_pitting (1); "
+    "warns below 1 whatever the limit",
+    "ISO 6336-2:2006, method B; K and life factors are not computed: 1 unless given",
+    ("pitting",),
+    ("load", "material", "face_width", *_within("load", "material", "face_width")),
+)
+BENDING = Rule(
+    "GL211",
+    "safety against breaking at the root too small",
+    "The root stress is too near to what the material bears, or a formula of the root leaves its range (a warning).",
+    "Teeth break at the root.",
+    "Take a larger module, wider gears, a larger rounding of the tool, or a better material.",
+    "S_F = sigma_Flim Y_ST Y_d Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa) >= "
+    "limits.safety_bending (1.4), warns below 1 whatever the limit; Y_ST = 2, Y_d = 0.7 of a gear with two mates, its "
+    "teeth are bent both ways, else 1",
+    "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; no published example of "
+    "rings and racks; a rack is the limit of ever larger wheels",
+    ("bending",),
+    ("load", "material", "tool", "face_width", *_within("load", "material", "face_width")),
+)

@@ -1,0 +1,268 @@
+"""A gear pair with all that its drawing needs, and its quantities by name."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.parts.gears.drawing_names import PLACES
+from gearlink.core.parts.gears.measures.inspection import Ball, chord, preferred_pin
+from gearlink.core.parts.gears.mesh.contact import PathOfContact
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair
+from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
+from gearlink.core.parts.gears.rating.load import Load, Material
+from gearlink.core.parts.gears.rating.root_stress import RootStress
+from gearlink.core.parts.gears.tooth.tools import RackTool
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.measures.backlash import Backlash
+    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+
+Both = tuple[float | None, float | None]
+_OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
+"""Of method C: for comparison with a rating that was made by it."""
+MAGNITUDES = frozenset(
+    (
+        "center_distance",
+        "reference_center_distance",
+        "reference_radius",
+        "base_radius",
+        "working_radius",
+        "tip_radius",
+        "root_radius",
+        "used_root_radius",
+        "form_radius",
+    )
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearData:
+    """A gear pair with its widths, allowances, load and materials; parts are computed when they are asked for.
+
+    Parameters
+        pair : GearPair
+        face_width : (float, float) or None [mm] - of gear 1 and 2
+        pins : (float or None, float or None) [mm] - diameters of measuring balls; None: a preferred one
+        allowances : ((upper, lower), (upper, lower)) or None [mm] - E_sns, E_sni of gear 1 and 2
+        distance_allowance : float or None [mm] - plus and minus of the centre distance
+        load : Load or None
+        materials : (Material, Material)
+        edition : int - of ISO 6336
+        load_share : str - "third" or "half", what a pair of flanks carries beside another
+        rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
+        accuracy_grade : int or None - of ISO 1328
+        idlers : (bool, bool) - gears that have another mate besides
+    """
+
+    pair: GearPair
+    face_width: Pair | None = None
+    pins: Both = (None, None)
+    allowances: tuple[Pair, Pair] | None = None
+    distance_allowance: float | None = None
+    load: Load | None = None
+    materials: tuple[Material, Material] = (Material(), Material())
+    edition: int = 2006
+    load_share: str = "third"
+    rims: Both = (None, None)
+    accuracy_grade: int | None = None
+    idlers: tuple[bool, bool] = (False, False)
+
+    @cached_property
+    def path(self) -> PathOfContact:
+        """The path of contact, with the lesser width."""
+        return PathOfContact(self.pair, self._common_width)
+
+    @property
+    def _common_width(self) -> float | None:
+        return None if self.face_width is None else min(self.face_width)
+
+    @cached_property
+    def internal(self) -> InternalInterference | None:
+        """The interferences of a pinion in a ring; None for an external pair."""
+        if not self.pair.internal:
+            return None
+        from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+
+        return InternalInterference(self.pair)
+
+    @cached_property
+    def pin_diameter(self) -> Both:
+        """D of the balls that measure each gear [mm]."""
+        return self._pin(0), self._pin(1)
+
+    def _pin(self, gear: int) -> float | None:
+        given = self.pins[gear]
+        return preferred_pin(self.pair, gear) if given is None else given
+
+    def ball(self, gear: int, shift: float | None = None) -> Ball | None:
+        """The ball in a space of a gear; None where it falls through."""
+        diameter = self.pin_diameter[gear]
+        if diameter is None:
+            return None
+        ball = Ball(pair=self.pair, gear=gear, diameter=diameter, shift=shift)
+        try:
+            return ball if ball.pressure_angle > 0.0 else None
+        except NoSolution:
+            return None
+
+    def _over_balls(self, gear: int, shift: float | None = None) -> float | None:
+        ball = self.ball(gear, shift)
+        return None if ball is None else ball.over_balls
+
+    @property
+    def measure_over_balls(self) -> Both:
+        """M over (in a ring between) two balls [mm]."""
+        return self._over_balls(0), self._over_balls(1)
+
+    @property
+    def measure_over_pins(self) -> Both:
+        """M over two pins [mm]; a helical ring takes none."""
+        one, other = self.ball(0), self.ball(1)
+        return None if one is None else one.over_pins, None if other is None else other.over_pins
+
+    @cached_property
+    def _chords(self) -> tuple[Pair, Pair]:
+        return chord(self.pair, 0), chord(self.pair, 1)
+
+    @property
+    def chordal_thickness(self) -> Pair:
+        """s_c on the reference circle [mm]."""
+        return self._chords[0][0], self._chords[1][0]
+
+    @property
+    def chordal_height(self) -> Pair:
+        """h_c of that chord below the tip [mm]."""
+        return self._chords[0][1], self._chords[1][1]
+
+    @cached_property
+    def generating_shift(self) -> tuple[Pair, Pair] | None:
+        """x_E of each gear, least and greatest [module]: x + E_sn/(2 m tan(alpha_n))."""
+        return None if self.allowances is None else (self._generated(0), self._generated(1))
+
+    def _generated(self, gear: int) -> Pair:
+        assert self.allowances is not None
+        upper, lower = self.allowances[gear]
+        x, over = self.pair.profile_shift[gear], 2.0 * self.pair.module * math.tan(self.pair.pressure_angle)
+        return x + lower / over, x + upper / over
+
+    @property
+    def cut_shift(self) -> Pair:
+        """x_E of the upper allowances, nominal without allowances [module]."""
+        found = self.generating_shift
+        return self.pair.profile_shift if found is None else (found[0][1], found[1][1])
+
+    @cached_property
+    def span_measurement_limits(self) -> tuple[Pair | None, Pair | None] | None:
+        """W_k of each gear with its least and greatest thickness [mm]; of a ring the other way round."""
+        shifts, spans = self.generating_shift, self.pair.span_teeth
+        if shifts is None:
+            return None
+
+        def ends(gear: int) -> Pair | None:
+            count = spans[gear]
+            if count is None:
+                return None
+            low, high = sorted(self.pair.span_over(gear, count, shift) for shift in shifts[gear])
+            return low, high
+
+        return ends(0), ends(1)
+
+    @cached_property
+    def measure_limits(self) -> tuple[Both | None, Both | None] | None:
+        """M over balls of each gear, least and greatest [mm]."""
+        shifts = self.generating_shift
+        if shifts is None:
+            return None
+
+        def ends(gear: int) -> Both | None:
+            found = [self._over_balls(gear, shift) for shift in shifts[gear]]
+            known = sorted(each for each in found if each is not None)
+            return (known[0], known[1]) if len(known) == 2 else None
+
+        return ends(0), ends(1)
+
+    @cached_property
+    def backlash(self) -> Backlash | None:
+        """Least and greatest backlash; None where the file leaves none open."""
+        both_given = self.pair.given_shift is not None and self.pair.given_distance is not None
+        if self.allowances is None and self.distance_allowance is None and not both_given:
+            return None
+        one, other = self.allowances or ((0.0, 0.0), (0.0, 0.0))
+        from gearlink.core.parts.gears.measures.backlash import Backlash
+
+        return Backlash(
+            pair=self.pair,
+            upper=(one[0], other[0]),
+            lower=(one[1], other[1]),
+            distance_allowance=self.distance_allowance or 0.0,
+        )
+
+    @cached_property
+    def flank(self) -> FlankStrength:
+        """Surface durability."""
+        return FlankStrength(path=self.path, load=self.load, materials=self.materials)
+
+    def cutting_tool(self, gear: int) -> RackTool:
+        """The rack tool whose fillet the root of a gear has, or what stands for it in a ring."""
+        if gear == 1 and self.pair.shaped is not None:
+            return self.pair.shaped.substitute
+        return self.pair.tool(gear)
+
+    @cached_property
+    def root(self) -> RootStress:
+        """Root strength, at the upper allowances."""
+        return RootStress(**self._of_roots)
+
+    @property
+    def _of_roots(self) -> dict[str, Any]:
+        return {
+            "path": self.path,
+            "tools": (self.cutting_tool(0), self.cutting_tool(1)),
+            "shifts": self.cut_shift,
+            "widths": self.face_width,
+            "load": self.load,
+            "materials": self.materials,
+            "edition": self.edition,
+            "rims": self.rims,
+            "accuracy_grade": self.accuracy_grade,
+            "idlers": self.idlers,
+        }
+
+    @property
+    def measured(self) -> tuple[int, ...]:
+        """The gears that balls measure."""
+        return 0, 1
+
+    def called(self, gear: int) -> str:
+        """What findings call gear 0 or 1."""
+        return f"gear {gear + 1}"
+
+    def rated_with(self, _gear: int) -> str:
+        """What a root needs so that it can be rated, in words."""
+        return "take more teeth, a smaller rounding, or name the cutter of a ring"
+
+    def quantity(self, name: str) -> Any:
+        """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""
+        if name in _OF_TIP_LOAD and self.load is None:
+            return None
+        value: Any = self
+        for step in PLACES[name].split("."):
+            if value is None:
+                return None
+            value = getattr(value, step)
+        return shown(name, value)
+
+
+def shown(name: str, value: Any) -> Any:
+    """A value as results give it: magnitudes of radii and distances, None where both gears have none."""
+    if isinstance(value, tuple):
+        both = shown("", value[0]), *(shown(name, each) for each in value[1:])  # gear 1 is no ring
+        return None if all(each is None for each in both) else both
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return None
+    return abs(value) if name in MAGNITUDES else value

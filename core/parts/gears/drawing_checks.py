@@ -1,0 +1,427 @@
+"""Checks of a gear pair that need more than its teeth: helical contact, interferences of rings, root fillets."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from typing import Any, NamedTuple, Protocol
+
+from gearlink.core.base.report import Check, Rule, Status, safely_above
+from gearlink.core.base.wording import amount
+from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, gear_check
+from gearlink.core.parts.gears.codes import (
+    AT_LIMITS,
+    BACKLASH,
+    BENDING,
+    CONTACT_RATIO,
+    FILLET,
+    INSPECTION,
+    INTERFERENCE,
+    PITTING,
+    TIP_FOULING,
+)
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.distance_checks import distance_limits
+from gearlink.core.parts.gears.drawing_names import DRAWING_CHECKS
+from gearlink.core.parts.gears.measures.inspection import preferred_pin
+from gearlink.core.parts.gears.mesh.contact import PathOfContact
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.tip_corner import CornerGap, TipCorner
+from gearlink.core.parts.gears.rating.load import Factors
+
+# Checks of the pinion cutter that shapes a ring
+
+
+def _cutting(data: GearData) -> GearPair | None:
+    """The pinion cutter and the ring that it shapes, while the last cut is taken; None without one."""
+    pair, shaped = data.pair, data.pair.shaped
+    if shaped is None or pair.cutter is None:
+        return None
+    return GearPair(
+        module=pair.module,
+        teeth=(pair.cutter.teeth, pair.teeth[1]),
+        pressure_angle=pair.pressure_angle,
+        helix_angle=pair.helix_angle,
+        given_shift=(pair.cutter.shift, pair.profile_shift[1]),
+        given_tip_radius=(shaped.cutter_tip, -pair.tip_radius[1]),
+    )
+
+
+def fed_in(data: GearData) -> Iterator[Check]:
+    """A pinion cutter feeds in along the line of centres and must not cut off the ring's tips."""
+    cutting = _cutting(data)
+    if cutting is None:
+        return
+    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+
+    angle = InternalInterference(cutting).radial_assembly_angle
+    if angle is None or angle >= 0.0:
+        return
+    text = f"the cutter of {cutting.teeth[0]} teeth cuts off tips of the ring while it feeds in: take a smaller one"
+    yield TIP_FOULING.check("fail", text, None, 0.0, "mm", name="radial-assembly")
+
+
+def tip_beyond_cutter(data: GearData) -> Iterator[Check]:
+    """The flanks of a pinion cutter must reach the ring's tips: below its base circle they are no involutes."""
+    cutting = _cutting(data)
+    if cutting is None:
+        return
+    margin = cutting.interference_margin[1]
+    if margin >= 0.0:
+        return
+    text = (
+        f"the tip of the ring goes {-margin:.4g} mm beyond the base tangent point of its cutter, which leaves no "
+        f"involute there: take a cutter of more than {cutting.teeth[0]} teeth, or lower the addendum of the ring"
+    )
+    yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+
+
+_TOUCHING = 1.2
+"""Length of the line on which a plane of a span measurement touches, at least [mm]."""
+_NEGATIVE = -1e-6
+"""Backlash below it, in modules, is none."""
+
+
+class DrawingLimits(Protocol):
+    """What the checks read of a spec's `limits`."""
+
+    @property
+    def contact_ratio(self) -> float: ...
+    @property
+    def backlash(self) -> float: ...
+    @property
+    def safety_pitting(self) -> float: ...
+    @property
+    def safety_bending(self) -> float: ...
+
+
+class PairLimits(Limits, DrawingLimits, Protocol):
+    """What all checks of a pair read of a spec's `limits`."""
+
+    @property
+    def contact_ratio(self) -> float: ...
+
+
+def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: bool = False) -> Iterator[Check]:
+    """The findings of one of DRAWING_CHECKS on a pair.
+
+    Parameters
+        name : str - one of DRAWING_CHECKS
+        data : GearData
+        limits : the `limits` section of a spec
+        radial : bool - the pinion is to be put into its ring along the line of centres
+    Source
+        ISO 21771 for the quantities
+    """
+    if name == "radial-assembly":
+        yield from _radial_assembly(data, radial)
+        yield from fed_in(data)
+        return
+    yield from _OF_PAIR[name](data, limits)
+
+
+def pair_check(
+    name: str, data: GearData, limits: PairLimits, *, mesh: str = "", shifts: bool = True, radial: bool = False
+) -> list[Check]:
+    """The findings of one of GEAR_CHECKS or DRAWING_CHECKS on a pair of gears.
+
+    Parameters
+        name : str
+        data : GearData
+        limits : the `limits` section of a spec
+        mesh : str - name of the mesh in a design with several, put before the message
+        shifts : bool - the design file has keys of the profile shifts, which messages may then name
+        radial : bool - the pinion is to be put into its ring along the line of centres
+    Source
+        ISO 21771 for the quantities
+    """
+    if name in DRAWING_CHECKS:
+        before = before_mesh(mesh)
+        found = drawing_check(name, data, limits, radial=radial)
+        return [replace(check, message=before + check.message) if before else check for check in found]
+    if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
+        return [helical]
+    checks = list(gear_check(name, data.pair, limits, mesh, shifts))
+    if name == INTERFERENCE.name:
+        checks += [replace(check, message=before_mesh(mesh) + check.message) for check in tip_beyond_cutter(data)]
+    return checks
+
+
+def before_mesh(mesh: str) -> str:
+    """What findings on a mesh of a design with several begin with."""
+    return f"{mesh.replace('_', '-')} mesh: " if mesh else ""
+
+
+def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
+    """What GL203 says of a helical pair whose width is known: the total contact ratio counts; else None."""
+    total = data.path.total_contact_ratio
+    if data.pair.helix_angle == 0.0 or total is None:
+        return None
+    transverse, remedy = data.pair.contact_ratio, "take a greater width, helix angle or more teeth"
+    found = contact_check(total, limits, "the total contact ratio", remedy)
+    if found.status != "pass" or transverse >= 1.0:
+        return found
+    text = f"the transverse contact ratio is {transverse:.6g}, below 1: the overlap of the helix alone carries on"
+    return CONTACT_RATIO.check("warn", text, transverse, 1.0)
+
+
+def _tip_fouling(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    internal = data.internal
+    if internal is None:
+        return
+    margin, part = internal.tip_fouling_margin, "tips of pinion and ring"
+    if internal.tip_circles_apart < 0.0:
+        margin, part = internal.tip_circles_apart, "tip circles of pinion and ring"
+    if margin is None:
+        return
+    remedy = "give the ring more teeth, the pinion fewer, or shorten the tips"
+    text = f"the {part} keep {margin:.4g} mm from cutting into each other"
+    if margin < 0.0:
+        text = f"the {part} cut {-margin:.4g} mm into each other: {remedy}"
+    yield TIP_FOULING.check("fail" if margin < 0.0 else "pass", text, margin, 0.0, "mm")
+
+
+def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
+    if data.internal is None:
+        return
+    name, angle, margin = "radial-assembly", data.internal.radial_assembly_angle, data.internal.radial_assembly_margin
+    if angle is None or margin is None:
+        return
+    if angle >= 0.0:
+        text = f"the pinion goes into its ring along the line of centres with {margin:.4g} mm to spare"
+        yield TIP_FOULING.check("pass", text, margin, 0.0, "mm", name=name)
+        return
+    lacking = f"{-margin:.4g} mm are lacking" if angle > -1e9 else "it is larger than the opening"
+    status: Status = "fail" if radial else "warn"
+    text = f"the pinion does not go into its ring along the line of centres, {lacking}: assemble it axially"
+    if radial:
+        text += ", or give the ring more teeth, or shorten the tips"
+    yield TIP_FOULING.check(status, text, margin if angle > -1e9 else None, 0.0, "mm", name=name)
+
+
+def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    for gear in (0, 1):
+        yield from _fillet_of(data, gear)
+
+
+class FilletMeasure(NamedTuple):
+    """How far contact stays off a root fillet [mm] and the limit; whether it would lie beyond the base circle, whether
+    that is bad, and whether what is bad is a failure or, of a fillet that is not known well, a warning.
+
+    Of many pairs each is an array.
+    """
+
+    margin: Any
+    limit: Any
+    beyond: Any
+    bad: Any
+    judged: Any
+
+
+def fillet_measured(pair: GearPair, path: PathOfContact, gear: int) -> FilletMeasure:
+    """What GL207 compares, of one pair or of many over arrays.
+
+    Parameters
+        pair, path : GearPair, PathOfContact
+        gear : int - 0 or 1; a flank whose end is not known (None, or NaN) has the margin 0 of its fillet
+    """
+    form, left = pair.form_radius[gear], pair.interference_margin[1 - gear]
+    known = math.nan if form is None else form
+    margin = pair.signs[gear] * (abs(path.used_root_radius[gear]) - abs(known))
+    margin = pair.fn.where(known == known, margin, 0.0)
+    beyond, limit = left <= 0.0, -FILLET_NOISE * pair.module
+    margin = pair.fn.where(beyond, pair.fn.least(margin, left), margin)
+    tooled = pair.internal or any(pair.tools) or pair.cutter is not None
+    judged = beyond | (pair.helix_angle != 0.0) | tooled
+    return FilletMeasure(margin, limit, beyond, beyond | (margin < limit), judged)
+
+
+def corner_in_fillet(pair: GearPair, gear: int) -> CornerGap | None:
+    """The cut of the mate's tip corner into a gear's fillet outside the path of contact; None where there is none.
+
+    Parameters
+        pair : GearPair - contact ends on the flank that the fillet leaves
+        gear : int - 0 or 1, whose fillet is known
+    """
+    corner = TipCorner(pair, gear).cut
+    return corner if corner is not None and corner.gap < -FILLET_NOISE * pair.module else None
+
+
+def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
+    pair, form = data.pair, data.pair.form_radius[gear]
+    if form is None and pair.interference_margin[1 - gear] > 0.0:
+        return
+    found, more_shift = fillet_measured(pair, data.path, gear), "raise its profile shift, "
+    if form is None or found.beyond:
+        base = abs(pair.base_radius[gear])
+        text = f"contact at the root of gear {gear + 1} would lie beyond its base circle ({base:.6g} mm)"
+    else:
+        used = abs(data.path.used_root_radius[gear])
+        text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
+        if not found.bad and (corner := corner_in_fillet(pair, gear)):
+            found, more_shift = found._replace(margin=corner.gap, bad=True), ""
+            text = (
+                f"the corner of the tip of gear {2 - gear} cuts {-corner.gap:.4g} mm into the root fillet of gear "
+                f"{gear + 1}, at {corner.place:.7g} mm, outside the path of contact"
+            )
+    status: Status = "pass"
+    if found.bad:
+        status = "fail" if found.judged else "warn"
+        of_tool = "residual_undercut" if pair.teeth[gear] > 0 and pair.tool(gear).residual_undercut else "rounding"
+        text += f": {more_shift}shorten the tips of gear {2 - gear}, or take a tool with a smaller {of_tool}"
+    yield FILLET.check(status, text, found.margin, found.limit, "mm")
+
+
+def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    if data.backlash is None:
+        return
+    least, greatest = data.backlash.normal
+    text = f"the theoretical normal backlash is {least:.4g} to {greatest:.4g} mm"
+    status: Status = "pass"
+    if least < _NEGATIVE * data.pair.module:
+        status = "fail"
+        text += ": the gears do not assemble; thin the teeth (allowances, profile_shift) or change the centre distance"
+    elif least < limits.backlash:
+        status = "warn"
+        text += f", below {limits.backlash:g} mm: thin the teeth (allowances)"
+    yield BACKLASH.check(status, text, least, limits.backlash, "mm")
+
+
+def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    for gear in data.measured:
+        diameter = data.pins[gear]
+        found = None if diameter is None else _amiss(data, gear)
+        if found is not None:
+            best = preferred_pin(data.pair, gear)
+            remedy = f": take one of {best:g} mm (pin_diameter)" if best is not None else ""
+            yield INSPECTION.check("warn", f"a ball of {diameter:g} mm {found}{remedy}")
+        yield from _spanned(data, gear)
+
+
+def _spanned(data: GearData, gear: int) -> Iterator[Check]:
+    """A span measurement that leaves a helical gear's face; both planes touch apart by W_k sin(beta_b) along it."""
+    pair, widths = data.pair, data.face_width
+    count = pair.span_teeth[gear]
+    if pair.helix_angle == 0.0 or widths is None or count is None:
+        return
+    needed, width = width_of_span(pair, gear, count), widths[gear]
+    if needed <= width:
+        return
+    form, tip = pair.form_radius[gear] or pair.base_radius[gear], pair.tip_radius[gear]
+    lesser = [k for k in range(1, count) if form < pair.span_contact(gear, k) < tip]
+    fewer = [k for k in lesser if width_of_span(pair, gear, k) <= width]
+    wanted = f"needs a face width of {safely_above(needed, 4)} mm, it has {width:g}"
+    over = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}, or balls" if fewer else "measure over balls"
+    text = f"the span of {data.called(gear)} over {amount(count, 'tooth', 'teeth')} {wanted}: {over}"
+    yield INSPECTION.check("warn", text, width, needed, "mm")
+
+
+def width_of_span(pair: GearPair, gear: int, count: Any) -> Any:
+    """Face width that both planes of a span measurement over so many teeth touch [mm]; of many pairs an array."""
+    angle = pair.base_helix_angle
+    return pair.span_over(gear, count) * pair.fn.sin(angle) + _TOUCHING * pair.fn.cos(angle)
+
+
+def _amiss(data: GearData, gear: int) -> str | None:
+    """What keeps a ball that the file names from measuring the teeth of a gear, in words; None where nothing does."""
+    pair, name, ball = data.pair, data.called(gear), data.ball(gear)
+    if ball is None:
+        return f"falls through the spaces of {name}"
+    sign, tip, form = pair.signs[gear], abs(pair.tip_radius[gear]), pair.form_radius[gear]
+    touch, center = abs(ball.contact_radius), abs(ball.center_radius)
+    if sign * (touch - tip) > 0.0:
+        return f"would touch {name} at a radius of {touch:.5g} mm, beyond its tips at {tip:.5g} mm"
+    if ball.roll < 0.0 or (form is not None and sign * (abs(form) - touch) > 0.0):
+        return f"touches the root fillets of {name}"
+    if sign * (center - abs(pair.root_radius[gear])) < 0.5 * ball.diameter:
+        return f"touches the root of {name}"
+    return f"lies below the tips of {name}" if sign * (center - tip) + 0.5 * ball.diameter < 0.0 else None
+
+
+def _pitting(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    against = "pitting", _contact_inputs(data)
+    yield from _safety(PITTING, data, data.flank.safety, limits.safety_pitting, *against)
+
+
+def _bending(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    if data.load is not None:
+        yield from _out_of_range(data)
+    against = "breaking at the root", _bending_inputs(data)
+    yield from _safety(BENDING, data, data.root.safety, limits.safety_bending, *against)
+
+
+def _safety(
+    rule: Rule, data: GearData, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
+) -> Iterator[Check]:
+    for gear, safety in enumerate(found or ()):
+        if safety is None:
+            continue
+        both_ways = ", an idler's, bent both ways (Y_d 0.7)" if data.idlers[gear] and rule is BENDING else ""
+        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}{both_ways}, nominal: {inputs}"
+        if safety < max(least, 1.0):
+            limit = f"the limit {least:g}" if safety < least else f"1, though the limit {least:g} allows it"
+            text += f"; below {limit}: widen the gears, take a larger module or a better material"
+        status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
+        yield rule.check(status, text, safety, least)
+
+
+def rests_on(quantity: str, data: GearData) -> str:
+    """Which inputs a stress or a safety rests on, in words; empty for other quantities."""
+    if quantity in ("contact_stress", "safety_pitting"):
+        return _contact_inputs(data)
+    return _bending_inputs(data) if quantity in ("root_stress", "safety_bending") else ""
+
+
+def _contact_inputs(data: GearData) -> str:
+    factors = data.load.factors if data.load else Factors()
+    return (
+        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Hb {factors.face_contact:g}, "
+        f"K_Ha {factors.transverse_contact:g} and the life factors are not computed: 1 unless given"
+    )
+
+
+def _bending_inputs(data: GearData) -> str:
+    factors = data.load.factors if data.load else Factors()
+    edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
+    return (
+        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Fb {factors.face_bending:g}, "
+        f"K_Fa {factors.transverse_bending:g} and the life factors are not computed: 1 unless given{edition}"
+    )
+
+
+def _out_of_range(data: GearData) -> Iterator[Check]:
+    """Where the formulas of the root leave the range of their standard."""
+    if data.face_width is None:
+        yield BENDING.check("warn", "a load without face_width gives no stress and no safety: give face_width")
+    eps = data.path.contact_ratio
+    if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
+        text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
+        yield BENDING.check("warn", text, eps)
+    for gear, factor in enumerate(data.root.rim_factor or ()):
+        if factor is None:
+            least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
+            text = f"the rim of {data.called(gear)} is too thin for ISO 6336-3: no root stress is given"
+            yield BENDING.check("warn", f"{text}; raise rim_thickness above {least}")
+    for gear, section in enumerate(data.root.sections):
+        if section is None:
+            text = f"{data.called(gear)} has no root section that ISO 6336-3 could judge: no root stress is given"
+            yield BENDING.check("warn", f"{text}; {data.rated_with(gear)}")
+        elif not 1.0 <= section.notch < 8.0:
+            text = f"notch parameter q_s = {section.notch:.4g} of {data.called(gear)} is outside 1 to 8"
+            yield BENDING.check("warn", f"{text}, where Y_S holds", section.notch)
+        elif data.pair.teeth[gear] < 0 and data.pair.cutter is None:
+            text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
+            yield BENDING.check("warn", text)
+
+
+_OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
+    "tip-fouling": _tip_fouling,
+    "fillet-interference": _fillet,
+    "backlash": _backlash,
+    "inspection": _inspection,
+    **{name: partial(distance_limits, name) for name in AT_LIMITS},
+    "pitting": _pitting,
+    "bending": _bending,
+}

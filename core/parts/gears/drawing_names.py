@@ -1,0 +1,115 @@
+"""Names of what the drawing of a gear pair needs: quantities with their places, and checks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gearlink.core.parts.gears.codes import AT_LIMITS
+
+PLACES = {
+    "transverse_pressure_angle": "pair.transverse_pressure_angle",
+    "base_helix_angle": "pair.base_helix_angle",
+    "overlap_ratio": "path.overlap_ratio",
+    "total_contact_ratio": "path.total_contact_ratio",
+    "usable_contact_ratio": "path.usable_contact_ratio",
+    "path_of_contact": "path.length",
+    "form_radius": "pair.form_radius",
+    "used_root_radius": "path.used_root_radius",
+    "tip_clearance": "pair.tip_clearance",
+    "specific_sliding_tip": "path.sliding_at_tip",
+    "sliding_factor": "path.sliding_factor",
+    "involute_margin": "internal.involute_margin",
+    "tip_fouling_margin": "internal.tip_fouling_margin",
+    "radial_assembly_margin": "internal.radial_assembly_margin",
+    "pin_diameter": "pin_diameter",
+    "measure_over_balls": "measure_over_balls",
+    "measure_over_pins": "measure_over_pins",
+    "chordal_thickness": "chordal_thickness",
+    "chordal_height": "chordal_height",
+    "generating_shift": "generating_shift",
+    "span_measurement_limits": "span_measurement_limits",
+    "measure_limits": "measure_limits",
+    "backlash_circumferential": "backlash.circumferential",
+    "backlash_normal": "backlash.normal",
+    "backlash_angle": "backlash.angle",
+    "tangential_force": "flank.tangential_force",
+    "zone_factor": "flank.zone_factor",
+    "elasticity_factor": "flank.elasticity_factor",
+    "contact_ratio_factor": "flank.contact_ratio_factor",
+    "helix_angle_factor_contact": "flank.helix_angle_factor",
+    "single_contact_factor": "flank.single_contact_factor",
+    "nominal_contact_stress": "flank.nominal_stress",
+    "contact_stress": "flank.stress",
+    "safety_pitting": "flank.safety",
+    "root_chord": "root.chord",
+    "bending_moment_arm": "root.moment_arm",
+    "root_fillet_radius": "root.fillet_radius",
+    "form_factor": "root.form_factor",
+    "stress_correction_factor": "root.stress_correction_factor",
+    "helix_angle_factor_bending": "root.helix_angle_factor",
+    "rim_factor": "root.rim_factor",
+    "deep_tooth_factor": "root.deep_tooth_factor",
+    "load_reversal_factor": "root.load_reversal_factor",
+    "tip_form_factor": "root.tip_form_factor",
+    "tip_stress_correction_factor": "root.tip_stress_correction_factor",
+    "contact_ratio_factor_bending": "root.contact_ratio_factor",
+    "nominal_root_stress": "root.nominal_stress",
+    "root_stress": "root.stress",
+    "safety_bending": "root.safety",
+}
+"""Where each quantity of a drawing stands in a GearData."""
+_FORCE, _WIDTH = "load (torque, power with speed, or tangential_force)", "face_width"
+_THICKNESS = "allowances"
+_NEEDED = {
+    "tangential_force": (_FORCE,),
+    "nominal_contact_stress": (_FORCE, _WIDTH),
+    "contact_stress": (_FORCE, _WIDTH),
+    "safety_pitting": (_FORCE, _WIDTH, "material.contact_limit"),
+    "nominal_root_stress": (_FORCE, _WIDTH),
+    "root_stress": (_FORCE, _WIDTH),
+    "safety_bending": (_FORCE, _WIDTH, "material.bending_limit"),
+    "generating_shift": (_THICKNESS,),
+    "span_measurement_limits": (_THICKNESS,),
+    "measure_limits": (_THICKNESS,),
+    "backlash_circumferential": (_THICKNESS,),
+    "backlash_normal": (_THICKNESS,),
+    "backlash_angle": (_THICKNESS,),
+    "output_play": (_THICKNESS,),
+    "overlap_ratio": (_WIDTH,),
+    "total_contact_ratio": (_WIDTH,),
+}
+
+
+def lacking(quantity: str, section: Any, prefix: str = "") -> str:
+    """What a file must give so that a quantity of a drawing is known, in words; empty where nothing is missing.
+
+    Parameters
+        quantity : str - plain name
+        section : the section with the keys of a pair or a train
+        prefix : str - of its keys, "gears."
+    """
+    missing = []
+    for words in _NEEDED.get(quantity, ()):
+        found = section
+        for step in words.partition(" ")[0].split("."):
+            found = getattr(found, step, None)
+        if found is None:
+            missing.append(prefix + words)
+    return f"give {', '.join(missing)}" if missing else ""
+
+
+DRAWING_QUANTITIES = tuple(PLACES)
+RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("flank.", "root.")))
+"""Strength by ISO 6336."""
+DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
+"""Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""
+DRAWING_CHECKS = (
+    "tip-fouling",
+    "radial-assembly",
+    "fillet-interference",
+    "backlash",
+    "inspection",
+    *AT_LIMITS,
+    "pitting",
+    "bending",
+)

@@ -1,0 +1,126 @@
+"""Keys of a design file that describe gears beyond their teeth: tools, tips, widths."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Coefficient, Spec
+from gearlink.core.parts.gears.keys.types import Factor, Shift
+
+Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
+Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
+
+
+class ToolSpec(Spec):
+    """A rack tool (hob, rack cutter), in modules of the normal section."""
+
+    addendum: Coefficient = Field(1.25, description="tip of the tool below its datum line")
+    rounding: Rounding | None = Field(
+        None, description="radius of the tool's tip; left out: 0.38, or less where clearance or full round ask for it"
+    )
+    residual_undercut: Protuberance = Field(
+        0.0, description="protuberance, as high as the rounding, less the machining allowance"
+    )
+
+
+class CutterSpec(Spec):
+    """The pinion cutter that shapes a ring, in modules of the normal section."""
+
+    teeth: Annotated[int, Field(ge=3, le=10_000, json_schema_extra={"unit": "teeth"})] = Field(
+        description="teeth of the cutter"
+    )
+    shift: Shift = Field(0.0, description="profile shift of the cutter as it is ground")
+    addendum: Coefficient = Field(1.25, description="addendum coefficient of the cutter")
+    rounding: Rounding = Field(0.25, description="radius of the cutter's tip corner")
+
+
+OneOrTwoTools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, max_length=2)]
+
+
+Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "mm"})]
+TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
+_SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
+
+
+def _a_series(name: str) -> str:
+    if not re.fullmatch(_SERIES, name):
+        message = (
+            "DIN 3967 has no series {name}: take a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
+        )
+        raise PydanticCustomError("GL108", message, {"name": name})
+    return name
+
+
+Series = Annotated[str, AfterValidator(_a_series), Field(json_schema_extra={"pattern": _SERIES})]
+
+
+class AllowanceSpec(Spec):
+    """Allowances of the tooth thickness in the normal section: a series of DIN 3967, or limits in mm."""
+
+    series: Series | Annotated[list[Series], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="of DIN 3967, such as 25cd; one, or one for each gear"
+    )
+    upper: TwoAllowances | None = Field(
+        None, description="upper allowances E_sns of gear 1 and 2, usually negative [mm]"
+    )
+    lower: TwoAllowances | None = Field(None, description="lower allowances E_sni of gear 1 and 2 [mm]")
+
+    @model_validator(mode="after")
+    def _one_way(self) -> AllowanceSpec:
+        limits = self.upper is not None or self.lower is not None
+        if self.series is not None and limits:
+            message = "series excludes upper and lower: give one"
+            raise PydanticCustomError("GL111", message, {"key": "upper" if self.upper is not None else "lower"})
+        if self.series is None and (self.upper is None or self.lower is None):
+            missing = "series" if not limits else "upper" if self.upper is None else "lower"
+            raise PydanticCustomError("GL106", "give series, or both upper and lower", {"key": missing})
+        for place in (0, 1):
+            if self.upper is not None and self.lower is not None and self.upper[place] < self.lower[place]:
+                message = "the lower allowance of gear {gear} is above its upper one: exchange them"
+                raise PydanticCustomError("GL111", message, {"key": f"lower[{place}]", "gear": place + 1})
+        return self
+
+
+class FactorSpec(Spec):
+    """The K factors of ISO 6336: not computed, 1 unless given."""
+
+    application: Factor = Field(1.0, description="K_A")
+    dynamic: Factor = Field(1.0, description="K_v")
+    face_contact: Factor = Field(1.0, description="K_Hbeta")
+    transverse_contact: Factor = Field(1.0, description="K_Halpha")
+    face_bending: Factor = Field(1.0, description="K_Fbeta")
+    transverse_bending: Factor = Field(1.0, description="K_Falpha")
+
+
+class LoadSpec(Spec):
+    """What the pair carries: torque, power with speed, or tangential force."""
+
+    torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque of gear 1"
+    )
+    power: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "kW"})] | None = Field(
+        None, description="power, with speed, in place of torque"
+    )
+    speed: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="speed of gear 1; with torque or force for the sliding speeds alone"
+    )
+    tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="force on the reference circle, in place of torque"
+    )
+    factors: FactorSpec = FactorSpec.model_construct()
+
+    @model_validator(mode="after")
+    def _one_load(self) -> LoadSpec:
+        given = [name for name in ("torque", "power", "tangential_force") if getattr(self, name) is not None]
+        if not given:
+            raise PydanticCustomError("GL106", "give torque, power with speed, or tangential_force", {"key": "torque"})
+        if len(given) > 1:
+            message = "torque, power and tangential_force exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1]})
+        if self.power is not None and self.speed is None:
+            raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})
+        return self

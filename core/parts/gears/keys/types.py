@@ -1,0 +1,49 @@
+"""Numbers and words of design files that describe gears, with their bounds and units."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from gearlink.core.base.spec import Coefficient, Length, Spec
+
+Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
+HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
+Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"})]
+FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
+Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
+SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
+Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
+Hand = Literal["right", "left"]
+AccuracyGrade = Annotated[int, Field(ge=0, le=12, json_schema_extra={"unit": "1"})]
+
+TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
+TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
+TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
+TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
+TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
+TwoHands = Annotated[list[Hand], Field(min_length=2, max_length=2)]
+TwoSpans = Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)]
+WidthOrTwo = FaceWidth | TwoWidths
+RimOrTwo = Rim | TwoRims
+LengthOrTwo = Length | TwoLengths
+TipShortening = Literal["full", "none"] | TwoAlterations
+SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
+
+
+class ToothKeys(Spec):
+    """The keys that a pair and a train share."""
+
+    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
+    addendum: Coefficient = Field(1.0, description="addendum coefficient")
+    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        0.25, description="clearance coefficient"
+    )
+    load_share: Literal["third", "half"] = Field(
+        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
+    )
+    accuracy_grade: AccuracyGrade | None = Field(
+        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
+    )
+    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

@@ -1,0 +1,180 @@
+"""A ring as a pinion cutter shapes it: root and form radius, fillet, and the rack tool that stands for the cutter."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, cast
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
+from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapedRing:
+    """The root of a ring.
+
+    inv(alpha_w0) = inv(alpha_t) + 2 (x_2 + x_0) tan(alpha_n)/(z_2 + z_0),  |r_f2| = |a_0| + r_a0
+
+    Parameters
+        module : float [mm]
+        teeth : int - z_2, negative
+        shift : float [module] - x_2
+        cutter : PinionCutter
+        pressure_angle, helix_angle : float [rad] - alpha_n, beta
+    Returns
+        Properties: lengths in mm; radii are magnitudes.
+    Raises
+        NoSolution - where the cutter is too large for the ring, leaves no pressure angle, or its tip rounding does not
+            fit on its teeth
+    Notes
+        The rounding of a helical cutter is taken as a circle of the transverse section.
+    Example
+        >>> cutter = PinionCutter(teeth=25, shift=0.1)
+        >>> ring = ShapedRing(module=2.0, teeth=-67, shift=-0.3, cutter=cutter, pressure_angle=math.radians(20.0))
+        >>> round(ring.root_radius, 6), round(ring.form_radius, 6)
+        (70.086958, 69.599935)
+
+    Source
+        ISO 21771; own derivation of the form radius
+    """
+
+    module: float
+    teeth: int
+    shift: float
+    cutter: PinionCutter
+    pressure_angle: float
+    helix_angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self._spare(self.cutter.rounding) >= 0.0:
+            return
+        if self._spare(0.0) < 0.0:
+            base = self.mesh.base_radius[0]
+            what, way = ("pointed", "lower") if self.cutter_tip > base else ("without an involute", "raise")
+            text = f"the teeth of the cutter are {what}: {way} its addendum or its shift"
+            raise NoSolution(text, key="cutter.addendum")
+        most = bracketed_root(self._spare, 0.0, self.cutter.rounding)
+        raise NoSolution(
+            f"tip rounding {self.cutter.rounding:.6g} does not fit on the teeth of the cutter: it must be at most "
+            f"{safely_below(most, 4)} modules",
+            key="cutter.rounding",
+        )
+
+    def _spare(self, rounding: float) -> float:
+        """Room for the tip rounding [module], negative where its centre lies inside the base circle or beyond the
+        middle of the tooth.
+        """
+        center, base = self.cutter_tip - self.module * rounding, self.mesh.base_radius[0]
+        inside = (center - base) / self.module
+        return inside if inside < 0.0 else min(inside, self._beside(center, rounding) * center / self.module)
+
+    @cached_property
+    def mesh(self) -> PitchPair:
+        """Cutter and ring while the last cut is taken."""
+        return PitchPair(
+            module=self.module,
+            teeth=(self.cutter.teeth, self.teeth),
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+            given_shift=(self.cutter.shift, self.shift),
+        )
+
+    @cached_property
+    def cutter_tip(self) -> float:
+        """r_a0 = r_0 + (h_a0* + x_0) m."""
+        return self.mesh.reference_radius[0] + self.module * (self.cutter.addendum + self.cutter.shift)
+
+    @cached_property
+    def root_radius(self) -> float:
+        """|r_f2| = |a_0| + r_a0."""
+        return self.cutter_tip - self.mesh.center_distance
+
+    @cached_property
+    def depth(self) -> float:
+        """h_fP2* of the rack tool that leaves the same root circle [module]."""
+        return (self.root_radius + self.mesh.reference_radius[1]) / self.module + self.shift
+
+    @cached_property
+    def _rounding_center(self) -> float:
+        return self.cutter_tip - self.module * self.cutter.rounding
+
+    @cached_property
+    def _flank_end(self) -> float:
+        """Radius of curvature of the cutter's flank where its rounding begins."""
+        base = self.mesh.base_radius[0]
+        center = self._rounding_center
+        return math.sqrt(max(0.0, (center - base) * (center + base))) + self.module * self.cutter.rounding
+
+    @cached_property
+    def form_radius(self) -> float:
+        """|r_Ff2|, where the involute that the cutter's flank leaves ends towards the root."""
+        r0, r2 = self.mesh.base_radius
+        fn = self.mesh.fn
+        mate = (r0 + r2) * fn.tan(self.mesh.working_pressure_angle) - self._flank_end
+        return fn.least(self.root_radius, fn.hypot(r2, mate))
+
+    @cached_property
+    def substitute(self) -> RackTool:
+        """The rack tool whose fillet stands for the cutter's in the rating of the root.
+
+        rho_fPv* = rho_0* + (x_0 + h_fP* - rho_0*)^1.95/(3.156 1.036^z_0)
+
+        Source
+            ISO 6336-3, from memory; its fillet radius lies within 5 % of the shaped one in seven rings
+        """
+        rho, left = self.cutter.rounding, self.cutter.shift + self.depth - self.cutter.rounding
+        rounding = rho + self.mesh.fn.greatest(0.0, left) ** 1.95 / (3.156 * 1.036**self.cutter.teeth)
+        return RackTool(addendum=self.depth, rounding=rounding)
+
+    def fillet(self, turn: float) -> complex:
+        """Point of the fillet, the ring's x axis in the middle of a space, over the turn of the cutter [rad].
+
+        The cutter's rounding leaves the envelope of its circle: the centre's path, moved outwards along its normal,
+        which passes the pitch point. Where that lies beyond the centre the cutter turns the other way from the root
+        circle to the flank.
+        """
+        z0, z2, fn = self.cutter.teeth, -self.teeth, self.mesh.fn
+        a0, radius = -self.mesh.center_distance, self._rounding_center
+        beside, sense = self._half_angle_of_center, fn.copysign(1.0, self._turned_to_flank)
+        turn = sense * turn - (1.0 - sense) * beside
+        axis = turn * z0 / z2
+        back = fn.turn(-axis)
+        center = a0 * back + radius * fn.turn(turn - axis + beside)
+        normal, where = sense * (center - (a0 + a0 * z0 / (z2 - z0)) * back), cast(Any, fn.where)
+        normal = where(normal == 0.0, center, normal)  # a centre on the pitch point leaves its own arc
+        point: complex = center + self.module * self.cutter.rounding * normal / abs(normal)
+        return point
+
+    @cached_property
+    def _turned_to_flank(self) -> float:
+        """Turn of the cutter from where its rounding leaves the root circle to where its flank ends [rad].
+
+        The angle from the line of centres to the rounding's centre when that lies on the line of action; negative
+        where the pitch point lies beyond it.
+        """
+        rolled = self._flank_end - self.module * self.cutter.rounding
+        return math.atan2(rolled, self.mesh.base_radius[0]) - self.mesh.working_pressure_angle
+
+    @cached_property
+    def turns(self) -> tuple[float, float]:
+        """Turns at the ends of the fillet: root circle and flank [rad], counted so that they rise."""
+        start = -self._half_angle_of_center
+        return start, start + abs(self._turned_to_flank)
+
+    @cached_property
+    def _half_angle_of_center(self) -> float:
+        """Polar angle of the rounding's centre beside the middle of the cutter's tooth [rad]."""
+        return self._beside(self._rounding_center, self.cutter.rounding)
+
+    def _beside(self, center: float, rounding: float) -> float:
+        mesh, x0, z0 = self.mesh, self.cutter.shift, self.cutter.teeth
+        base, alpha = mesh.base_radius[0], mesh.transverse_pressure_angle
+        half = (math.pi / 2.0 + 2.0 * x0 * math.tan(self.pressure_angle)) / z0 + math.tan(alpha) - alpha
+        roll = math.sqrt(max(0.0, (center / base) ** 2 - 1.0))
+        offset = self.module * rounding / base
+        return half - (roll - math.atan(roll)) - offset

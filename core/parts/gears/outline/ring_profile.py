@@ -1,0 +1,142 @@
+"""The tooth of a ring in the transverse section as its pinion cutter leaves it: root, fillet, flank, tip.
+
+Frame of the ring: its centre is the origin, the x axis the middle of a tooth space; points are complex numbers.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute
+
+Curve = Callable[[Reals], Points]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingProfile:
+    """A ring between the middle of a space and the middle of the next tooth; radii are magnitudes.
+
+    Parameters
+        teeth : int - |z|
+        shift : float [module] - x, with ISO's sign
+        reference, base, tip, root : float [mm] - radii
+        at_base : float [rad] - half the angle of a tooth, measured to where its flank would meet the base circle
+        tip_roll : float - tan of the pressure angle at the tip
+        shaped : ShapedRing or None - as its cutter shapes it; None: flanks down to the root circle, sharp corners
+        helical : bool
+    Example
+        >>> ring = RingProfile.of(GearPair(module=2.0, teeth=(48, -62), given_shift=(0.0, 0.0)))
+        >>> [name for name, *_ in ring.pieces()]
+        ['root circle', 'involute', 'tip circle']
+
+    Source
+        own derivation: the space of the ring is the tooth of an outer gear of as many teeth and the opposite shift
+    """
+
+    teeth: int
+    shift: float
+    reference: float
+    base: float
+    tip: float
+    root: float
+    at_base: float
+    tip_roll: float
+    shaped: ShapedRing | None = None
+    helical: bool = False
+
+    @classmethod
+    def of(cls, mesh: GearPair | InternalMesh) -> RingProfile:
+        """The ring of a pair.
+
+        Raises
+            NoSolution - where its tips lie inside its base circle, or its cutter cannot cut it
+        """
+        reference, base, tip, root = (
+            abs(radii[1]) for radii in (mesh.reference_radius, mesh.base_radius, mesh.tip_radius, mesh.root_radius)
+        )
+        known: dict[str, Any] = {"reference": reference, "base": base, "tip": tip, "root": root}
+        roll = math.tan(mesh.tip_pressure_angle[1])
+        if isinstance(mesh, InternalMesh):
+            z = mesh.teeth[1]
+            half = math.pi / (2.0 * z) - involute(mesh.pressure_angle)
+            return cls(teeth=z, shift=0.0, at_base=half, tip_roll=roll, **known)
+        z, shift = -mesh.teeth[1], mesh.profile_shift[1]
+        half = (math.pi / 2.0 + 2.0 * shift * math.tan(mesh.pressure_angle)) / z
+        return cls(
+            teeth=z,
+            shift=shift,
+            at_base=half - involute(mesh.transverse_pressure_angle),
+            tip_roll=roll,
+            shaped=mesh.shaped,
+            helical=bool(mesh.helix_angle),
+            **known,
+        )
+
+    @property
+    def deepest(self) -> float:
+        """Radius to which the space reaches: the root circle, or less where both flanks meet before it [mm]."""
+        left = math.pi / self.teeth - self.at_base
+        if self.shaped is not None or left <= 0.0:
+            return self.root
+        return min(self.root, self.base / math.cos(inverse_involute(left)))
+
+    def _roll(self, radius: float) -> float:
+        return math.sqrt(max(0.0, (radius / self.base - 1.0) * (radius / self.base + 1.0)))
+
+    def _beside(self, roll: float) -> float:
+        """Polar angle of the flank from the middle of the space [rad]."""
+        return math.pi / self.teeth - (self.at_base + roll - math.atan(roll))
+
+    def flank(self, back: Reals) -> Points:
+        """The involute over its roll angle, counted backwards: from the root towards the tip."""
+        half = math.pi / self.teeth
+        out: Points = self.base * (1.0 - 1j * back) * np.exp(1j * (half - self.at_base + back))
+        return out
+
+    def pieces(self) -> list[tuple[str, Curve, float, float]]:
+        """Names and curves from the middle of the space to the middle of the tooth, with their parameters' ranges."""
+        high = self._roll(self.deepest if self.shaped is None else self.shaped.form_radius)
+        fillet: list[tuple[str, Curve, float, float]] = []
+        at_root = self._beside(high)
+        if self.shaped is not None:
+            fillet = [("fillet", self.fillet, *self.shaped.turns)]
+            at_root = cmath.phase(self.shaped.fillet(self.shaped.turns[0]))
+        return [
+            ("root circle", _arc(self.deepest), 0.0, at_root),
+            *fillet,
+            ("involute", self.flank, -high, -self.tip_roll),
+            ("tip circle", _arc(self.tip), self._beside(self.tip_roll), math.pi / self.teeth),
+        ]
+
+    def fillet(self, turn: Reals) -> Points:
+        """The root fillet over the turn of the cutter [rad]."""
+        assert self.shaped is not None, "a piece of shaped rings alone"
+        return np.array([self.shaped.fillet(float(each)) for each in turn])
+
+    def outline(self, points_on_flank: int = 12) -> Points:
+        """The closed inner outline, counter-clockwise, the x axis in the middle of a tooth [mm]."""
+        rows = []
+        for name, curve, low, high in self.pieces():
+            count = points_on_flank if name in ("fillet", "involute") else 2
+            if high > low:
+                rows.append(curve(np.linspace(low, high, count)))
+        half = np.concatenate(rows)
+        half = half[np.concatenate([[True], np.abs(np.diff(half)) > 1e-14 * self.root])]
+        space = np.concatenate([half[:0:-1].conj(), half])
+        turns = np.exp(1j * math.pi / self.teeth * (2.0 * np.arange(self.teeth) + 1.0))
+        ring: Points = (turns[:, None] * space[None, :-1]).ravel()
+        return np.concatenate([ring, ring[:1]])
+
+
+def _arc(radius: float) -> Curve:
+    return lambda angle: radius * np.exp(1j * angle)

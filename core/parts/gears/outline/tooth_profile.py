@@ -1,0 +1,344 @@
+"""The tooth of an involute gear as a rack tool cuts it, in the transverse section: flanks, roots, tip and root circles.
+
+Frame of the gear: its centre is the origin, the x axis the middle of a tooth space; points are complex numbers x + i y.
+The root fillet is that of `root_fillet`, over the direction b of the normal in the normal section.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.tooth.involute import inverse_involute
+from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
+from gearlink.core.parts.gears.tooth.tools import RackTool, full_rounding
+
+Curve = Callable[[Reals], Points]
+
+_LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be distinguished by rounding alone
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToothProfile:
+    """The profile of one gear between the middle of a space and the middle of a tooth.
+
+    Parameters
+        module : float [mm] - m
+        teeth : int - z
+        shift : float [module] - profile shift x
+        pressure_angle : float [rad] - alpha of the reference profile
+        tip_radius : float [mm] - r_a
+        tool_addendum : float [module] - h_a* + c*, the tool's tip below its reference line
+        tool_rounding : float [module] - rho*, radius of the tool's tip
+        helix_angle : float [rad] - beta
+        residual_undercut : float [module] - s_pr* of the tool
+    Returns
+        Properties: lengths in mm, angles in rad.
+    Raises
+        NoSolution - where the tool's tooth is pointed, the root circle vanishes, or no involute is left
+    Notes
+        All is worked out for module 1 and scaled at the end: tiny and huge gears keep the same digits.
+    Example
+        >>> gear = ToothProfile.of(GearPair.from_shift(2.0, (12, 40)), 0)
+        >>> gear.undercut, round(gear.form_radius, 6), round(gear.base_radius, 6)
+        (True, 11.302707, 11.276311)
+
+    Source
+        own derivation from the law of gearing; ISO 53 for the tool's rounding
+    """
+
+    module: float
+    teeth: int
+    shift: float
+    pressure_angle: float
+    tip_radius: float
+    tool_addendum: float = 1.25
+    tool_rounding: float = 0.38
+    helix_angle: float = 0.0
+    residual_undercut: float = 0.0
+
+    def __post_init__(self) -> None:
+        sharp = full_rounding(self.pressure_angle, self.tool_addendum, self.residual_undercut)
+        if sharp < 0.0:
+            raise NoSolution(
+                f"a tool with the addendum {self.tool_addendum:.6g} and the pressure angle "
+                f"{math.degrees(self.pressure_angle):.6g} deg is pointed: addendum and clearance together must stay "
+                f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle), 6)} modules"
+            )
+        most = sharp
+        if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
+            raise NoSolution(
+                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most, 6)} modules, "
+                "a full round"
+            )
+        if not self._root > 0.0:
+            raise NoSolution(
+                f"a gear of {self.teeth} teeth with the profile shift {self.shift:.6g} has no root circle left: take "
+                f"at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or raise the shift"
+            )
+        if not self._form < self._top:
+            remedy = "raise" if self.undercut and not self._top < self.tip_radius / self.module else "lower"
+            raise NoSolution(
+                f"no involute is left to a gear of {self.teeth} teeth: it would begin at "
+                f"{self.form_radius:.6g} mm, the tooth ends at {self.outer_radius:.6g} mm; {remedy} the profile shift "
+                "or take more teeth"
+            )
+
+    @classmethod
+    def of(cls, pair: GearPair, gear: int) -> ToothProfile:
+        """The profile of gear 0 or 1 of a pair, as its tool cuts it; a pair without tools has those of ISO 53.
+
+        Parameters
+            pair : GearPair
+            gear : int - 0 or 1
+        Raises
+            NoSolution - as the class
+        Example
+            >>> round(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0).tool_rounding, 6)
+            0.379951
+
+        Source
+            ISO 53, profile A
+        """
+        tool = pair.tool(gear)
+        return cls(
+            module=pair.module,
+            teeth=pair.teeth[gear],
+            shift=pair.profile_shift[gear],
+            pressure_angle=pair.pressure_angle,
+            tip_radius=pair.tip_radius[gear],
+            tool_addendum=tool.addendum,
+            tool_rounding=tool.rounding,
+            helix_angle=pair.helix_angle,
+            residual_undercut=tool.residual_undercut,
+        )
+
+    # Radii and angles; names with an underscore are in modules
+
+    @property
+    def reference_radius(self) -> float:
+        """r = m_t z/2 [mm]."""
+        return self.module * self._r
+
+    @property
+    def base_radius(self) -> float:
+        """r_b = r cos(alpha_t) [mm]."""
+        return self.module * self._base
+
+    @property
+    def root_radius(self) -> float:
+        """r_f = r - (h_a* + c* - x) m [mm]."""
+        return self.module * self._root
+
+    @property
+    def form_radius(self) -> float:
+        """Where trochoid and involute meet [mm]; the flank may be used from there outwards.
+
+        r_F^2 = r_b^2 + (r sin(alpha) - q/sin(alpha) - rho)^2 without undercut
+        """
+        return self.module * self._form
+
+    @property
+    def outer_radius(self) -> float:
+        """r_a, or less where both flanks meet in a point below it [mm]."""
+        return self.module * self._top
+
+    @property
+    def undercut(self) -> bool:
+        """Whether the tool cuts into the involute at its foot."""
+        return self._cut.undercut
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from one space to the next, 2 pi/z [rad]."""
+        return 2.0 * math.pi / self.teeth
+
+    @cached_property
+    def _cut(self) -> RackCutRoot:
+        tool = RackTool(
+            addendum=self.tool_addendum, rounding=self.tool_rounding, residual_undercut=self.residual_undercut
+        )
+        return RackCutRoot(
+            teeth=self.teeth,
+            shift=self.shift,
+            tool=tool,
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+        )
+
+    @property
+    def _r(self) -> float:
+        return self.teeth / 2.0 / math.cos(self.helix_angle)
+
+    @property
+    def _base(self) -> float:
+        return self._cut.base_radius
+
+    @property
+    def _root(self) -> float:
+        return self._r + self.shift - self.tool_addendum
+
+    @cached_property
+    def _u(self) -> float:
+        """Distance of the rounding's centre from the middle of the tool's tooth, in the transverse section."""
+        return max(0.0, self._cut.tool.rounding_center(self.pressure_angle)) / math.cos(self.helix_angle)
+
+    @property
+    def _at_base(self) -> float:
+        """Half the angle of the space on the base circle, where the involute begins; negative where spaces overlap."""
+        return self._cut.half_space_at_base
+
+    @cached_property
+    def _top(self) -> float:
+        half_pitch = math.pi / self.teeth
+        tip = self.tip_radius / self.module
+        if half_pitch <= self._at_base:
+            return self._base
+        pointed = self._base / math.cos(inverse_involute(half_pitch - self._at_base))
+        return min(tip, pointed)
+
+    @property
+    def _form(self) -> float:
+        return self._cut.form_radius
+
+    # Curves [mm], each over an array of its parameter
+
+    def root_arc(self, angle: Reals) -> Points:
+        """The root circle, over the polar angle."""
+        arc: Points = self.root_radius * np.exp(1j * angle)
+        return arc
+
+    def trochoid(self, normal: Reals) -> Points:
+        """The root's rounding, over the direction b of the normal, then the path of a protuberance's corner."""
+        q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
+        held = np.minimum(normal, self._cut.last_normal)
+        below = q + rho * np.cos(held)
+        across = below * np.tan(held) * math.cos(self.helix_angle)
+        across = self._across(across, self._r - below, normal - held)
+        shifted = self._u + rho * np.sin(held) / math.cos(self.helix_angle) - across
+        points = self._r - below + 1j * across
+        rounded: Points = self.module * points * np.exp(1j * shifted / self._r)
+        return rounded
+
+    def _across(self, across: Reals, above: Reals, rolled: Reals) -> Reals:
+        """`RackCutRoot.corner_path` over arrays."""
+        size = np.abs(across) + rolled * self._r
+        deeper = np.where(np.arctan2(size, above) < size / self._r, -size, size)
+        found: Reals = np.where(rolled > 0.0, deeper, across)
+        return found
+
+    def flank(self, roll: Reals) -> Points:
+        """The involute, over its roll angle t = tan(pressure angle at the radius).
+
+        z(t) = r_b (1 - i t) exp(i (angle at the base circle + t))
+        """
+        points: Points = self.base_radius * (1.0 - 1j * roll) * np.exp(1j * (self._at_base + roll))
+        return points
+
+    def tip_arc(self, angle: Reals) -> Points:
+        """The tip circle, over the polar angle."""
+        arc: Points = self.outer_radius * np.exp(1j * angle)
+        return arc
+
+    def pieces(self) -> list[tuple[Curve, float, float]]:
+        """The curves from the middle of the space to the middle of the tooth, with the range of their parameters."""
+        low, high = _roll_at(self._form / self._base), _roll_at(self._top / self._base)
+        tooth_edge = self._at_base + high - math.atan(high)
+        return [
+            (self.root_arc, 0.0, self._u / self._r),
+            (self.trochoid, 0.0, self._cut.end_normal),
+            (self.flank, low, high),
+            (self.tip_arc, tooth_edge, math.pi / self.teeth),
+        ]
+
+
+def half_tooth(profile: ToothProfile, chord_error: float) -> Points:
+    """Points of the profile from the middle of a space to the middle of the next tooth.
+
+    Parameters
+        profile : ToothProfile
+        chord_error : float [mm] - greatest distance of a chord from its curve
+    Returns
+        points : (N,) array [mm] - counter-clockwise, from the x axis to the polar angle pi/z
+    Raises
+        NoSolution - for a chord error below 1e-7 module
+    Example
+        >>> points = half_tooth(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0), 1e-3)
+        >>> round(float(points[0].real), 9), round(float(abs(points[-1])), 9)
+        (37.5, 42.0)
+    """
+    least = _LEAST_CHORD_ERROR * profile.module
+    if not chord_error >= least:
+        raise NoSolution(f"chord error {chord_error:g} mm: it must be at least {least:g} mm, 1e-7 of the module")
+    parts = [_chords(*piece, chord_error) for piece in profile.pieces()]
+    points: Points = np.concatenate([parts[0], *(part[1:] for part in parts[1:])])
+    # A tool with a full round has no root arc, a pointed tooth no tip arc: their points fall into one.
+    moved = np.abs(np.diff(points)) > 1e-14 * profile.tip_radius
+    kept: Points = points[np.concatenate([[True], moved])]
+    return kept
+
+
+def tooth_space(profile: ToothProfile, chord_error: float) -> Points:
+    """Points of one pitch, from the middle of a tooth through the space on the x axis to the middle of the next.
+
+    Example
+        >>> points = tooth_space(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0), 1e-3)
+        >>> bool(np.all(points == points[::-1].conj()))
+        True
+
+    Source
+        own derivation: the space is its own mirror image
+    """
+    half = half_tooth(profile, chord_error)
+    return np.concatenate([half[:0:-1].conj(), half])
+
+
+def outline(profile: ToothProfile, chord_error: float, teeth: int | None = None, first: float = 0.0) -> Points:
+    """The outline of a gear, or of some of its pitches.
+
+    Parameters
+        profile : ToothProfile
+        chord_error : float [mm] - greatest distance of a chord from its curve
+        teeth : int or None - how many pitches, counter-clockwise; None: all of them, closed
+        first : float [rad] - polar angle of the middle of the first space
+    Returns
+        points : (N,) array [mm] - the last point of a whole gear is its first, to the bit
+    Raises
+        NoSolution - as `half_tooth`
+    Example
+        >>> gear = outline(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0), 1e-3)
+        >>> bool(gear[0] == gear[-1])
+        True
+    """
+    space = tooth_space(profile, chord_error)
+    count = profile.teeth if teeth is None else teeth
+    turns = np.exp(1j * (first + profile.pitch_angle * np.arange(count)))
+    points: Points = (turns[:, None] * space[None, :-1]).ravel()
+    last = points[:1] if teeth is None else turns[-1:] * space[-1:]
+    return np.concatenate([points, last])
+
+
+def _chords(curve: Curve, low: float, high: float, chord_error: float) -> Points:
+    """Points of a curve at equal steps of its parameter, halved until the middles lie near enough to the chords."""
+    count = 1
+    while True:
+        fine = curve(np.linspace(low, high, 2 * count + 1))
+        start, middle, end = fine[:-1:2], fine[1::2], fine[2::2]
+        chord = end - start
+        area = np.abs(((middle - start) * chord.conj()).imag)
+        if np.all(area <= chord_error * np.abs(chord)):
+            return fine[::2]
+        count *= 2
+
+
+def _roll_at(ratio: float) -> float:
+    """Roll angle tan(alpha_R) from the radius over the base radius."""
+    return math.sqrt(max((ratio - 1.0) * (ratio + 1.0), 0.0))

@@ -1,0 +1,151 @@
+"""The teeth of a rack as a tool of its own profile leaves them, in the transverse section.
+
+Frame: the x axis is the datum line, the y axis the middle of a tooth space; teeth point up. Points are complex numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.parts.gears.tooth.tools import RackTool, rack_tip_width
+
+Curve = Callable[[Reals], Points]
+Piece = tuple[Curve, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackProfile:
+    """A rack between the middle of a space and the middle of the next tooth.
+
+    Parameters
+        module : float [mm] - normal module
+        pressure_angle : float [rad] - alpha_n
+        helix_angle : float [rad] - beta
+        height : float [module] - of the tips above the datum line, h_aR
+        tool : RackTool - its tip leaves the root: depth, rounding
+    Returns
+        Methods: points in mm.
+    Raises
+        NoSolution - for pointed teeth or tools, and for a tool with a protuberance, whose step is not known
+    Notes
+        The rounding is an arc in the normal section, and an ellipse in the transverse one.
+    Example
+        >>> rack = RackProfile(module=2.0, tool=RackTool(addendum=1.25, rounding=0.25))
+        >>> points = rack.half_tooth(1e-3)
+        >>> float(points[0].imag), float(points[-1].imag), round(float(points[-1].real), 9)
+        (-2.5, 2.0, 3.141592654)
+
+    Source
+        ISO 53; own derivation of the transverse section
+    """
+
+    module: float
+    tool: RackTool
+    pressure_angle: float = math.radians(20.0)
+    helix_angle: float = 0.0
+    height: float = 1.0
+
+    def __post_init__(self) -> None:
+        self.tool.require_tip(self.pressure_angle)
+        if self.tool.residual_undercut:
+            raise NoSolution(
+                "the step that a protuberance leaves in a rack depends on the tool and is not known: "
+                "give the rack a tool without one (tool: [{...}, {addendum: ..., rounding: ...}])",
+                key="tool",
+            )
+        if self.tip_width <= 0.0:
+            most = safely_below(math.pi / (4.0 * math.tan(self.pressure_angle)), 6)
+            raise NoSolution(f"the teeth of the rack are pointed: keep its addendum below {most} modules")
+        if not self.tool.straight_end(self.pressure_angle) + self.height > 0.0:
+            raise NoSolution("the rounding at the root of the rack leaves no flank: lower the rounding of its tool")
+
+    @property
+    def tip_width(self) -> float:
+        """s_aR = m (pi/2 - 2 h_aR tan(alpha_n)), in the normal section [mm]."""
+        return self.module * rack_tip_width(self.height, self.pressure_angle)
+
+    @property
+    def pitch(self) -> float:
+        """p_t = pi m/cos(beta) [mm]."""
+        return math.pi * self.module / math.cos(self.helix_angle)
+
+    @property
+    def root(self) -> float:
+        """Height of the root line, -h_fP* m [mm]."""
+        return -self.tool.addendum * self.module
+
+    @property
+    def tip(self) -> float:
+        """Height of the tip line [mm]."""
+        return self.height * self.module
+
+    def _across(self, normal: float) -> float:
+        """A length of the normal section in the transverse one [mm]."""
+        return normal * self.module / math.cos(self.helix_angle)
+
+    def rounding(self, normal: Reals) -> Points:
+        """The rounding at the root over the direction b of its normal, from 0 at the root line to 90 deg - alpha_n."""
+        center, rho = max(0.0, self.tool.rounding_center(self.pressure_angle)), self.tool.rounding
+        across = (center + rho * np.sin(normal)) / math.cos(self.helix_angle)
+        up = rho - self.tool.addendum - rho * np.cos(normal)
+        return np.asarray(self.module * (across + 1j * up))
+
+    def pieces(self) -> list[Piece]:
+        """Root line, rounding, flank and tip line, with the range of their parameters; ends meet to the bit."""
+        slope, end = math.tan(self.pressure_angle), self.tool.straight_end(self.pressure_angle)
+        flat = max(0.0, self.tool.rounding_center(self.pressure_angle))
+        corners = [
+            complex(0.0, self.root),
+            complex(self._across(flat), self.root),
+            complex(self._across(math.pi / 4.0 - end * slope), -end * self.module),
+            complex(self._across(math.pi / 4.0 + self.height * slope), self.tip),
+            complex(0.5 * self.pitch, self.tip),
+        ]
+        return [
+            (straight(corners[0], corners[1]), 0.0, 1.0),
+            (self.rounding, 0.0, math.pi / 2.0 - self.pressure_angle),
+            (straight(corners[2], corners[3]), 0.0, 1.0),
+            (straight(corners[3], corners[4]), 0.0, 1.0),
+        ]
+
+    def half_tooth(self, chord_error: float) -> Points:
+        """Points from the middle of a space to the middle of the next tooth, chords within a distance [mm]."""
+        root, (curve, low, high), flank, tip = self.pieces()
+        bend = self.tool.rounding * self.module / math.cos(self.helix_angle) ** 2
+        step = math.sqrt(8.0 * chord_error / bend) if bend > 0.0 else high
+        count = max(2, math.ceil((high - low) / step) + 1)
+        ends = np.array([0.0, 1.0])
+        rows = [root[0](ends)[:1], curve(np.linspace(low, high, count)), flank[0](ends)[1:], tip[0](ends)[1:]]
+        return np.concatenate(rows)
+
+    def teeth(self, chord_error: float, count: int) -> Points:
+        """The line of so many pitches, from the middle of a tooth on, its middle at x = 0 if their number is odd."""
+        half = self.half_tooth(chord_error)
+        space = np.concatenate([-half[:0:-1].conj(), half])
+        at = self.pitch * (np.arange(count) - (count - 1) // 2)
+        line = (at[:, None] + space[None, :-1]).ravel()
+        return np.concatenate([line, at[-1:] + space[-1:]])
+
+    def body(self, chord_error: float, count: int, back: float) -> Points:
+        """The closed outline of a rack of so many pitches, its back so far below the root line [mm]."""
+        line = self.teeth(chord_error, count)
+        low = self.root - back
+        corners = np.array([complex(line[-1].real, low), complex(line[0].real, low)])
+        return np.concatenate([line, corners, line[:1]])
+
+
+def straight(start: complex, end: complex) -> Curve:
+    """A straight line over 0 to 1, whose ends are these points to the bit."""
+
+    def points(share: Reals) -> Points:
+        between: Points = (1.0 - share) * start + share * end
+        return between
+
+    return points

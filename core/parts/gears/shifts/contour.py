@@ -1,0 +1,309 @@
+"""The blocking contour: which profile shifts a pair of gears may have, and how far a design is from each limit.
+
+Every line is traced along diagonals x_1 + x_2 = const, on which the mesh does not change, by bracketed roots; a line
+may cross a diagonal more than once, and does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import compress, pairwise
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import at_least, at_most
+from gearlink.core.base.report import Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.parts.gears.data import GearData
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.pitch_pair import Pair
+from gearlink.core.parts.gears.shifts.contour_lines import Line, lines_of, value_of
+from gearlink.core.parts.gears.shifts.shift_split import Diagonal
+
+if TYPE_CHECKING:
+    from gearlink.core.base.report import Column
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.gears.shifts.contour_sweep import Rows
+
+_DIAGONALS, _UPRIGHTS, _POINTS = 81, 41, 33
+_NEAR = 0.05
+"""Points that are nearer, in both shifts, tell nothing new."""
+_ROOM, _LEAST, _MOST = 0.5, -0.8, 1.6
+
+
+def _has_mesh(data: GearData) -> bool:
+    try:
+        return data.pair.contact_ratio > 0.0
+    except NoSolution:
+        return False
+
+
+@dataclass(frozen=True)
+class BlockingContour:
+    """The lines about a design, and its margins.
+
+    Parameters
+        data : GearData
+    Example
+        >>> contour = BlockingContour(GearData(pair=GearPair.from_shift(1.0, (17, 40), (0.3, 0.2))))
+        >>> contour.crossings(contour.line("undercut 1"), 0.5)[0] == contour.data.pair.min_shift_no_undercut[0]
+        True
+    """
+
+    data: GearData
+
+    @cached_property
+    def pair(self) -> GearPair:
+        """The pair by its shifts, without backlash."""
+        x = self.data.pair.profile_shift
+        return replace(self.data.pair, given_shift=x, given_distance=None, given_first_shift=None)
+
+    @cached_property
+    def placed(self) -> GearData:
+        """The data of that pair."""
+        return replace(self.data, pair=self.pair)
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """Every line."""
+        return lines_of(self.data)
+
+    def line(self, name: str) -> Line:
+        """A line by its name."""
+        return next(line for line in self.lines if line.name == name)
+
+    @cached_property
+    def window(self) -> tuple[Pair, Pair]:
+        """Between which x_1, and x_2, the lines are traced [module]."""
+        one, other = self.data.pair.profile_shift
+        first = min(_LEAST, one - _ROOM), max(_MOST, one + _ROOM)
+        if self.data.pair.internal:
+            return first, (min(-_MOST, other - _ROOM), max(-_LEAST, other + _ROOM))
+        return first, (min(_LEAST, other - _ROOM), max(_MOST, other + _ROOM))
+
+    def reach(self, shift_sum: float) -> Pair:
+        """x_1 between which a diagonal lies in the window."""
+        (low1, high1), (low2, high2) = self.window
+        return max(low1, shift_sum - high2), min(high1, shift_sum - low2)
+
+    def _on(self, shift_sum: float) -> list[float]:
+        """x_1 along a diagonal, inside the window."""
+        low, high = self.reach(shift_sum)
+        return [low + (high - low) * k / (_POINTS - 1) for k in range(_POINTS)] if low < high else []
+
+    def _data_on(self, shift_sum: float) -> Callable[[float], GearData]:
+        diagonal = Diagonal(replace(self.pair, given_shift=(shift_sum / 2.0, shift_sum / 2.0)))
+        return lambda first: replace(self.data, pair=diagonal.at(first))
+
+    def crossings(self, line: Line, shift_sum: float) -> list[float]:
+        """x_1 at which a line crosses a diagonal.
+
+        Raises
+            NoSolution - where the shift sum leaves no mesh
+        """
+        return [first for _, first in self.crossed((line,), shift_sum)]
+
+    def crossed(self, lines: Sequence[Line], shift_sum: float) -> list[tuple[Line, float]]:
+        """Lines that cross a diagonal, with the x_1 there.
+
+        Raises
+            NoSolution - where the shift sum leaves no mesh
+        """
+        at, grid = self._data_on(shift_sum), self._on(shift_sum)
+        designs = [at(first) for first in grid]
+
+        def roots(line: Line) -> list[float]:
+            values = [value_of(line, each) for each in designs]
+            return _roots_of(lambda first: value_of(line, at(first)), grid, values)
+
+        return [(line, root) for line in lines for root in roots(line)]
+
+    @cached_property
+    def _diagonals(self) -> list[tuple[float, list[tuple[Line, float]], list[Pair]]]:
+        """For shift sums across the window: the sum, where lines cross it, and between which x_1 it is free."""
+        (low1, high1), (low2, high2) = self.window
+        step = (high1 + high2 - low1 - low2) / (_DIAGONALS - 1)
+        sums = [low1 + low2 + step * k for k in range(_DIAGONALS)]
+        inside = [total for total in sums if self._on(total)]
+        crossed, free = self._across(inside)
+        return list(zip(inside, crossed, free, strict=True))
+
+    @cached_property
+    def points(self) -> dict[str, list[Pair]]:
+        """Points (x_1, x_2) of every line along rising shift sums, then, where it runs along them, along rising x_1."""
+        found: dict[str, list[Pair]] = {line.name: [] for line in self.lines}
+        for total, crossed, _ in self._diagonals:
+            for line, first in crossed:
+                found[line.name].append((first, total - first))
+        for line in self.lines:
+            known = list(found[line.name])
+            found[line.name] += [point for point in self._upright(line) if not _near(point, known)]
+        return found
+
+    def _upright(self, line: Line) -> list[Pair]:
+        """Where a limit crosses lines of constant x_1."""
+        if not line.limits or line.name.startswith("undercut"):
+            return []
+        firsts, uprights = self._uprights
+        rows, seconds = uprights.crossings(line)
+        return list(zip(firsts[rows].tolist(), seconds.tolist(), strict=True))
+
+    @cached_property
+    def _uprights(self) -> tuple[Reals, Rows]:
+        """x_1 across the window, and x_2 along each."""
+        import numpy as np
+
+        from gearlink.core.parts.gears.shifts.contour_sweep import Rows
+
+        (low1, high1), (low2, high2) = self.window
+        seconds = low2 + (high2 - low2) * np.arange(_POINTS) / (_POINTS - 1)
+        firsts = low1 + (high1 - low1) * np.arange(_UPRIGHTS) / (_UPRIGHTS - 1)
+        along = np.broadcast_to(seconds, (_UPRIGHTS, _POINTS))
+        return firsts, Rows(self.placed, along, lambda rows, second: (firsts[rows], second))
+
+    @property
+    def free(self) -> Iterator[list[Pair]]:
+        """The shifts that no limit blocks, as strips between two shift sums: corners (x_1, x_2) of quadrilaterals.
+
+        Notes
+            Tip thicknesses and contact ratios above the least, and radial assembly, are preferences and block nothing.
+        """
+        for (one, _, before), (two, _, behind) in pairwise(self._diagonals):
+            for low, high in before:
+                for start, end in behind:
+                    if max(low, start - (two - one)) <= min(high, end):
+                        yield [(low, one - low), (high, one - high), (end, two - end), (start, two - start)]
+
+    def _across(self, sums: list[float]) -> tuple[list[list[tuple[Line, float]]], list[list[Pair]]]:
+        """For some shift sums where lines cross them, and between which x_1 they are free."""
+        import numpy as np
+
+        from gearlink.core.parts.gears.shifts.contour_sweep import Rows
+
+        grids, totals = [self._on(total) for total in sums], np.array(sums)
+        along = np.array(grids).reshape(len(sums), _POINTS)
+        diagonals = Rows(self.placed, along, lambda rows, first: (first, totals[rows] - first))
+        crossed: list[list[tuple[Line, float]]] = [[] for _ in sums]
+        for line in self.lines:
+            for row, first in zip(*(found.tolist() for found in diagonals.crossings(line)), strict=True):
+                crossed[row].append((line, first))
+        stretches = [(row, ends) for row, grid in enumerate(grids) for ends in _stretches(grid, crossed[row])]
+        rows, middles = [row for row, _ in stretches], [0.5 * (low + high) for _, (low, high) in stretches]
+        are_free = diagonals.are_free(self.lines, rows, np.array(middles)).tolist()
+        free: list[list[Pair]] = [[] for _ in sums]
+        for row, ends in compress(stretches, are_free):
+            free[row].append(ends)
+        return crossed, [_joined(each) for each in free]
+
+    @cached_property
+    def _own_crossed(self) -> list[tuple[Line, float]]:
+        """Where lines cross the diagonal of the design."""
+        return self.crossed(self.lines, sum(self.pair.profile_shift))
+
+    @cached_property
+    def _own_free(self) -> list[Pair]:
+        """x_1 between which that diagonal is free."""
+        total = sum(self.pair.profile_shift)
+        at = self._data_on(total)
+        found = _stretches(self._on(total), self._own_crossed)
+        return _joined([(low, high) for low, high in found if self.is_free(at(0.5 * (low + high)))])
+
+    def shares(self, wanted: str = "") -> list[float]:
+        """x_1 at the same shift sum that lie within the limits, whole hundredths, the nearest first.
+
+        Parameters
+            wanted : str - name of a line to lie on as well as can be; "": the nearest x_1 inside
+        Notes
+            With each stretch that is free also what is left of it where the preferences (tips, contact ratio) are kept.
+        """
+        now = self.pair.profile_shift[0]
+        if wanted:
+            found = [first for line, first in self._own_crossed if line.name == wanted]
+            return sorted((round(first, 2) for first in found), key=lambda first: abs(first - now))
+        places = [first for line, first in self._own_crossed if line.blocks]
+        inside: set[float] = set()
+        for low, high in self._own_free:
+            ends = [low, *sorted(first for first in places if low < first < high), high]
+            for start, end in pairwise(ends):
+                inside |= {first for first in (at_least(start, 0.01), at_most(end, 0.01)) if start <= first <= end}
+        return sorted(inside, key=lambda first: abs(first - now))
+
+    def is_free(self, data: GearData) -> bool:
+        """Whether nothing that limits a pair is violated."""
+        found = [value_of(line, data) for line in self.lines if line.limits]
+        return all(value >= 0.0 or value != value for value in found) and _has_mesh(data)
+
+    @cached_property
+    def margins(self) -> dict[str, tuple[float | None, float | None]]:
+        """For each line how far x_1 may fall and rise, at the same shift sum, until the line is met [module]."""
+        one = self.pair.profile_shift[0]
+        found: dict[str, tuple[float | None, float | None]] = {}
+        for line in self.lines:
+            roots = [first for each, first in self._own_crossed if each.name == line.name]
+            below, above = [x - one for x in roots if x <= one], [x - one for x in roots if x > one]
+            found[line.name] = max(below, default=None), min(above, default=None)
+        return found
+
+    @property
+    def nearest_limits(self) -> tuple[tuple[str, float] | None, tuple[str, float] | None]:
+        """The limits that x_1 meets first when it falls, and when it rises, at the same shift sum, with the way."""
+        limits = [(line.name, self.margins[line.name]) for line in self.lines if line.limits]
+        below = [(name, ways[0]) for name, ways in limits if ways[0] is not None]
+        above = [(name, ways[1]) for name, ways in limits if ways[1] is not None]
+        return max(below, key=lambda end: end[1], default=None), min(above, key=lambda end: end[1], default=None)
+
+    def table(self) -> Table:
+        """The table `contour`: a row per point of a line."""
+        rows = [(name, x1, x2) for name, points in self.points.items() for x1, x2 in points]
+        columns: dict[str, tuple[Column, str]] = {
+            "line": ([row[0] for row in rows], "1"),
+            "x1": ([row[1] for row in rows], "1"),
+            "x2": ([row[2] for row in rows], "1"),
+        }
+        return Table.of("contour", columns)
+
+    def margin_table(self) -> Table:
+        """The table `margins`: each line with the value of the design and the way to it along the diagonal."""
+        values = [value_of(line, self.placed) for line in self.lines]
+        states = [_state(line, value) for line, value in zip(self.lines, values, strict=True)]
+        columns: dict[str, tuple[Column, str]] = {
+            "line": ([line.name for line in self.lines], "1"),
+            "state": (states, "1"),
+            "less_x1": ([self.margins[line.name][0] for line in self.lines], "1"),
+            "more_x1": ([self.margins[line.name][1] for line in self.lines], "1"),
+        }
+        return Table.of("margins", columns)
+
+
+def _state(line: Line, value: float) -> str:
+    return "" if not line.blocks or value != value else "good" if value >= 0.0 else "blocked"
+
+
+def _near(point: Pair, known: list[Pair]) -> bool:
+    return any(abs(point[0] - one) < _NEAR and abs(point[1] - other) < _NEAR for one, other in known)
+
+
+def _stretches(grid: list[float], crossed: list[tuple[Line, float]]) -> Iterator[Pair]:
+    """The pieces of a diagonal between its ends and the limits that cross it."""
+    return pairwise(sorted({grid[0], grid[-1], *(root for line, root in crossed if line.limits)}))
+
+
+def _joined(stretches: list[Pair]) -> list[Pair]:
+    """Stretches with those as one that touch, at a line that is met from inside on both sides."""
+    found: list[Pair] = []
+    for low, high in stretches:
+        touches = bool(found) and found[-1][1] == low
+        found.append((found.pop()[0] if touches else low, high))
+    return found
+
+
+def _roots_of(value: Callable[[float], float], grid: list[float], values: list[float]) -> list[float]:
+    found = []
+    for k in sign_changes(values):
+        try:
+            found.append(bracketed_root(value, grid[k], grid[k + 1], ends=(values[k], values[k + 1])))
+        except NoSolution:  # the value ends within the step
+            continue
+    return found

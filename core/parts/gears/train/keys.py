@@ -1,0 +1,190 @@
+"""Keys of the gears of a train, lists with an entry per gear: what teeth and drawings need beside the numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Deferred, Length
+from gearlink.core.parts.gears.keys.types import Hand, ToothKeys
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.keys.pair import PairKeys
+
+_LISTS = (
+    "profile_shift",
+    "helix_hand",
+    "tip_shortening",
+    "tool",
+    "face_width",
+    "rim_thickness",
+    "span_teeth",
+    "pin_diameter",
+)
+_OF_TEETH = ("tool", "helix_angle", "tip_shortening", "cutter", "span_teeth")
+RATED = ("load", "material")
+
+
+class TrainKeys(ToothKeys):
+    """The keys of a train, which a machine adds to its section `gears`."""
+
+    drawn: ClassVar[tuple[str, ...]] = ()
+    """Names of the gears, in the order of the lists."""
+
+    profile_shift: Annotated[Any, Deferred("parts.gears.train.key_sections:Shifts")] | None = Field(
+        None, description="profile shift coefficients, a list with one for each gear; left out: 0"
+    )
+    helix_hand: Annotated[Any, Deferred("parts.gears.train.key_sections:Hands")] | None = Field(
+        None, description="hands of helix, a list with one for each gear, for drawing and exports"
+    )
+    tip_shortening: Annotated[Any, Deferred("parts.gears.train.key_sections:TipShortenings")] | None = Field(
+        None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"
+    )
+    tool: Annotated[Any, Deferred("parts.gears.train.key_sections:Tools")] | None = Field(
+        None, description="rack tool of all gears, or of each; left out: straight to the addendum"
+    )
+    cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
+        None, description="pinion cutter of a ring: only then its fillets are known"
+    )
+    face_width: Annotated[Any, Deferred("parts.gears.train.key_sections:FaceWidths")] | None = Field(
+        None, description="face width of all gears, or of each"
+    )
+    rim_thickness: Annotated[Any, Deferred("parts.gears.train.key_sections:Rims")] | None = Field(
+        None, description="thickness of the rim under the tooth roots of all gears, or of each, for Y_B"
+    )
+    span_teeth: Annotated[Any, Deferred("parts.gears.train.key_sections:Spans")] | None = Field(
+        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+    )
+    pin_diameter: Annotated[Any, Deferred("parts.gears.train.key_sections:Pins")] | None = Field(
+        None, description="measuring balls or pins of all gears, or of each; left out: a preferred size"
+    )
+    allowances: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainAllowances")] | None = Field(
+        None, description="allowances of the tooth thickness of every gear"
+    )
+    center_distance_allowance: Literal["js7"] | Length | None = Field(
+        None, description="plus and minus of every centre distance: js7, or a number in mm"
+    )
+    assembly: Literal["axial", "radial"] | None = Field(None, description="how a gear is put into its ring")
+    load: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainLoad")] | None = Field(
+        None, description="load of the rating by ISO 6336; each free gear hands it on"
+    )
+    material: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainMaterial")] | None = Field(
+        None, description="materials, for the rating"
+    )
+
+    def gear_names(self) -> tuple[str, ...]:
+        """Names of the gears of this file, in the order of the lists."""
+        return self.drawn
+
+    def rings(self) -> tuple[bool, ...]:
+        """Which of them are rings."""
+        return (False,) * len(self.gear_names())
+
+    @model_validator(mode="after")
+    def _an_entry_for_each_gear(self) -> Self:
+        names = self.gear_names()
+        for key, value in self._lists():
+            if isinstance(value, list) and len(value) != len(names):
+                message = "{key} needs an entry for each gear ({names}), not {count}"
+                words = {"key": key, "names": ", ".join(names), "count": len(value)}
+                raise PydanticCustomError("GL107", message, words)
+        given = None if self.load is None else self.load.gear
+        if given is not None and given not in names:
+            message = "{key} must be one of {names}, not {given}"
+            words = {"key": "load.gear", "names": ", ".join(names), "given": given}
+            raise PydanticCustomError("GL108", message, words)
+        return self
+
+    def _lists(self) -> Iterator[tuple[str, Any]]:
+        """Every key that may be a list with an entry for each gear, and its value."""
+        yield from ((key, getattr(self, key)) for key in _LISTS)
+        for section in ("allowances", "material"):
+            yield from ((f"{section}.{key}", value) for key, value in getattr(self, section) or ())
+
+    @model_validator(mode="after")
+    def _fits_its_gears(self) -> Self:
+        rings = self.rings()
+        for key in ("cutter", "assembly"):
+            if getattr(self, key) is not None and not any(rings):
+                raise PydanticCustomError("GL111", "{key} goes with a ring gear: leave it out", {"key": key})
+        if self.helix_hand is None:
+            return self
+        if self.helix_angle == 0.0:
+            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        for (one, other), internal in zip(pairwise(self.helix_hand), map(any, pairwise(rings)), strict=True):
+            if (one == other) != internal:
+                message = "helix_hand: a gear and its ring have the same hand, two external gears opposite ones"
+                raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        return self
+
+    def hands(self) -> list[Hand]:
+        """Hands of helix, given or as the meshes need them: of a ring its mate's, of an external gear the other."""
+        found: list[Hand] = list(self.helix_hand or ("right",))
+        for ring in list(map(any, pairwise(self.rings())))[len(found) - 1 :]:
+            found.append(found[-1] if ring else "left" if found[-1] == "right" else "right")
+        return found
+
+    @property
+    def own_teeth(self) -> bool:
+        """Whether the teeth are not those of the standard spur profile without shift."""
+        shifted = self.profile_shift is not None and any(self.profile_shift)
+        other = any(getattr(self, key) not in (None, 0.0) for key in _OF_TEETH)
+        return shifted or other or (self.addendum, self.clearance) != (1.0, 0.25)
+
+    @property
+    def drawing(self) -> bool:
+        """Whether the file gives keys of a train: then it asks for its gears too."""
+        given = self.model_fields_set.intersection(TrainKeys.model_fields)
+        return any(getattr(self, key) is not None for key in given)
+
+    @property
+    def rated(self) -> bool:
+        """Whether the file asks for the strength of its teeth."""
+        return any(getattr(self, key) is not None for key in RATED)
+
+    @property
+    def transverse_module(self) -> float:
+        """m_t = m/cos(beta) [mm]; of spur gears the module itself."""
+        module = float(getattr(self, "module"))  # noqa: B009  # each machine has its own
+        return module / math.cos(math.radians(self.helix_angle)) if self.helix_angle else module
+
+    def shift(self, gear: int) -> float:
+        """x of a gear by its place in the lists."""
+        return 0.0 if self.profile_shift is None else self.profile_shift[gear]
+
+    def rim_at(self, gear: int, root_radius: float) -> float | None:
+        """Outer radius of a ring by its place in the lists [mm], as its rim_thickness gives it; None without one."""
+        given = self.rim_thickness
+        thickness = given[gear] if isinstance(given, list) else given
+        return None if thickness is None else abs(root_radius) + float(thickness)
+
+    def off_center(self, meshes: int) -> bool:
+        """Whether the profile shifts of one of the first meshes do not cancel, which moves its centre distance."""
+        return any(self.shift(i) + self.shift(i + 1) for i in range(meshes))
+
+    def of(self, one: int, other: int, module: float, pressure_angle: float) -> PairKeys:
+        """The keys of the mesh of two gears by their places in the lists, but for the load.
+
+        Parameters
+            one, other : int
+            module : float [mm]
+            pressure_angle : float [deg]
+        """
+        from gearlink.core.parts.gears.keys.pair import PairKeys
+        from gearlink.core.parts.gears.train.key_sections import entries
+
+        shared = PairKeys.model_fields.keys() & TrainKeys.model_fields.keys()
+        own = shared - {"allowances", "load", "material"}
+        given = entries({name: getattr(self, name) for name in own}, (one, other))
+        given["profile_shift"] = [self.shift(one), self.shift(other)]
+        if self.allowances is not None:
+            given["allowances"] = self.allowances.of((one, other))
+        if self.material is not None:
+            given["material"] = self.material.of((one, other))
+        return PairKeys(module=module, pressure_angle=pressure_angle, **given)

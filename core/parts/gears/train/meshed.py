@@ -1,0 +1,312 @@
+"""Designs whose gears mesh one after the other: the quantities, checks and drawings of their meshes.
+
+A design with one mesh gives its quantities by their plain names, one with several puts the name of the mesh before
+them, `crank_idler.span_measurement`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import NoSolution, at_key, in_section
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities
+from gearlink.core.parts.gears.codes import AT_LIMITS
+from gearlink.core.parts.gears.drawing_names import DERIVED, RATING, lacking
+from gearlink.core.parts.gears.train.names import TRAIN_CHECKS, TRAIN_QUANTITIES
+from gearlink.core.parts.gears.train.single_mesh import (
+    MESH_CHECKS,
+    MESH_QUANTITIES,
+    RING_TIPS,
+    mesh_checks,
+    mesh_quantity,
+)
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.data import GearData
+    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+    from gearlink.core.parts.gears.train.meshes import Train
+
+    AnyMesh = GearPair | InternalMesh
+
+QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
+_OF_MESHES, _OF_PAIRS = frozenset(QUANTITIES), frozenset(MESH_QUANTITIES)
+_LEAST_AND_GREATEST = ("backlash_circumferential", "backlash_normal")
+"""Pairs that are not of two gears."""
+
+
+def named(meshes: tuple[str, ...]) -> tuple[str, ...]:
+    """The quantities of meshes by their names."""
+    return tuple(f"{mesh}.{name}" for mesh in meshes for name in QUANTITIES)
+
+
+class Meshed(GearQuantities, Design):
+    """A design with gears in mesh, whose section `gears` has the keys of a train."""
+
+    derived = DERIVED | {"output_play"}
+    own_quantities: ClassVar[frozenset[str]] = frozenset()
+    """Quantities of a mesh that the design gives itself under their plain names."""
+
+    # What a machine says of its gears
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Teeth of the gears that mesh one after the other, in the order of the file's lists; rings negative."""
+        raise NotImplementedError
+
+    @property
+    def mesh_names(self) -> tuple[str, ...]:
+        """Names of the meshes; empty for an only one."""
+        return ("",)
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """Links of the file that are working centre distances [mm]; they count where it gives profile shifts too."""
+        return (None,) * len(self.mesh_names)
+
+    def rim_of(self, _mesh: str, /) -> float | None:
+        """Outer radius of the ring of a mesh [mm], where the file gives it."""
+        found: float | None = getattr(self.spec.gears, "rim", None)
+        return found
+
+    def outer_rim(self, name: str = "") -> float | None:
+        """Outer radius of the ring of a mesh [mm], by `rim` or by its rim_thickness; None without either."""
+        given = self.rim_of(name)
+        if given is not None or self.spec.gears.rim_thickness is None:
+            return given
+        place = self.teeth_train.places[self.mesh_names.index(name)]
+        found: float | None = self.spec.gears.rim_at(place.gears[1], self.meshes[name].root_radius[1])
+        return found
+
+    @classmethod
+    def tables_of_page(cls, command: str, spec: Any) -> tuple[str, ...]:
+        """The gear tables, where the file has keys of a drawing."""
+        return ("drawing",) if command == "gear" and spec.gears.drawing else ()
+
+    # The meshes
+
+    @cached_property
+    def teeth_train(self) -> Train:
+        """The meshes with the keys of the file."""
+        from gearlink.core.parts.gears.train.meshes import Train
+
+        return Train(self.spec.gears, self.signed_teeth, self._distances)
+
+    @property
+    def _distances(self) -> tuple[float | None, ...]:
+        """Links of the file that count as working centre distances [mm]."""
+        return self.given_distances if self.spec.gears.profile_shift is not None else (None,) * len(self.mesh_names)
+
+    @cached_property
+    def own_teeth(self) -> bool:
+        """Whether the teeth are not those of the standard profile at the reference centre distance."""
+        return bool(self.spec.gears.own_teeth or any(self._distances))
+
+    @cached_property
+    def meshes(self) -> dict[str, AnyMesh]:
+        """The meshes by name; a ring is the second gear of its pair."""
+        if self.own_teeth:
+            return dict(self._own_pairs)
+        with at_key("gears"):
+            return {name: self._standard(name, i) for i, name in enumerate(self.mesh_names)}
+
+    @cached_property
+    def _own_pairs(self) -> dict[str, GearPair]:
+        """Pairs by the keys of the file, in which a ring has negative teeth."""
+        with in_section("gears"):
+            found = dict(zip(self.mesh_names, self.teeth_train.pairs(), strict=True))
+        for name, pair in found.items():
+            rim, root = self.rim_of(name), abs(pair.root_radius[1])
+            if pair.internal and rim is not None and rim <= root:
+                raise NoSolution(
+                    f"the rim's radius {rim:g} mm lies within the root circle of the ring gear, {root:.6g} mm: make "
+                    "it larger",
+                    key="gears.rim",
+                )
+        return found
+
+    def _standard(self, name: str, place: int) -> AnyMesh:
+        gears, (one, other) = self.spec.gears, self.signed_teeth[place : place + 2]
+        alpha = math.radians(gears.pressure_angle)
+        if min(one, other) > 0:
+            from gearlink.core.parts.gears.mesh.pair import GearPair
+
+            return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+        from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+
+        return InternalMesh(gears.module, (max(one, other), -min(one, other)), alpha, rim=self.rim_of(name))
+
+    @property
+    def mesh(self) -> AnyMesh:
+        """The mesh of a design with one."""
+        return self.meshes[""]
+
+    def distance(self, name: str = "") -> float:
+        """Working centre distance of a mesh [mm]."""
+        return abs(self.meshes[name].center_distance)
+
+    @cached_property
+    def mesh_data(self) -> dict[str, GearData]:
+        """The meshes with all that their drawing needs; a ring is the second gear of its pair."""
+        train, pairs = self.teeth_train, self._own_pairs  # whose refusals name the section already
+        with in_section("gears"):
+            found = zip(self.mesh_names, train.places, pairs.values(), strict=True)
+            return {name: train.data(place, pair, self.rim_of(name)) for name, place, pair in found}
+
+    def widths_of(self, name: str = "") -> tuple[float, float] | None:
+        """Face widths of the gears of a mesh [mm], a ring's second; None where the file has none."""
+        return None if self.spec.gears.face_width is None else self.mesh_data[name].face_width
+
+    def require_proportion(self) -> None:
+        """Refuse profile shifts that move a centre distance: the forms of a synthesis have links as the teeth say.
+
+        Raises
+            NoSolution
+        """
+        if self.spec.gears.off_center(len(self.mesh_names)):
+            example = "[x, -x, x]" if len(self.mesh_names) > 1 else "[x, -x]"
+            raise NoSolution(
+                f"a synthesis needs profile shifts that add up to 0 in each mesh, such as {example}: links in "
+                "proportion to the teeth",
+                key="gears.profile_shift",
+            )
+
+    # Quantities
+
+    def outline(self, command: str) -> Outline:
+        """The strength of teeth is shown where the file asks for it."""
+        found = super().outline(command)
+        if command != "gear" or self.spec.gears.rated:
+            return found
+        shown = tuple(name for name in found.quantities if name.rpartition(".")[2] not in RATING)
+        return found._replace(quantities=shown)
+
+    def raw(self, name: str) -> Any:
+        """The quantities of the meshes, and the design's own."""
+        mesh, _, quantity = name.rpartition(".")
+        if quantity not in _OF_MESHES or (not mesh and name in self.own_quantities):
+            return super().raw(name)
+        if mesh not in self.mesh_names:
+            return None
+        with at_key("gears"):
+            found = self._of_mesh(mesh, quantity)
+        swapped = self._swapped(mesh) and quantity not in _LEAST_AND_GREATEST
+        return found[::-1] if swapped and isinstance(found, tuple) else found
+
+    def _swapped(self, mesh: str) -> bool:
+        """Whether a ring stands before its mate: the first gear of its mesh, the second of its pair."""
+        return mesh in self._rings_first
+
+    @cached_property
+    def _rings_first(self) -> frozenset[str]:
+        return frozenset(name for name, teeth in zip(self.mesh_names, self.signed_teeth, strict=False) if teeth < 0)
+
+    def _of_mesh(self, name: str, quantity: str) -> Any:
+        mesh = self.meshes[name]
+        found = mesh_quantity(mesh, quantity) if quantity in _OF_PAIRS else None
+        if found is not None or not _has_involutes(mesh):
+            return found
+        if quantity not in GEAR_QUANTITIES:
+            return self.mesh_data[name].quantity(quantity)
+        return None if mesh is self._own_pairs[name] else mesh_quantity(self._own_pairs[name], quantity)
+
+    @property
+    def output_play(self) -> tuple[float, float] | None:
+        """Free turn of the last gear while the first and all links stand [rad], least and greatest.
+
+        sum over the meshes of j_phi z/z_last, j_phi the free turn of the second gear of a mesh, z its teeth
+
+        Source
+            own derivation: plays of a train add up at the pitch circles
+        """
+        data, teeth = self.mesh_data, self.signed_teeth
+        if any(each.backlash is None for each in data.values()):
+            return None
+        found = [self.raw(f"{name}.backlash_angle" if name else "backlash_angle") for name in data]
+        turns = [each[1] for each in found if each is not None]
+        if len(turns) < len(found):  # a ring whose tips have no involute
+            return None
+        shares = [abs(z / teeth[-1]) for z in teeth[1:]]
+        least, greatest = (
+            math.fsum(turn[end] * share for turn, share in zip(turns, shares, strict=True)) for end in (0, 1)
+        )
+        return least, greatest
+
+    def needs(self, name: str) -> str:
+        """The keys that a mesh lacks for a quantity."""
+        return lacking(name.rpartition(".")[2], self.spec.gears, "gears.")
+
+    def rests_on(self, name: str) -> str:
+        """The factors of the rating."""
+        mesh, _, quantity = name.rpartition(".")
+        if quantity not in RATING:
+            return ""
+        from gearlink.core.parts.gears.drawing_checks import rests_on
+
+        return rests_on(quantity, self.mesh_data[mesh])
+
+    def table_drawing(self, _samples: int | None = None) -> Table:
+        """The gear tables of the meshes, one below the other."""
+        from gearlink.core.parts.gears.train.drawing import drawings
+
+        with at_key("gears"):
+            return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
+
+    # Checks
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks run over all meshes."""
+        if name in MESH_CHECKS:
+            return [check for mesh in self.mesh_names for check in self.check_mesh(name, mesh)]
+        if name not in TRAIN_CHECKS:
+            return super().check(name)
+        if not self._judged(name):
+            return []
+        from gearlink.core.parts.gears.train.drawing import judgement
+
+        with at_key("gears"):
+            known = {mesh: data for mesh, data in self.mesh_data.items() if _has_involutes(self.meshes[mesh])}
+            found = judgement(name, known, self.spec)
+        return [self._in_order(check, mesh) for mesh, checks in found.items() for check in checks]
+
+    def check_mesh(self, name: str, mesh: str) -> list[Check]:
+        """The findings of one of MESH_CHECKS on one mesh."""
+        return [self._in_order(check, mesh) for check in self._mesh_check(name, mesh)]
+
+    def _in_order(self, check: Check, mesh: str) -> Check:
+        """A finding whose gears 1 and 2 are those of the file's lists."""
+        if not self._swapped(mesh):
+            return check
+        words = check.message.replace("gear 1", "gear \0").replace("gear 2", "gear 1").replace("gear \0", "gear 2")
+        return replace(check, message=words)
+
+    def _mesh_check(self, name: str, label: str) -> list[Check]:
+        mesh, limits, shifts = self.meshes[label], self.spec.limits, self.spec.gears.profile_shift is not None
+        if name == RING_TIPS and self.own_teeth:
+            return []  # judged by the check that knows the tool
+        if self.own_teeth and (self.spec.gears.helix_angle or self._own_pairs[label].internal):
+            from gearlink.core.parts.gears.drawing_checks import pair_check
+
+            return pair_check(name, self.mesh_data[label], limits, mesh=label, shifts=shifts)
+        return mesh_checks(name, mesh, limits, label, shifts)
+
+    def _judged(self, name: str) -> bool:
+        """Whether the file gives what a check of the drawing or of the strength needs."""
+        gears = self.spec.gears
+        needed = {
+            "radial-assembly": (gears.assembly, gears.cutter),
+            "fillet-interference": (self.own_teeth or None,),
+            **dict.fromkeys(AT_LIMITS, (gears.center_distance_allowance,)),
+            "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
+        }.get(name, (gears.load,))
+        return any(each is not None for each in needed)
+
+
+def _has_involutes(mesh: AnyMesh) -> bool:
+    """Whether the tips of a ring reach its involutes; where not, a check fails and says so."""
+    return not hasattr(mesh, "ring_tip_margin") or mesh.ring_tip_margin >= 0.0

@@ -1,0 +1,218 @@
+"""The longest dwell of any output within a band: it stays within +- tol of a place that is free to choose."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.roots import bracketed_root
+
+_TURN = 2.0 * math.pi
+_FIT = 1e-13
+
+
+class ToleranceDwell(NamedTuple):
+    """A dwell within a tolerance.
+
+    start : float [rad] - crank angle of its start, in [0, 2 pi)
+    crank_angle : float [rad] - its length
+    output_angle : float [rad] - the middle of the output's range there, counted from the crank angle 0 with
+        the start as it stands
+    """
+
+    start: float
+    crank_angle: float
+    output_angle: float
+
+
+class Valley(NamedTuple):
+    """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
+
+    first, second : phi(1), phi(2), or the least speed's place twice; low, high : the greatest speed's before and after
+    mean : output turns per crank turn, positive
+    """
+
+    angle: Callable[[float], float]
+    speed: Callable[[float], float]
+    first: float
+    second: float
+    low: float
+    high: float
+    mean: float
+
+    def reach(self, level: float, left: float, right: float) -> float:
+        """Crank angle between two others where the output passes a level."""
+        f_left, f_right = self.angle(left) - level, self.angle(right) - level
+        if f_left * f_right >= 0.0:
+            return left if abs(f_left) < abs(f_right) else right
+        return bracketed_root(lambda phi: self.angle(phi) - level, left, right, ends=(f_left, f_right))
+
+    def before(self, level: float) -> float:
+        """Crank angle where the output last passes a level before its standstills."""
+        beyond = level < self.angle(self.low)
+        return self.reach(level, self.second - _TURN, self.low) if beyond else self.reach(level, self.low, self.first)
+
+    def after(self, level: float) -> float:
+        """Crank angle where the output first passes a level after its standstills."""
+        beyond = level > self.angle(self.high)
+        return self.reach(level, self.high, self.first + _TURN) if beyond else self.reach(level, self.second, self.high)
+
+
+def least_band(valley: Valley, window: float) -> float:
+    """Least tolerance of a window that holds both standstills.
+
+    tau = (phi5(L + window) - phi5(L))/2,   phi5(L) <= phi5(2),   phi5(L + window) >= phi5(1)
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        window : float [rad] - at least that of equal ripple, which has no room to either side; see `band_of_window`
+    Returns
+        tolerance : float [rad]
+    Notes
+        The inverse of `longest_in_band` where the band is at least as wide as the back-step.
+
+    Source
+        own derivation
+    """
+    top, bottom = valley.angle(valley.first), valley.angle(valley.second)
+    first, last = valley.after(top) - window, valley.before(bottom)
+
+    def gain(left: float) -> float:
+        return valley.speed(left + window) - valley.speed(left)
+
+    if first >= last or (most := gain(last)) <= 0.0:
+        left = last
+    elif (least := gain(first)) >= 0.0:
+        left = first
+    else:
+        left = bracketed_root(gain, first, last, ends=(least, most))
+    return 0.5 * max(valley.angle(left + window) - valley.angle(left), top - bottom)
+
+
+def band_of_window(valley: Valley, window: float) -> float:
+    """Least tolerance of a window that holds both standstills, or one where the back-step is wider than its band.
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        window : float [rad] - positive
+    Returns
+        tolerance : float [rad]
+    Notes
+        The inverse of `longest_in_band`, whose window jumps where the back-step fills the band: windows inside of the
+        jump have its tolerance, by `least_band`.
+
+    Source
+        own derivation
+    """
+    found = [each for each in (_about_top(valley, window), _about_bottom(valley, window)) if each is not None]
+    return min(found) if found else least_band(valley, window)
+
+
+def _about_top(valley: Valley, window: float) -> float | None:
+    """Least tolerance of a window about phi(1) that ends before phi(2); None where it is too long for that."""
+    first, last = valley.first - window, min(valley.first, valley.second - window)
+    left = _of_one_level(valley, window, first, last)
+    return None if left is None else 0.5 * (valley.angle(valley.first) - valley.angle(left))
+
+
+def _about_bottom(valley: Valley, window: float) -> float | None:
+    """The same about phi(2), begun after phi(1)."""
+    first, last = max(valley.second - window, valley.first), valley.second
+    left = _of_one_level(valley, window, first, last)
+    return None if left is None else 0.5 * (valley.angle(left) - valley.angle(valley.second))
+
+
+def _of_one_level(valley: Valley, window: float, first: float, last: float) -> float | None:
+    """Start of a window, between two places, at whose ends the output stands alike."""
+
+    def gain(left: float) -> float:
+        return valley.angle(left + window) - valley.angle(left)
+
+    ends = gain(first), gain(last)
+    if valley.first == valley.second or ends[0] * ends[1] > 0.0:
+        return None
+    return bracketed_root(gain, first, last, ends=ends)
+
+
+def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
+    """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
+
+    phi5(R) - phi5(L) = 2 tol  and  W(L) = W(R) >= 0,   both standstills between L and R;
+    with a back-step D > 2 tol instead  phi5(L) = phi5(R) = phi5(1) - 2 tol  or  phi5(2) + 2 tol, the longer
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        tolerance : float [rad] - 0 < tol < pi times the mean ratio
+    Returns
+        dwell : ToleranceDwell [rad]
+    Raises
+        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+    Notes
+        Bracketed roots inside a bracketed root; the angle rises outside of the standstills, and what the window leaves
+        of the turn has one greatest speed. Where W(L) = W(R) cannot hold with both standstills inside, the end that
+        binds is taken: of long windows with both ends beyond the greatest speed, too. At
+        tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
+    Example
+        >>> eased = Valley(lambda x: x - math.sin(x), lambda x: 1.0 - math.cos(x), 0.0, 0.0, -math.pi, math.pi, 1.0)
+        >>> round(longest_in_band(eased, math.pi / 2.0 - 1.0).crank_angle, 12)
+        3.14159265359
+
+    Source
+        own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
+    """
+    limit = math.pi * valley.mean
+    if not 0.0 < tolerance < limit:
+        raise NoSolution(
+            f"the tolerance of the dwell is {math.degrees(tolerance):.9g} deg; it must be positive and below "
+            f"{math.degrees(limit):.9g} deg, half of what the output gains in a turn of the crank"
+        )
+    drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
+    # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.
+    if drop > 2.0 * tolerance * (1.0 + _FIT) + _FIT * limit:
+        left, right, middle = _around_one_extreme(valley, tolerance)
+    else:
+        left, right, middle = _around_both(valley, tolerance, drop)
+    start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole turn by the first
+    return ToleranceDwell(start, right - left, middle - valley.mean * (left - start))
+
+
+def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, float, float]:
+    """Interval that holds both standstills; p is what the output rises from L to its place at phi(2)."""
+    bottom = valley.angle(valley.second)
+    spare = max(0.0, 2.0 * tolerance - drop)
+    top = bottom + drop
+
+    def ends(p: float) -> tuple[float, float]:
+        return valley.before(bottom - p), valley.after(top + spare - p)
+
+    def gain(p: float) -> float:
+        left, right = ends(p)
+        return valley.speed(right) - valley.speed(left)
+
+    if (first := gain(0.0)) <= 0.0:
+        p = 0.0
+    elif (last := gain(spare)) >= 0.0:
+        p = spare
+    else:
+        p = bracketed_root(gain, 0.0, spare, ends=(first, last))
+    left, right = ends(p)
+    return left, right, bottom - p + tolerance
+
+
+def _around_one_extreme(valley: Valley, tolerance: float) -> tuple[float, float, float]:
+    """The longer of the intervals around the place of phi(1) and that of phi(2), for a back-step above 2 tol."""
+    top, bottom = valley.angle(valley.first), valley.angle(valley.second)
+    floor, ceiling = top - 2.0 * tolerance, bottom + 2.0 * tolerance
+    before = (
+        valley.reach(floor, valley.second - _TURN, valley.first),
+        valley.reach(floor, valley.first, valley.second),
+    )
+    after = (
+        valley.reach(ceiling, valley.first, valley.second),
+        valley.reach(ceiling, valley.second, valley.first + _TURN),
+    )
+    if before[1] - before[0] >= after[1] - after[0]:
+        return *before, floor + tolerance
+    return *after, ceiling - tolerance

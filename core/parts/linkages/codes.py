@@ -1,0 +1,126 @@
+"""The rules that the checks of several linkages judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+GEAR_COLLISION = Rule(
+    "GL301",
+    "gears collide",
+    "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle; "
+    "where that is below 0 and lets them overlap, a warning.",
+    "A gear on the crank pin travels: its least distance counts, not the frame length. The source's own example 3 "
+    "compares the tip circles with the frame length and misses a collision of 1.6 mm.",
+    "Lengthen the frame or shorten the crank by the missing amount, or take smaller gears; in a synthesis a larger "
+    "idler; in a five-bar with an idler a longer frame, as far as the idler reaches.",
+    "least distance of the axes over the cycle - both tip radii >= limits.gear_gap; gears 1 and 5 of a three-gear "
+    "four-bar: |l4 - l1| - m (z1 + z5)/2 - 2 m",
+    "own derivation; thesis 4.2.2, 4.2.3 with the distance at the closest",
+    ("gear-collision",),
+    ("links", "momentary", "back_step", "dwell", "speed", "gears"),
+)
+SHAFT_CLEARANCE = Rule(
+    "GL302",
+    "gear, rim or roller reaches a shaft",
+    "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
+    "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
+    "takes (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis of its "
+    "rocker, gripper or drum than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that "
+    "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole turn, beside "
+    "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
+    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; a gripper's "
+    "limits.least_shaft stands in place of its roller's radius. So are the links of a wide swing (device, slider's rod "
+    "and arm, drive, the arm of an internal profile's roller) and a gear whose own shaft leaves less rim below its "
+    "teeth than half their height.",
+    "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
+    "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
+    "that it is checked.",
+    "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
+    "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
+    "greater of the two, each at its least over the cycle (below 0 what a shaft lacks to stay within, or without, "
+    "all round, and not how deep it is in the ring at a moment); links as lines of no width; rim = m (z/2 + 3.25) or "
+    "gears.rim; root radius - radius of the own shaft >= h/2",
+    "own derivation; the least rim: ISO 6336-3",
+    ("shaft-clearance", "shaft-seat", "body-clearance"),
+    ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
+)
+TRANSMISSION_ANGLE = Rule(
+    "GL303",
+    "transmission angle too small",
+    "The angle between coupler and driven link, counted up to 90 deg, falls below limits.transmission_angle.",
+    "The force along the coupler then hardly turns the driven link: joints are loaded heavily and play shows.",
+    "Bring coupler and driven link nearer to a right angle: shorten the crank, take a larger idler, or a shorter "
+    "frame in a drag link; of a slider lengthen the rod.",
+    "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the diagonal from the crank "
+    "pin; of a rod and its slide line 90 deg less the rod's lean; fails below the limit, warns less than 5 deg above "
+    "it; below 3 deg the message names the condition number 1/sin(mu)",
+    "VDI 2142; thesis 4.2",
+    ("transmission-angle",),
+    (
+        *("links", "cylinder.double_crank", "bed.double_crank", "drive", "slider"),
+        *("back_step", "dwell", "speed", "momentary", "gears"),
+    ),
+)
+TARGET = Rule(
+    "GL307",
+    "target of a synthesis missed",
+    "The design that was found misses what `target` asks for by more than the tolerance.",
+    "The residual is measured on the motion that the design makes, not on the equations of the search.",
+    "Ask for less, free more of the links, or start from other links.",
+    "residual = value reached - value asked for",
+    "own derivation",
+    ("target",),
+    ("target", "target.swing", "back_step.angle", "links"),
+    side="<=",
+)
+TRAIN_FIT = Rule(
+    "GL308",
+    "gear train does not fit the linkage",
+    "A gear in the middle of a train is fixed, neighbours do not sit on one link, a centre distance is not the "
+    "link's length, a ring is too small for the gear in it, or what the gears are fixed to holds them fast.",
+    "Gears stay in mesh only where one link keeps their distance; only the ends of a train may be fixed to links.",
+    "Put neighbours on two pins of one link, fix end gears only, and to a link that carries their pin.",
+    "dF = 3 (J - R) - 2 (J - R) - (J - 1) = 1 - R",
+    "thesis 2.1",
+    ("train-fit",),
+    ("trains", "links"),
+)
+MOBILITY = Rule(
+    "GL309",
+    "degrees of freedom are not those wanted",
+    "Linkage and trains together have another number of degrees of freedom than `mobility` asks for, or the number is "
+    "right only because joints and trains that say again what others say are counted.",
+    "With none the mechanism is locked; with two it needs a second input.",
+    "Fix or free end gears: a train takes R - 1 degrees of freedom away.",
+    "F = F_linkage + sum(1 - R_i)",
+    "thesis 2.1",
+    ("mobility",),
+    ("mobility", "trains"),
+    side="",
+)
+DWELL_WINDOW = Rule(
+    "GL313",
+    "window of the dwell shorter than asked for",
+    "The output leaves the band of +-tolerance before the crank has turned through the window.",
+    "The machine works while the output is taken to stand: what it does there is off by more than the tolerance.",
+    "Give links.frame or links.crank a length that the finding names; else ask for a shorter window, allow a greater "
+    "tolerance, or take other teeth: with three gears an idler of fewer.",
+    "longest crank angle with |phi5 - middle| <= tolerance, against dwell.window or dwell_window",
+    "own derivation; thesis 4.2.1 speaks of a dwell within usual deviations",
+    ("dwell-window",),
+    ("dwell.window", "links", "dwell_window", "dwell"),
+)
+DWELL_EDGE = Rule(
+    "GL314",
+    "dwell close to its jump",
+    "The back-step nearly fills the band, or the frame lengths that meet the request lie close together.",
+    "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
+    "the window falls at once to three quarters.",
+    "Ask for less: a shorter window, or with a tolerance alone margin at its default; or hold the frame to the "
+    "interval that is given.",
+    "0.992 < D/(2 tolerance) <= 1, or frame_length_interval below 0.05 mm",
+    "own derivation: the longest window has D = 2 tolerance",
+    ("dwell-edge",),
+    ("dwell.margin", "dwell.tolerance", "dwell"),
+    side="<=",
+)

@@ -1,0 +1,24 @@
+"""What a synthesis is asked for where the output is to stand within a tolerance."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from gearlink.core.base.spec import Spec
+from gearlink.core.parts.linkages.spec_parts import DwellTolerance
+
+
+class DwellBand(Spec):
+    """A dwell within a tolerance: a crank angle, a tolerance, or both."""
+
+    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output stays within +-tolerance"
+    )
+    tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
+        None, description="output tolerance +- of the window; alone: the longest window is sought"
+    )
+    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
+    )

@@ -1,0 +1,113 @@
+"""What the output of a gear-linkage feeds: a chain, a roller's web or a belt on its shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.real_speed import RealSpeed
+
+if TYPE_CHECKING:
+    from gearlink.core.base.report import Column
+    from gearlink.core.parts.linkages.spec_sections import Feed
+
+FEED_QUANTITIES = (
+    "feed_radius",
+    "feed_per_turn",
+    "feed_back_step",
+    "chain_ripple",
+    "feed_velocity_max",
+    "feed_velocity_min",
+    "feed_velocity_mean",
+    "feed_acceleration_max",
+    "feed_acceleration_min",
+)
+
+
+def feed_radius(feed: Feed) -> float:
+    """Radius at which the output's angle becomes travel.
+
+    roller: r,   belt: r + s/2,   chain: z p/(2 pi), by which a turn feeds z pitches
+
+    Parameters
+        feed : Feed - lengths [mm]
+    Returns
+        radius : float [mm] - times the ratio of feed shaft and output
+    Source
+        thesis 3.3.2: chain, roller or belt carry the product
+    """
+    ratio: float = feed.ratio
+    if feed.pitch is not None and feed.teeth is not None:
+        return ratio * feed.teeth * feed.pitch / (2.0 * math.pi)
+    return ratio * ((feed.radius or 0.0) + 0.5 * feed.belt_thickness)
+
+
+def _fed_per_time(name: str, order: int) -> Any:
+    """A ratio of the output's motion as that of what is fed [mm/s^order]; None without `feed` or `input_speed`."""
+
+    def value(design: Any) -> Any:
+        if design.spec.feed is None or design.angular_speed is None:
+            return None
+        return getattr(design, name) * design.angular_speed**order * design.feed_radius
+
+    return property(value, doc=f"`{name}` of what is fed, in real time.")
+
+
+class FeedResults(RealSpeed):
+    """Results of a design whose file may have a section `feed`; None of them without it."""
+
+    mean_ratio: Any
+    back_step_angle: Any
+
+    @property
+    def feed_radius(self) -> float | None:
+        """Radius at which the output's angle becomes travel [mm]."""
+        return None if self.spec.feed is None else feed_radius(self.spec.feed)
+
+    @property
+    def feed_per_turn(self) -> float | None:
+        """Net travel per turn of the input [mm]."""
+        return self._fed(2.0 * math.pi * self.mean_ratio) if self.spec.feed is not None else None
+
+    @property
+    def feed_back_step(self) -> float | None:
+        """How far the travel goes back [mm]."""
+        return self._fed(self.back_step_angle) if self.spec.feed is not None else None
+
+    @property
+    def chain_ripple(self) -> float | None:
+        """Share by which a chain's speed falls between two teeth, 1 - cos(pi/z); none without a chain."""
+        feed = self.spec.feed
+        return None if feed is None or feed.teeth is None else 2.0 * math.sin(0.5 * math.pi / feed.teeth) ** 2
+
+    feed_velocity_max: float | None = _fed_per_time("speed_ratio_max", 1)
+    feed_velocity_min: float | None = _fed_per_time("speed_ratio_min", 1)
+    feed_velocity_mean: float | None = _fed_per_time("mean_ratio", 1)
+    feed_acceleration_max: float | None = _fed_per_time("acceleration_ratio_max", 2)
+    feed_acceleration_min: float | None = _fed_per_time("acceleration_ratio_min", 2)
+
+    def _fed(self, angle: float | None) -> float | None:
+        return None if angle is None or self.feed_radius is None else angle * self.feed_radius
+
+    def timed(
+        self, columns: Mapping[str, tuple[Column, str]], angle: str, rates: Mapping[str, tuple[str, int]]
+    ) -> dict[str, tuple[Column, str]]:
+        """As `RealSpeed.timed`; what is fed after it, where the table has the output's motion."""
+        whole, radius = super().timed(columns, angle, rates), self.feed_radius
+        if radius is None or "speed_ratio" not in columns:
+            return whole
+        whole["feed_travel"] = (radius * math.pi / 180.0 * _array(columns["output_angle"][0]), "mm")
+        for name, column, unit in (
+            ("feed_velocity", "output_speed", "mm/s"),
+            ("feed_acceleration", "output_acceleration", "mm/s^2"),
+        ):
+            if column in whole:
+                whole[name] = (radius * _array(whole[column][0]), unit)
+        return whole
+
+
+def _array(data: Any) -> Any:
+    import numpy as np
+
+    return np.asarray(data)

@@ -1,0 +1,241 @@
+"""The loop equation of a four-bar that one link drives: the triangle of the other two, its angles and rates.
+
+With n = |BD| and the half crank angle, everything follows from three sums of two terms,
+
+    n^2 = n_0 cos^2(phi/2) + n_pi sin^2(phi/2)                      n_0 = (d-a)^2,  n_pi = (d+a)^2
+    P = (b+c)^2 - n^2 = p_0 cos^2(phi/2) + p_pi sin^2(phi/2)        P >= 0: coupler and rocker reach
+    Q = n^2 - (b-c)^2 = q_0 cos^2(phi/2) + q_pi sin^2(phi/2)        Q >= 0: coupler and rocker fold
+
+whose end values are products of correctly rounded sums of the four lengths. The terms are not negative where the
+crank turns fully, so a dead centre on the line of the frame, and a change point, cost no digits.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+
+
+class Reading(NamedTuple):
+    """Constants of one reading of the loop: `a` drives, its pivot is the origin, the other pivot is (d, 0).
+
+    `d` is negative in the inverse reading. n, p, q: values of n^2, P, Q at driving angles 0 and pi;
+    e = b^2 - c^2, f = (a^2 - d^2)/2; s = +1 where C lies left of the vector B->D.
+    """
+
+    a: float
+    b: float
+    c: float
+    d: float
+    s: int
+    n_0: float
+    n_pi: float
+    p_0: float
+    p_pi: float
+    q_0: float
+    q_pi: float
+    e: float
+    f: float
+
+
+def make_reading(a: float, b: float, c: float, d: float, s: int) -> Reading:
+    """Constants from the lengths; every factor is a correctly rounded sum."""
+    total = math.fsum
+    return Reading(
+        *(a, b, c, d, s),
+        n_0=(d - a) ** 2,
+        n_pi=(d + a) ** 2,
+        p_0=total((a, b, c, -d)) * total((-a, b, c, d)),
+        p_pi=total((-a, b, c, -d)) * total((a, b, c, d)),
+        q_0=total((-a, -b, c, d)) * total((-a, b, -c, d)),
+        q_pi=total((a, -b, c, d)) * total((a, b, -c, d)),
+        e=(b - c) * (b + c),
+        f=0.5 * (a - d) * (a + d),
+    )
+
+
+def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, float, float]) -> list[float]:
+    """Coupler, rocker and transmission angle, then pairs (coupler, rocker) of rates up to the order.
+
+    The rocker angle of an inverse reading is short of half a turn.
+    """
+    if not (0 <= order <= 3):
+        raise ValueError(f"order is {order}; the rates go from 0 to 3")
+    s, e = reading.s, reading.e
+    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
+    winding, nu = _to_far_pivot(reading, phi, sin_phi, cc, ss)
+    b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
+    result = [winding + b, winding + c, math.atan2(r, z)]
+    if order > 0:
+        result += _rates(reading, sin_phi, (cc, ss), n2, r, z, order, motion)
+    return result
+
+
+def rates_of(reading: Reading, phi: float, order: int) -> tuple[float, float]:
+    """Rates of coupler and rocker of that order by the driving angle: those of `solve_loop`, to the last bit, without
+    its angles."""
+    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
+    *_, coupler, rocker = _rates(reading, sin_phi, (cc, ss), n2, r, z, order, (1.0, 0.0, 0.0))
+    return coupler, rocker
+
+
+def rocker_and_rate(reading: Reading, phi: float) -> tuple[float, float]:
+    """Rocker angle and its rate by the driving angle: those of `solve_loop`, to the last bit, and nothing else."""
+    s, e = reading.s, reading.e
+    sin_phi, cc, ss, n2, r, _ = _triangle(reading, phi, 1)
+    winding, nu = _to_far_pivot(reading, phi, sin_phi, cc, ss)
+    return winding + (nu + s * math.atan2(r, e - n2)), _rocker_rate(reading, sin_phi, cc, ss, n2, r)
+
+
+def rocker_rate(reading: Reading, phi: float) -> float:
+    """The rate of `rocker_and_rate` alone."""
+    sin_phi, cc, ss, n2, r, _ = _triangle(reading, phi, 1)
+    return _rocker_rate(reading, sin_phi, cc, ss, n2, r)
+
+
+def _triangle(reading: Reading, phi: float, order: int) -> tuple[float, float, float, float, float, float]:
+    """sin(phi), the squares of cosine and sine of phi/2, n^2, R and (P - Q)/2."""
+    if not math.isfinite(phi):
+        raise NoSolution(refusal(reading, phi, math.nan, math.nan))
+    _, _, _, _, _, n_0, n_pi, p_0, p_pi, q_0, q_pi, _, _ = reading
+    sin_half, cos_half = math.sin(0.5 * phi), math.cos(0.5 * phi)
+    ss, cc = sin_half * sin_half, cos_half * cos_half
+    n2 = n_0 * cc + n_pi * ss
+    p = p_0 * cc + p_pi * ss
+    q = q_0 * cc + q_pi * ss
+    pq = p * q
+    if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
+        raise NoSolution(refusal(reading, phi, p, q))
+    return 2.0 * sin_half * cos_half, cc, ss, n2, math.sqrt(pq), 0.5 * (p - q)
+
+
+def _to_far_pivot(reading: Reading, phi: float, sin_phi: float, cc: float, ss: float) -> tuple[float, float]:
+    """Direction of D seen from B in two parts: what winds with the driving link, and the rest."""
+    a, d = reading.a, reading.d
+    if a > abs(d):
+        # Wind with the crank: arg(D - B) = phi - pi + a part that stays within a quarter turn.
+        return phi - math.pi if d > 0.0 else phi, math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
+    if d > 0.0:
+        return 0.0, math.atan2(-a * sin_phi, (d - a) * cc + (d + a) * ss)
+    return 0.0, math.atan2(a * sin_phi, (a - d) * cc - (a + d) * ss)
+
+
+def _rocker_rate(reading: Reading, sin_phi: float, cc: float, ss: float, n2: float, r: float) -> float:
+    """nu' + g' h, as in `_rates`."""
+    a, d, m = reading.a, reading.d, 1.0 / n2
+    return a * ((a - d) * cc + (a + d) * ss) * m + 2.0 * reading.s * (a * d * sin_phi) / r * (0.5 + 0.5 * reading.e * m)
+
+
+def _rates(
+    reading: Reading,
+    sin_phi: float,
+    squares: tuple[float, float],
+    n2: float,
+    r: float,
+    z: float,
+    order: int,
+    motion: tuple[float, float, float],
+) -> list[float]:
+    """Pairs (coupler, rocker) of rates from coupler' = nu' - g' (1 - h) and rocker' = nu' + g' h.
+
+    g = s gamma is the rocker's lead on the coupler: g' = 2 s a d sin(phi)/R; h = 1/2 + e/(2 n^2);
+    nu' = a [(a - d) cos^2(phi/2) + (a + d) sin^2(phi/2)]/n^2, which is 1/2 + f/n^2 but keeps the digits of a short
+    crank. The higher rates differentiate these three.
+    """
+    velocity, acceleration, jerk = motion
+    a, d, s, e, f = reading.a, reading.d, reading.s, reading.e, reading.f
+    ad, m, (cc, ss) = a * d, 1.0 / n2, squares
+    cos_phi = cc - ss
+    half_n1 = ad * sin_phi
+    h = 0.5 + 0.5 * e * m
+    g_1 = 2.0 * s * half_n1 / r
+    nu_1 = a * ((a - d) * cc + (a + d) * ss) * m
+    b_1, c_1 = nu_1 - g_1 * (0.5 - 0.5 * e * m), nu_1 + g_1 * h
+    rates = [velocity * b_1, velocity * c_1]
+    if order == 1:
+        return rates
+    u_1 = half_n1 * m * m
+    g_2 = s * (2.0 * ad * cos_phi - g_1 * g_1 * z) / r
+    c_2 = g_2 * h - u_1 * (2.0 * f + e * g_1)
+    b_2 = c_2 - g_2
+    v2 = velocity * velocity
+    rates += (v2 * b_2 + acceleration * b_1, v2 * c_2 + acceleration * c_1)
+    if order == 2:
+        return rates
+    u_2 = (ad * cos_phi - 4.0 * half_n1 * half_n1 * m) * m * m
+    g_3 = g_1 * (g_1 * g_1 - 1.0) - 3.0 * g_1 * g_2 * s * z / r
+    c_3 = g_3 * h - 2.0 * e * g_2 * u_1 - u_2 * (2.0 * f + e * g_1)
+    b_3 = c_3 - g_3
+    v3, va = v2 * velocity, 3.0 * velocity * acceleration
+    rates += (v3 * b_3 + va * b_2 + jerk * b_1, v3 * c_3 + va * c_2 + jerk * c_1)
+    return rates
+
+
+def closing_range(reading: Reading) -> tuple[float, float]:
+    """Driving angles, either way from the frame, between which a linkage that closes somewhere closes.
+
+    Example
+        >>> closing_range(make_reading(18.0, 50.0, 100.0, 121.4, 1))
+        (0.0, 3.141592653589793)
+
+    Source
+        own derivation: the roots of P and Q in the half angle
+    """
+    _, _, _, d, _, _, _, p_0, p_pi, q_0, q_pi, _, _ = reading
+    if d < 0.0:
+        p_0, p_pi, q_0, q_pi = p_pi, p_0, q_pi, q_0
+    low = 2.0 * math.atan2(math.sqrt(-q_0), math.sqrt(q_pi)) if q_0 < 0.0 else 0.0
+    high = 2.0 * math.atan2(math.sqrt(p_0), math.sqrt(-p_pi)) if p_pi < 0.0 else math.pi
+    return (low, high) if d > 0.0 else (math.pi - high, math.pi - low)
+
+
+def refusal(reading: Reading, phi: float, p: float, q: float) -> str:
+    """Why there is no position, or no rate, at this driving angle (p, q: signs of P and Q), and what to change.
+
+    Example
+        >>> reading = make_reading(150.0, 160.0, 100.0, 300.0, 1)
+        >>> refusal(reading, math.pi / 2, -1.0, 1.0)[:91]
+        'the four-bar does not close at crank angle 90 deg: |BD| = 335.410197 mm is 75.4 mm too long'
+    """
+    a, b, c, d = reading[:4]
+    driver, ends, far = ("crank", "BD", "rocker") if d > 0.0 else ("rocker", "AC", "crank")
+    if not math.isfinite(phi):
+        return f"{driver} angle is {phi!r}; it must be finite"
+    n = math.hypot((d - a) * math.cos(0.5 * phi), (d + a) * math.sin(0.5 * phi))
+    where = f"at {driver} angle {math.degrees(phi):.9g} deg: |{ends}| = {n:.9g} mm"
+    limits = f"coupler and {far} span {abs(b - c):.9g} to {b + c:.9g} mm"
+    if p < 0.0 or q < 0.0:
+        excess = n - (b + c) if p < 0.0 else abs(b - c) - n
+        wrong = f"{max(excess, math.ulp(n)):.3g} mm too {'long' if p < 0.0 else 'short'}"
+        return f"the four-bar does not close {where} is {wrong} ({limits}); {_remedy(reading, driver, far)}"
+    if n == 0.0:
+        return f"the position is not determined {where}; make coupler and {far}, or {driver} and frame, differ"
+    return (
+        f"the four-bar stands in a dead point {where} ({limits}): coupler and {far} align and their rates are "
+        f"not determined; move the {driver} angle off it or change a length"
+    )
+
+
+def _remedy(reading: Reading, driver: str, far: str) -> str:
+    """Where the linkage closes, or which link keeps it from closing anywhere."""
+    if not closes_somewhere(reading):
+        return f"it {never_closes(reading)}"
+    low, high = (math.degrees(x) for x in closing_range(reading))
+    return (
+        f"keep the {driver} angle between {low:.9g} and {high:.9g} deg either way from the frame, or change "
+        f"coupler or {far} by that much"
+    )
+
+
+def closes_somewhere(reading: Reading) -> bool:
+    return max(reading.p_0, reading.p_pi) > 0.0 and max(reading.q_0, reading.q_pi) > 0.0
+
+
+def never_closes(reading: Reading) -> str:
+    lengths = sorted((reading.a, reading.b, reading.c, abs(reading.d)))
+    return (
+        f"closes nowhere: the longest link, {lengths[3]:.9g} mm, must be shorter than the other three together, "
+        f"{math.fsum(lengths[:3]):.9g} mm"
+    )

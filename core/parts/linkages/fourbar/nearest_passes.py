@@ -1,0 +1,82 @@
+"""How near the coupler joint of a four-bar passes its crank pivot, and how far it goes, over a turn of the crank.
+
+Frame: crank pivot A, rocker pivot D, crank pin B, coupler joint C; links crank = AB, coupler = BC, rocker = CD,
+frame = AD. Crank angles count from A->D, counter-clockwise.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+
+
+class Approach(NamedTuple):
+    """A distance [mm] between two axes and the crank angle [rad] in [0, 2 pi) at which it occurs."""
+
+    distance: float
+    crank_angle: float
+
+
+def joint_to_crank_pivot(
+    crank: float, coupler: float, rocker: float, frame: float, assembly: int = 1
+) -> tuple[Approach, Approach]:
+    """Least and greatest distance of the coupler joint C from the crank pivot A over a turn of the crank.
+
+    AC = max(b - a, c - d) ... min(a + b, c + d)
+
+    Parameters
+        crank, coupler, rocker, frame : float [mm] - a, b, c, d of a linkage whose crank turns fully
+        assembly : +1 or -1 - +1: C left of the vector B->D
+    Returns
+        nearest, farthest : Approach
+    Raises
+        NoSolution - when the crank cannot make a full turn or the linkage has a change point
+    Notes
+        The triangles ABC and ACD share the side AC, so that no other distances close; each bound is reached. In a
+        crank-rocker the bounds are the dead centres, b - a and a + b; in a drag link C passes the line AD
+        twice, at c - d and c + d. The crank angle there comes from the half-angle tangent.
+    Example
+        >>> near, far = joint_to_crank_pivot(38.85708906, 112.0, 112.0, 153.5517067)
+        >>> round(near.distance, 3), round(far.distance, 3)
+        (73.143, 150.857)
+    """
+    _require_full_turn(crank, coupler, rocker, frame)
+    a, b, c, d = crank, coupler, rocker, frame
+    if b - a > abs(c - d):
+        nearest = _approach(b - a, math.pi, assembly * _angle(b - a, d, c))
+    else:
+        nearest = _approach(c - d, math.pi, assembly * _angle(c - d, a, b))
+    if a + b < c + d:
+        return nearest, _approach(a + b, 0.0, assembly * _angle(a + b, d, c))
+    return nearest, _approach(c + d, 0.0, assembly * _angle(c + d, a, b))
+
+
+def _approach(distance: float, flat: float, angle: float) -> Approach:
+    """Where AC reaches a bound one of the triangles ABC, ACD is flat (0 or pi at A), the other has its angle."""
+    return Approach(distance, (flat + angle) % (2.0 * math.pi))
+
+
+def _angle(p: float, q: float, opposite: float) -> float:
+    """Angle between the sides p and q of a triangle: tan^2(angle/2) = (o-p+q)(o+p-q)/((p+q-o)(p+q+o))."""
+    near = (opposite - p + q) * (opposite + p - q)
+    far = (p + q - opposite) * (p + q + opposite)
+    if near < 0.0 or far < 0.0:
+        raise NoSolution(
+            f"the linkage stands within rounding of a change point (sides {p:.6g}, {q:.6g} and {opposite:.6g} mm "
+            "lie in line): shorten the crank"
+        )
+    return 2.0 * math.atan2(math.sqrt(near), math.sqrt(far))
+
+
+def _require_full_turn(crank: float, coupler: float, rocker: float, frame: float) -> None:
+    least, most = abs(coupler - rocker), coupler + rocker
+    if abs(frame - crank) > least and frame + crank < most:
+        return
+    raise NoSolution(
+        f"crank {crank:.6g} mm cannot turn fully between coupler {coupler:.6g}, rocker {rocker:.6g} and frame "
+        f"{frame:.6g} mm: |frame - crank| = {abs(frame - crank):.6g} mm must exceed |coupler - rocker| = {least:.6g} "
+        f"mm, frame + crank = {frame + crank:.6g} mm must stay below coupler + rocker = {most:.6g} mm: "
+        "shorten the crank"
+    )

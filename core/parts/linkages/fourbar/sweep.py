@@ -1,0 +1,356 @@
+"""The four-bar linkage over arrays of crank angles: one tangent a position, in blocks that stay in the cache.
+
+Frame, names and closed form are those of `core.parts.linkages.fourbar.position`. With t = tan(phi/2) every sum of
+`core.parts.linkages.fourbar.loop`, multiplied by 1 + t^2, is linear in t^2: the sweep needs no sine or cosine, and
+no arc tangent until an angle is asked for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.parts.linkages.fourbar.loop import Reading, refusal
+from gearlink.core.parts.linkages.fourbar.position import FourBar, inverse_reading
+
+BLOCK = 8192
+
+
+def _not_asked() -> Reals:
+    return np.empty(0)
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarSweep:
+    """Four-bar over crank angles: the fields of `fourbar.FourBarState` as arrays of the shape of the angles.
+
+    Rates that were not asked for are empty arrays.
+    """
+
+    coupler_angle: Reals
+    rocker_angle: Reals
+    transmission_angle: Reals
+    coupler_velocity: Reals = field(default_factory=_not_asked)
+    rocker_velocity: Reals = field(default_factory=_not_asked)
+    coupler_acceleration: Reals = field(default_factory=_not_asked)
+    rocker_acceleration: Reals = field(default_factory=_not_asked)
+    coupler_jerk: Reals = field(default_factory=_not_asked)
+    rocker_jerk: Reals = field(default_factory=_not_asked)
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarInverseSweep:
+    """Four-bar over rocker angles, the rocker driving: `fourbar.FourBarInverseState` as arrays."""
+
+    crank_angle: Reals
+    coupler_angle: Reals
+    transmission_angle: Reals
+    crank_velocity: Reals = field(default_factory=_not_asked)
+    coupler_velocity: Reals = field(default_factory=_not_asked)
+    crank_acceleration: Reals = field(default_factory=_not_asked)
+    coupler_acceleration: Reals = field(default_factory=_not_asked)
+    crank_jerk: Reals = field(default_factory=_not_asked)
+    coupler_jerk: Reals = field(default_factory=_not_asked)
+
+
+def solve(
+    linkage: FourBar,
+    crank_angle: ArrayLike,
+    order: int = 0,
+    *,
+    velocity: ArrayLike = 1.0,
+    acceleration: ArrayLike = 0.0,
+    jerk: ArrayLike = 0.0,
+) -> FourBarSweep:
+    """Angles of coupler and rocker over an array of crank angles, and their rates up to the wanted order.
+
+    Parameters
+        linkage : FourBar
+        crank_angle : array of any shape [rad]
+        order : 0..3 - 0 angles only, 1 velocities, 2 accelerations, 3 jerks too
+        velocity, acceleration, jerk : float or array that broadcasts [rad/s, rad/s2, rad/s3] - motion of the
+            crank; the defaults give the derivatives with respect to the crank angle
+    Returns
+        sweep : FourBarSweep - angles continuous in the crank angle as in `position.solve`
+    Raises
+        NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead point
+    Example
+        >>> sweep = solve(FourBar(18.0, 50.0, 100.0, 121.4), np.radians([45.0, 90.0]), order=1)
+        >>> np.round(np.degrees(sweep.rocker_angle), 6).tolist()
+        [146.168778, 148.374385]
+
+    Source
+        as `position.solve`
+    """
+    angle = np.asarray(crank_angle, dtype=np.float64)
+    rows = _sweep(linkage.reading, np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
+    shaped = [row.reshape(angle.shape) for row in rows]
+    return FourBarSweep(*_driven(shaped, velocity, acceleration, jerk))
+
+
+def solve_inverse(
+    linkage: FourBar,
+    rocker_angle: ArrayLike,
+    order: int = 0,
+    *,
+    velocity: ArrayLike = 1.0,
+    acceleration: ArrayLike = 0.0,
+    jerk: ArrayLike = 0.0,
+) -> FourBarInverseSweep:
+    """Angles of crank and coupler over an array of rocker angles, the rocker driving, and their rates.
+
+    Parameters
+        linkage : FourBar - its assembly reads here: sign of sin(crank angle - coupler angle)
+        rocker_angle : array of any shape [rad]
+        order : 0..3
+        velocity, acceleration, jerk : float or array that broadcasts - motion of the rocker
+    Returns
+        sweep : FourBarInverseSweep - angles continuous in the rocker angle as in `position.solve_inverse`
+    Raises
+        NoSolution - as in `position.solve_inverse`
+    Example
+        >>> drag = FourBar(50.0, 45.0, 48.0, 20.0)
+        >>> turn = np.array([0.0, 3.0, 12.5])
+        >>> np.round(solve_inverse(drag, solve(drag, turn).rocker_angle).crank_angle, 12).tolist()
+        [0.0, 3.0, 12.5]
+
+    Source
+        own derivation: exchange symmetry of the loop equation
+    """
+    angle = np.asarray(rocker_angle, dtype=np.float64)
+    rows = _sweep(inverse_reading(linkage), np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
+    rows[1] += math.pi
+    shaped = [row.reshape(angle.shape) for row in rows]
+    coupler, crank, transmission, *rates = _driven(shaped, velocity, acceleration, jerk)
+    rates[0::2], rates[1::2] = rates[1::2], rates[0::2]
+    return FourBarInverseSweep(crank, coupler, transmission, *rates)
+
+
+def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Reals | None = None) -> Reals:
+    """Directions of coupler and rocker as unit vectors, and rates, without any angle: the raw kernel.
+
+    Parameters
+        linkage : FourBar
+        crank_angle : (N,) array [rad]
+        order : 0..3 - highest derivative with respect to the crank angle
+        out : (4 + 2 order, N) array - filled and returned when given
+    Returns
+        rows : (4 + 2 order, N) array - coupler x, y, rocker x, y; then for each order the pair coupler, rocker
+    Raises
+        NoSolution - as `solve`
+    Notes
+        With second derivatives it takes about the time of one pass of sine, cosine, arc tangent and root over
+        the same array. Blocks of `BLOCK` positions keep the intermediate rows in the cache.
+    Example
+        >>> rows = unit_vectors(FourBar(18.0, 50.0, 100.0, 121.4), np.array([0.0]), order=1)
+        >>> np.round(rows[:, 0], 9).tolist()
+        [0.308661509, 0.951171947, -0.879669246, 0.475585974, -0.174081238, -0.174081238]
+
+    Source
+        own derivation, see `gearlink.core.parts.linkages.fourbar.loop`
+    """
+    return _sweep(linkage.reading, crank_angle, order, _write_vectors, out)
+
+
+def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
+    """Distance of the transmission angle from a dead point, min(gamma, pi - gamma) [rad].
+
+    Example
+        >>> dead_point_distance(np.radians([30.0, 170.0])).round(6).tolist()
+        [0.523599, 0.174533]
+    """
+    gamma = np.asarray(transmission_angle, dtype=np.float64)
+    return np.minimum(gamma, np.pi - gamma)
+
+
+def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
+    """Rows whose derivatives with respect to the driving angle became time derivatives for the driver's motion."""
+    motion = (velocity, acceleration, jerk)
+    if all(np.ndim(x) == 0 for x in motion) and motion == (1.0, 0.0, 0.0):
+        return rows
+    w, e, j = (np.asarray(x, dtype=np.float64) for x in motion)
+    first, second, third = rows[3:5], rows[5:7], rows[7:9]
+    result = rows[:3] + [w * x for x in first]
+    result += [w * w * y + e * x for x, y in zip(first, second, strict=False)]
+    return result + [w * w * w * z + 3.0 * w * e * y + j * x for x, y, z in zip(first, second, third, strict=False)]
+
+
+Scratch = tuple[Reals, ...]
+Writer = Callable[[Reading, Reals, Scratch, Reals], int]
+
+
+def _sweep(reading: Reading, phi: Reals, order: int, write: Writer, out: Reals | None) -> Reals:
+    """Fill position rows by `write` and then the pairs of rates, block by block."""
+    if not 0 <= order <= 3:
+        raise ValueError(f"order is {order}; the rates go from 0 to 3")
+    shape = ((4 if write is _write_vectors else 3) + 2 * order, phi.size)
+    if out is None:
+        out = np.empty(shape)
+    elif out.shape != shape:
+        raise ValueError(f"out has the shape {out.shape}; it must be {shape}")
+    scratch = np.empty((11, min(phi.size, BLOCK)))
+    with np.errstate(invalid="ignore"):
+        for start in range(0, phi.size, BLOCK):
+            angle = phi[start : start + BLOCK]
+            block = out[:, start : start + BLOCK]
+            rows = tuple(scratch[:, : angle.size])
+            _triangle(reading, angle, order, rows)
+            done = write(reading, angle, rows, block)
+            if order > 0:
+                _rates(reading, rows, block[done:])
+    return out
+
+
+def _triangle(reading: Reading, phi: Reals, order: int, rows: Scratch) -> None:
+    """Rows t, t^2, 1 + t^2, and times 1 + t^2: n^2, R, (P - Q)/2; refuse where P Q is not positive."""
+    t, tt, one, n, r, z, q, *_ = rows
+    np.multiply(phi, 0.5, out=t)
+    np.tan(t, out=t)
+    np.multiply(t, t, out=tt)
+    np.add(tt, 1.0, out=one)
+    _linear(reading.n_0, reading.n_pi, tt, n)
+    _linear(reading.p_0, reading.p_pi, tt, z)
+    _linear(reading.q_0, reading.q_pi, tt, q)
+    np.multiply(z, q, out=r)
+    if not r.min() > 0.0:
+        _refuse(reading, phi, order, z, q, n)
+    np.sqrt(r, out=r)
+    np.subtract(z, q, out=z)
+    np.multiply(z, 0.5, out=z)
+
+
+def _linear(at_0: float, at_pi: float, tt: Reals, out: Reals) -> None:
+    """at_0 + at_pi t^2."""
+    np.multiply(tt, at_pi, out=out)
+    np.add(out, at_0, out=out)
+
+
+def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Reals) -> None:
+    """Raise for the first angle that has no position, or no rates when rates are wanted."""
+    product = p * q
+    good = (product > 0.0) | ((product == 0.0) & (n > 0.0)) if order == 0 else product > 0.0
+    if not good.all():
+        i = int(np.argmin(good))
+        raise NoSolution(refusal(reading, float(phi[i]), float(p[i]), float(q[i])))
+
+
+def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:
+    """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`."""
+    t, tt, one, n, r, z, x, y, nu, *_ = rows
+    a, d, s = reading.a, reading.d, float(reading.s)
+    winding: Reals | float = 0.0
+    if a > abs(d):
+        winding = phi - math.pi if d > 0.0 else phi
+        _arg(2.0 * d, a - d, a + d, t, tt, x, nu)
+    else:
+        side = math.copysign(1.0, d)
+        _arg(-2.0 * a * side, (d - a) * side, (d + a) * side, t, tt, x, nu)
+    np.multiply(one, reading.e, out=x)
+    np.add(x, n, out=y)
+    np.arctan2(r, y, out=out[0])
+    np.subtract(x, n, out=y)
+    np.arctan2(r, y, out=out[1])
+    np.arctan2(r, z, out=out[2])
+    for i in (0, 1):
+        np.multiply(out[i], s, out=out[i])
+        np.add(out[i], nu, out=out[i])
+        np.add(out[i], winding, out=out[i])
+    return 3
+
+
+def _arg(sine: float, at_0: float, at_pi: float, t: Reals, tt: Reals, scratch: Reals, out: Reals) -> None:
+    """Angle of the vector (at_0 + at_pi t^2, sine t)."""
+    _linear(at_0, at_pi, tt, scratch)
+    np.multiply(t, sine, out=out)
+    np.arctan2(out, scratch, out=out)
+
+
+def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> int:
+    """Unit vectors (V/b)(h + i s R/(2 n^2)) and (V/c)(h - 1 + i s R/(2 n^2)), h = 1/2 + (b^2 - c^2)/(2 n^2)."""
+    t, tt, one, n, r, _, x, y, h, k, v = rows
+    a, b, c, d, s = reading[:5]
+    np.divide(1.0, one, out=v)
+    _linear(d - a, d + a, tt, x)
+    np.multiply(x, v, out=x)
+    np.multiply(t, v, out=y)
+    np.multiply(y, -2.0 * a, out=y)
+    np.divide(0.5, n, out=v)
+    np.multiply(one, v, out=h)
+    np.multiply(h, reading.e, out=h)
+    np.add(h, 0.5, out=h)
+    np.multiply(r, v, out=k)
+    np.multiply(k, float(s), out=k)
+    np.multiply(y, k, out=v)
+    np.multiply(x, k, out=k)
+    for length, row in ((b, 0), (c, 2)):
+        np.multiply(x, h, out=out[row])
+        np.subtract(out[row], v, out=out[row])
+        np.multiply(out[row], 1.0 / length, out=out[row])
+        np.multiply(y, h, out=out[row + 1])
+        np.add(out[row + 1], k, out=out[row + 1])
+        np.multiply(out[row + 1], 1.0 / length, out=out[row + 1])
+        if row == 0:
+            np.subtract(h, 1.0, out=h)
+    return 4
+
+
+def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
+    """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `loop._rates`.
+
+    Rows used: 1/n^2 = one m and 1/R = one r in place of n and R, g' and h.
+    """
+    t, tt, one, m, r, _, hn, g_1, h, _, u_1 = rows
+    a, d, e, s = reading.a, reading.d, reading.e, float(reading.s)
+    ad = a * d
+    np.divide(s, r, out=r)
+    np.divide(1.0, m, out=m)
+    np.multiply(one, m, out=hn)
+    np.multiply(t, 4.0 * ad, out=g_1)
+    np.multiply(g_1, r, out=g_1)
+    np.multiply(hn, 0.5 * e, out=h)
+    np.add(h, 0.5, out=h)
+    np.multiply(g_1, h, out=out[1])
+    _linear(a * (a - d), a * (a + d), tt, u_1)
+    np.multiply(u_1, m, out=u_1)
+    np.add(out[1], u_1, out=out[1])
+    np.subtract(out[1], g_1, out=out[0])
+    if len(out) > 2:
+        _second(ad, e, reading.f, rows, out[2:])
+
+
+def _second(ad: float, e: float, f: float, rows: Scratch, out: Reals) -> None:
+    """Accelerations; afterwards m holds 1/n^4 over 1 + t^2, z s cot(gamma), u_1 (n^2)'/(2 n^4)."""
+    t, tt, _, m, r, z, hn, g_1, h, g_2, u_1 = rows
+    np.multiply(z, r, out=z)
+    np.multiply(tt, -2.0 * ad, out=g_2)
+    np.add(g_2, 2.0 * ad, out=g_2)
+    np.multiply(g_2, r, out=g_2)
+    np.multiply(g_1, g_1, out=u_1)
+    np.multiply(u_1, z, out=u_1)
+    np.subtract(g_2, u_1, out=g_2)
+    np.multiply(hn, m, out=m)
+    np.multiply(t, 2.0 * ad, out=u_1)
+    np.multiply(u_1, m, out=u_1)
+    np.multiply(g_1, e, out=out[0])
+    np.add(out[0], 2.0 * f, out=out[0])
+    np.multiply(out[0], u_1, out=out[0])
+    np.multiply(g_2, h, out=out[1])
+    np.subtract(out[1], out[0], out=out[1])
+    np.subtract(out[1], g_2, out=out[0])
+    if len(out) > 2:
+        _third(ad, e, f, rows, out[2:])
+
+
+def _third(ad: float, e: float, f: float, rows: Scratch, out: Reals) -> None:
+    """Jerks; not on the fast path, so written plainly. Rows as `_second` leaves them."""
+    t, tt, one, m, _, cot, hn, g_1, h, g_2, u_1 = rows
+    u_2 = ad * (1.0 - tt) * m - 8.0 * ad * t / one * hn * u_1
+    g_3 = g_1 * (g_1 * g_1 - 1.0) - 3.0 * g_1 * g_2 * cot
+    out[1] = g_3 * h - 2.0 * e * g_2 * u_1 - u_2 * (2.0 * f + e * g_1)
+    np.subtract(out[1], g_3, out=out[0])

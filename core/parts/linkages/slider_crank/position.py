@@ -1,0 +1,292 @@
+"""The offset slider-crank: crank length from stroke, dead centres, position of the slider, with `math` alone.
+
+Frame: crank pivot D = (0, 0), crank pin E = r (cos psi, sin psi), slider F below on the line x = -e (the offset e
+is positive where the line passes to the left of D); the depth of the slider is h = -y_F.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.elementary import SCALARS, Elementary
+
+
+def max_stroke(rod: float, offset: float = 0.0) -> float:
+    """Stroke at which the crank could only just turn; a slider-crank's stroke stays below it.
+
+    S_max = 2 sqrt(L (L - |e|))
+
+    Parameters
+        rod : float [mm] - length L
+        offset : float [mm] - e, signed
+    Returns
+        stroke : float [mm]
+    Raises
+        NoSolution - when the offset is not smaller than the rod
+    Example
+        >>> round(max_stroke(520.0, 50.0), 6)
+        988.736568
+
+    Source
+        own derivation: crank L - |e| in S = P - Q
+    """
+    _check_rod(rod, offset)
+    return _max_stroke(rod, offset)
+
+
+def _max_stroke(rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    return 2.0 * f.sqrt(rod * (rod - abs(offset)))
+
+
+def _crank_length(stroke: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    numerator, denominator = _radicands(stroke, rod, offset, f)
+    return stroke / 2.0 * f.sqrt(numerator / denominator)
+
+
+def _stroke(crank: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    far, near = _reaches(crank, rod, offset, f)
+    return 4.0 * rod * crank / (far + near)
+
+
+def dead_center_extended(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Angle of the rod from the slide line where crank and rod are stretched.
+
+    asin(e/(L + r))
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        angle : float [rad] - of the sign of the offset; the crank's direction is -pi/2 less this angle
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Example
+        >>> round(math.degrees(dead_center_extended(154.21159203908383, 520.0, 50.0)), 9)
+        4.252999348
+
+    Source
+        TY-460 report 2.1
+    """
+    _check_crank(crank, rod, offset)
+    return math.atan2(offset, _reaches(crank, rod, offset)[0])
+
+
+def dead_center_folded(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Angle of the rod from the slide line where crank and rod overlap.
+
+    asin(e/(L - r))
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        angle : float [rad] - of the sign of the offset; the crank's direction is pi/2 less this angle
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Example
+        >>> round(math.degrees(dead_center_folded(154.21159203908383, 520.0, 50.0)), 9)
+        7.856416254
+
+    Source
+        TY-460 report 2.1
+    """
+    _check_crank(crank, rod, offset)
+    return math.atan2(offset, _reaches(crank, rod, offset)[1])
+
+
+@dataclass(frozen=True)
+class SliderCrank:
+    """Slider-crank of a given stroke, each value worked out when it is asked for.
+
+    P = 2 L r/S + S/2,  Q = 2 L r/S - S/2,  tan(extended) = e/P,  tan(folded) = e/Q
+
+    Parameters
+        stroke, rod, offset : float [mm] - S, L, e (signed)
+    Returns
+        Properties: crank_length, max_stroke [mm]; dead_center_extended, dead_center_folded [rad];
+        quick_return_ratio [1], crank angle of the stroke away from the crank pivot over that of the stroke back, for a
+        crank that turns counter-clockwise: 1/K for one that turns clockwise, and for the mirror image
+    Raises
+        NoSolution - for a stroke that is not positive or not below max_stroke, or an offset beyond the rod
+    Notes
+        Squaring S = P - Q twice also solves P + Q = S; those roots lie beyond max_stroke. Radicands are formed as
+        products (whichever form cancels less): a few ulp up to max_stroke, where dr/dS goes to 0.
+        Near the largest stroke the crank hardly depends on the stroke, so that the folded dead centre cannot be
+        had from the rounded crank. Here Q comes from the stroke,
+        Q = (S_max^2 - S^2)(4 L^2 - S^2 + 4 L |e|)/(2 D (4 L r/S + S)), D = 4 L^2 - S^2.
+    Example
+        >>> SliderCrank(100.0, 200.0, 0.0).crank_length
+        50.0
+
+    Source
+        TY-460 report 2.1; the closed form of the crank is an own derivation
+    """
+
+    stroke: float
+    rod: float
+    offset: float = 0.0
+
+    fn: ClassVar[Elementary] = SCALARS
+    """What the formulas are made of; the class of many slider-cranks has those for arrays."""
+
+    def __post_init__(self) -> None:
+        _check_stroke(self.stroke, self.rod, self.offset)
+
+    @classmethod
+    def of_crank(cls, crank: float, rod: float, offset: float = 0.0) -> SliderCrank:
+        """The slider-crank of a given crank.
+
+        Raises
+            NoSolution - when the crank cannot make a full turn
+        Example
+            >>> SliderCrank.of_crank(50.0, 200.0).stroke
+            100.0
+        """
+        cls._require_turn(crank, rod, offset)
+        made = cls(_stroke(crank, rod, offset, cls.fn), rod, offset)
+        vars(made)["crank_length"] = crank  # as it is given, not by way of the stroke
+        return made
+
+    @classmethod
+    def _require_turn(cls, crank: float, rod: float, offset: float) -> None:
+        _check_crank(crank, rod, offset)
+
+    @cached_property
+    def max_stroke(self) -> float:
+        """S_max = 2 sqrt(L (L - |e|)) [mm]."""
+        return _max_stroke(self.rod, self.offset, self.fn)
+
+    @cached_property
+    def crank_length(self) -> float:
+        """r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2)) [mm]."""
+        return _crank_length(self.stroke, self.rod, self.offset, self.fn)
+
+    @cached_property
+    def _far(self) -> float:
+        return 2.0 * self.rod * self.crank_length / self.stroke + self.stroke / 2.0
+
+    @cached_property
+    def _near(self) -> float:
+        s, rod = self.stroke, self.rod
+        square = (2.0 * rod - s) * (2.0 * rod + s)
+        left = (self.max_stroke - s) * (self.max_stroke + s)
+        return left * (1.0 + 4.0 * rod * abs(self.offset) / square) / (2.0 * (4.0 * rod * self.crank_length / s + s))
+
+    @cached_property
+    def dead_center_extended(self) -> float:
+        """asin(e/(L + r)) [rad]."""
+        return self.fn.atan2(self.offset, self._far)
+
+    @cached_property
+    def dead_center_folded(self) -> float:
+        """asin(e/(L - r)) [rad]."""
+        return self.fn.atan2(self.offset, self._near)
+
+    @cached_property
+    def quick_return_ratio(self) -> float:
+        """K = (180 + t)/(180 - t) [1], t = folded less extended dead centre."""
+        return _ratio(self._far, self._near, self.stroke, self.offset, self.fn)
+
+
+def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[float, ...]:
+    """Depth of the slider below the crank pivot, with derivatives with respect to the crank direction.
+
+    h = w - r sin(psi),  w = sqrt(L^2 - u^2),  u = r cos(psi) + e
+
+    Parameters
+        psi : float [rad] - direction of the crank from +x, counter-clockwise
+        crank, rod, offset : float [mm] - r, L, e (signed)
+        order : 0 to 3 - derivatives wanted
+    Returns
+        h and its derivatives up to the order : tuple of floats [mm, mm/rad, mm/rad^2, mm/rad^3]
+    Raises
+        NoSolution - when the rod does not reach the slide line there, or just reaches it (derivatives)
+    Notes
+        Condition number of the derivatives: the rod's angle, L^2/w^2.
+    Example
+        >>> slider(-math.pi / 2, 50.0, 200.0, 0.0, 2)[::2]
+        (250.0, -62.5)
+
+    Source
+        TY-460 report 2.1; the closed form of the crank is an own derivation
+    """
+    cosine, sine = math.cos(psi), math.sin(psi)
+    u = crank * cosine + offset
+    square = (rod - u) * (rod + u)
+    if square < 0.0 or (square == 0.0 and order > 0):
+        raise NoSolution(not_reached(psi, crank, rod, offset))
+    w = math.sqrt(square)
+    depth = w - crank * sine
+    if order == 0:
+        return (depth,)
+    u1 = -crank * sine
+    w1 = -u * u1 / w
+    first = w1 - crank * cosine
+    if order == 1:
+        return depth, first
+    u2 = -crank * cosine
+    w2 = -(u1 * u1 + u * u2 + w1 * w1) / w
+    second = w2 + crank * sine
+    if order == 2:
+        return depth, first, second
+    w3 = -(3.0 * (u1 * u2 + w1 * w2) - u * u1) / w
+    return depth, first, second, w3 + crank * cosine
+
+
+def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
+    """Message for a crank position at which the rod does not reach the slide line."""
+    return (
+        f"rod {rod:.6g} mm does not reach the slide line at crank direction {math.degrees(psi):.6g} deg (crank "
+        f"{crank:.6g} mm, offset {offset:.6g} mm): a full turn needs a rod longer than {crank + abs(offset):.6g} mm"
+    )
+
+
+def _check_rod(rod: float, offset: float) -> None:
+    if not 0.0 < rod < math.inf:
+        raise NoSolution(f"rod {rod:g} mm: its length must be positive")
+    if not abs(offset) < rod:
+        raise NoSolution(f"offset {offset:.6g} mm: its magnitude must be below the rod length {rod:.6g} mm")
+
+
+def _check_stroke(stroke: float, rod: float, offset: float) -> None:
+    largest = max_stroke(rod, offset)
+    if not stroke > 0.0:
+        raise NoSolution(f"stroke {stroke:g} mm: it must be positive")
+    if not stroke < largest:
+        raise NoSolution(
+            f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it must stay below "
+            f"{largest:.9g} mm; shorten it, lengthen the rod or reduce the offset"
+        )
+
+
+def _radicands(stroke: float, rod: float, offset: float, f: Elementary) -> tuple[float, float]:
+    """4 L^2 - 4 e^2 - S^2 and 4 L^2 - S^2, without loss of digits below max_stroke."""
+    e = abs(offset)
+    denominator = (2.0 * rod - stroke) * (2.0 * rod + stroke)
+    short, long = denominator - 4.0 * e * e, 4.0 * (rod - e) * (rod + e) - stroke * stroke
+    return f.where(2.0 * e < rod, short, long), denominator
+
+
+def _check_crank(crank: float, rod: float, offset: float) -> None:
+    _check_rod(rod, offset)
+    e, difference = abs(offset), rod - crank
+    if not crank > 0.0:
+        raise NoSolution(f"crank {crank:g} mm: its length must be positive")
+    if not e <= difference:
+        raise NoSolution(
+            f"crank {crank:.6g} mm cannot make a full turn with rod {rod:.6g} mm and offset {offset:.6g} mm: "
+            f"it must not exceed rod less offset, {rod - e:.6g} mm"
+        )
+
+
+def _reaches(crank: float, rod: float, offset: float, f: Elementary = SCALARS) -> tuple[float, float]:
+    """P and Q: depths of the slider at the dead centres."""
+    e, difference, total = abs(offset), rod - crank, rod + crank
+    return f.sqrt((total - e) * (total + e)), f.sqrt((difference - e) * (difference + e))
+
+
+def _ratio(far: float, near: float, stroke: float, offset: float, f: Elementary = SCALARS) -> float:
+    t = f.atan2(offset * stroke, far * near + offset * offset)
+    return (math.pi + t) / (math.pi - t)

@@ -1,0 +1,56 @@
+"""Limits, value types and refusals that the specs of several gear-linkages share."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Distance,
+    DrawingLimits,
+    GearLimits,
+    LoadLimits,
+    SignedLength,
+)
+
+TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
+
+
+class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+    gear_gap: SignedLength = Field(
+        0.0, description="least gap between gears that do not mesh; below 0 in planes of their own"
+    )
+    least_shaft: Distance | None = Field(
+        None, description="radius of the thinnest shaft that would be built; left out: 2 modules"
+    )
+
+
+LEAST_TOLERANCE = 1e-9
+"""[deg]; of a smaller one double precision leaves fewer than five digits of the dwell's crank angle."""
+DwellTolerance = Annotated[float, Field(ge=LEAST_TOLERANCE, json_schema_extra={"unit": "deg"})]
+
+
+def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth: bool = False) -> None:
+    """Refuse a rim without a ring gear, and one that does not lie outside its root circle, m (z/2 + 1.25).
+
+    Where the ring has teeth of its own, its mesh is what knows that circle.
+    """
+    if rim is None:
+        return
+    if ring is None:
+        raise PydanticCustomError("GL111", "rim goes with a ring gear: leave it out", {"key": "rim"})
+    if own_teeth:
+        return
+    root = module * (0.5 * ring + 1.25)
+    if rim <= root:
+        raise PydanticCustomError(
+            "GL111",
+            "the rim's radius {rim} mm lies within the root circle of the ring gear, {root} mm: make it larger",
+            {"key": "rim", "rim": f"{rim:g}", "root": f"{root:g}"},
+        )

@@ -1,0 +1,60 @@
+"""Sections that the design files of several gear-linkages may have, each imported by the machines that read them."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Distance, Length, Ratio, Spec
+from gearlink.core.parts.linkages.spec_parts import TurnAngle
+
+
+class InputRange(Spec):
+    """Input angles over which a linkage moves."""
+
+    start: TurnAngle = Field(0.0, description="first input angle")
+    end: TurnAngle = Field(description="last input angle")
+
+
+class PivotShafts(Spec):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
+
+
+class Feed(Spec):
+    """What the output carries on: a roller or belt by its radius, or a chain by its pitch and the sprocket's teeth."""
+
+    radius: Length | None = Field(None, description="radius of the roller, or of the pulley under the belt")
+    belt_thickness: Distance = Field(
+        0.0, description="thickness of the belt, which runs at half of it above the radius"
+    )
+    pitch: Length | None = Field(None, description="pitch of the chain, with teeth in place of radius")
+    teeth: Annotated[int, Field(ge=5, le=1000, json_schema_extra={"unit": "teeth"})] | None = Field(
+        None, description="teeth of the chain's sprocket"
+    )
+    ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Feed:
+        chain = [name for name in ("pitch", "teeth") if getattr(self, name) is not None]
+        if self.radius is not None and chain:
+            message = "radius goes with a roller or a belt, pitch and teeth with a chain: give one of them"
+            raise PydanticCustomError("GL111", message, {"key": chain[0]})
+        if self.radius is None and len(chain) < 2:
+            raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
+        if chain and self.belt_thickness:
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness: leave it out", {"key": "belt_thickness"})
+        return self
+
+
+class FourLinks(Spec):
+    """A whole four-bar."""
+
+    crank: Length = Field(description="crank AB")
+    coupler: Length = Field(description="coupler BC")
+    rocker: Length = Field(description="rocker CD")
+    frame: Length = Field(description="frame AD")

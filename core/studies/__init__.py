@@ -1,0 +1,1 @@
+"""What is asked of any design: loads, register, tolerance, search, clearance."""

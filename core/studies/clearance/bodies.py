@@ -1,0 +1,207 @@
+"""Bodies in the plane of the gears, and the least gap of every two that could meet.
+
+All gears of a train lie in one plane, and the shafts of the frame pass through it unless they end before it (are
+overhung). Two bodies cannot meet that share an axis, are one rigid body, or are gears in mesh. Links and the pins
+between them lie in planes beside that of the gears; design files give them no width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain, combinations, product
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from gearlink.core.base.results import cached_property
+from gearlink.core.parts.gears.tooth.teeth import rim_radius
+from gearlink.core.studies.clearance.reach import Reach
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+
+LEAST_SHAFT_MODULES = 2.0
+FULL_HEIGHT = 2.25
+"""Height of standard teeth, in modules."""
+
+
+class Gear(NamedTuple):
+    """A gear by its circles.
+
+    Parameters
+        name : str - "the idler"
+        axis : str - letter of the joint on which it sits
+        outer : float [mm] - tip radius; of a ring gear its rim's
+        inner : float [mm] - tip radius of a ring gear, within which a body may lie; an external gear has none
+        mates : str - letters of the axes whose gears mesh with it; it is enough if one of two mates names the other
+        turns_with : str - letters of the shafts that are one body with it, which may pass through its blank
+        root : float [mm] - root radius, where a shaft may be within the gear on its own axis; None elsewhere
+    """
+
+    name: str
+    axis: str
+    outer: float
+    inner: float = -math.inf
+    mates: str = ""
+    turns_with: str = ""
+    root: float | None = None
+
+
+class Shaft(NamedTuple):
+    """A shaft of the frame that passes through the plane of the gears.
+
+    Parameters
+        name : str - "input shaft"
+        axis : str - letter of its axis
+        radius : float [mm] - None where the file does not name it: a bare axis
+        key : str - the design file's key of the radius
+    """
+
+    name: str
+    axis: str
+    radius: float | None
+    key: str
+
+    @property
+    def inner(self) -> float:
+        """No hole."""
+        return -math.inf
+
+    @property
+    def outer(self) -> float:
+        """Radius [mm], 0 for a bare axis."""
+        return self.radius or 0.0
+
+
+class Seat(NamedTuple):
+    """A gear on a shaft of the file: the rim that its teeth leave round the shaft, and the least that bears them [mm].
+
+    Source
+        ISO 6336-3: no root stress is given for a rim of half the height of the teeth and less
+    """
+
+    gear: Gear
+    shaft: Shaft
+    rim: float
+    least: float
+
+
+class Clearance(NamedTuple):
+    """The least gap [mm] of two bodies, negative where they overlap, and its input angle [rad], None for any."""
+
+    one: Gear | Shaft
+    other: Gear | Shaft
+    gap: float
+    distance: float
+    angle: float | None
+
+    @property
+    def bare(self) -> tuple[Shaft, ...]:
+        """Shafts of the two whose radius the file does not name."""
+        return tuple(body for body in (self.one, self.other) if isinstance(body, Shaft) and body.radius is None)
+
+
+def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance:
+    """The least gap of two bodies over the cycle.
+
+    max(r_min - o_1 - o_2, i_1 - r_max - o_2, i_2 - r_max - o_1)
+
+    Parameters
+        one, other : bodies with outer radius o, and i where another may lie within
+        reach : Reach - least and greatest distance of their axes
+    Notes
+        Beside each other at the nearest, or one within the other's ring at the farthest: a body that passes from
+        within a ring to without meets its teeth, so that none of the three is positive.
+    Example
+        >>> ring = Gear("the ring gear", "A", outer=81.5, inner=73.0)
+        >>> least_gap(ring, Shaft("shaft at D", "D", 5.0, ""), Reach(60.0, 60.0)).gap
+        8.0
+
+    Source
+        thesis 4.2.2, with the distance at the closest in place of the frame length
+    """
+    beside = reach.nearest - (one.outer + other.outer)
+    within = max(one.inner - (reach.farthest + other.outer), other.inner - (reach.farthest + one.outer))
+    if beside >= within:
+        return Clearance(one, other, beside, reach.nearest, reach.nearest_at)
+    return Clearance(one, other, within, reach.farthest, reach.farthest_at)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Gears and shafts of a machine, and how near their axes come.
+
+    Parameters
+        gears, shafts : bodies
+        reaches : mapping - Reach of two axes by their letters in alphabetical order, "AD"; missing where the bodies
+            are one, or where the design leaves the distance free
+        least_shaft : float [mm] - radius of the thinnest shaft that would be built
+    """
+
+    gears: tuple[Gear, ...]
+    shafts: tuple[Shaft, ...]
+    reaches: Mapping[str, Reach]
+    least_shaft: float
+
+    @cached_property
+    def gear_pairs(self) -> tuple[Clearance, ...]:
+        """Every two gears that do not mesh."""
+        pairs = combinations(self.gears, 2)
+        return tuple(self._gaps((a, b) for a, b in pairs if a.axis not in b.mates and b.axis not in a.mates))
+
+    @cached_property
+    def shaft_pairs(self) -> tuple[Clearance, ...]:
+        """Every gear against every shaft that it does not turn with, then the shafts against each other."""
+        gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears if shaft.axis not in gear.turns_with)
+        return tuple(self._gaps(chain(gears, combinations(self.shafts, 2))))
+
+    @property
+    def seats(self) -> Iterator[Seat]:
+        """Every gear on the axis of a shaft that the file names."""
+        for gear, shaft in product(self.gears, self.shafts):
+            if gear.axis == shaft.axis and gear.root is not None and shaft.radius is not None:
+                yield Seat(gear, shaft, gear.root - shaft.radius, 0.5 * (gear.outer - gear.root))
+
+    def _gaps(self, pairs: Iterable[tuple[Gear | Shaft, Gear | Shaft]]) -> Iterator[Clearance]:
+        for one, other in pairs:
+            reach = self.reaches.get("".join(sorted(one.axis + other.axis)))
+            if reach is not None:
+                yield least_gap(one, other, reach)
+
+    @property
+    def gear_gap(self) -> float | None:
+        """Least gap of the gears that do not mesh [mm]; None where all mesh."""
+        return min((pair.gap for pair in self.gear_pairs), default=None)
+
+
+def ring_gear(axis: str, mesh: GearPair | InternalMesh, mates: str = "", rim: float | None = None) -> Gear:
+    """The ring gear of an internal mesh, on its axis, with the outer radius that the file gives [mm]."""
+    outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(mesh, "rim", None) if rim is None else rim)
+    return Gear("the ring gear", axis, outer, abs(mesh.tip_radius[1]), mates)
+
+
+class Limits(Protocol):
+    """What a layout reads of a spec's `limits`."""
+
+    @property
+    def least_shaft(self) -> float | None: ...
+
+
+def least_shaft(limits: Limits, module: float) -> float:
+    """Radius of the thinnest shaft that would be built [mm]: given, or 2 modules."""
+    return LEAST_SHAFT_MODULES * module if limits.least_shaft is None else limits.least_shaft
+
+
+def shafts_at(axes: str, section: object) -> tuple[Shaft, ...]:
+    """The shafts at axes of the frame, with the radii that the file's section `shafts` names.
+
+    Parameters
+        axes : str - letters
+        section : the section, whose keys are A_radius and so on, or None
+    """
+    keys = [f"{axis}_radius" for axis in axes]
+    return tuple(
+        Shaft(f"shaft at {axis}", axis, getattr(section, key, None), f"shafts.{key}")
+        for axis, key in zip(axes, keys, strict=True)
+    )

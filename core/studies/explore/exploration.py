@@ -1,0 +1,148 @@
+"""A study as a design: its results are counts, the front, and why it is no larger."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import amount
+from gearlink.core.studies.explore.chunks import Miss, chunk_of, together
+from gearlink.core.studies.explore.front import SHOWN, Found
+from gearlink.core.studies.explore.order import Variable
+from gearlink.core.studies.explore.preparing import problem
+from gearlink.core.studies.explore.problem import Problem
+from gearlink.core.studies.study.codes import FEASIBLE, RANGE_END
+from gearlink.core.studies.study.spec import StudySpec
+
+_FEW = 0.01
+_EDGE = 1e-9
+
+
+class Exploration(Design):
+    """A study; its chunks are computed here one after the other, unless `found` brings them."""
+
+    kind = "study"
+    spec: StudySpec
+    checks_need_search = True
+    outlines = {
+        "explore": Outline(
+            ("designs", "refused", "feasible", "front_size", "kept", "shown", "exhaustive", "knee"),
+            ("feasible-designs", "range-end"),
+            ("front", "why"),
+        )
+    }
+
+    def __init__(self, spec: StudySpec, found: Found | None = None) -> None:
+        super().__init__(spec)
+        if found is not None:
+            vars(self).update(problem=found.problem, found=found)
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The study made ready.
+
+        Raises
+            WrongStudy
+        """
+        return problem(self.spec)
+
+    @cached_property
+    def found(self) -> Found:
+        """What was found."""
+        made = self.problem
+        return Found.of(made, together(made, (chunk_of(made, number) for number in range(made.chunks))))
+
+    def require(self, _command: str) -> None:
+        """Make the study ready: what is wrong with its file, and whether there are designs to compute.
+
+        Raises
+            WrongStudy
+        """
+        _ = self.problem.order
+
+    designs: int = placed("found.total.designs")
+
+    @property
+    def refused(self) -> int:
+        """Designs without a mechanism, or without one of the objectives."""
+        misses = self.found.total.misses
+        return sum(miss.fails for name, miss in misses.items() if name.startswith("refused "))
+
+    feasible: int = placed("found.total.feasible")
+    front_size: int = placed("found.front_size")
+
+    @property
+    def kept(self) -> int:
+        """Boxes of the front."""
+        return len(self.found.rows)
+
+    @property
+    def shown(self) -> int:
+        """Rows that a terminal shows."""
+        return min(self.kept, SHOWN)
+
+    exhaustive: bool = placed("problem.exhaustive")
+    knee: int | None = placed("found.knee")
+
+    def table_front(self, _samples: int | None = None) -> Table:
+        """The kept designs, sorted by the first objective."""
+        rows, made = self.found.rows, self.problem
+        columns: dict[str, tuple[Any, str]] = {"index": ([row.index for row in rows], "1")}
+        units = made.base.units
+        for i, variable in enumerate(made.variables):
+            columns[variable.path] = ([row.variables[i][1] for row in rows], units.get(variable.path) or "1")
+        for i, (name, _, unit) in enumerate(made.shown):
+            columns[name] = ([row.figures[i] for row in rows], unit)
+        return Table.of("front", columns)
+
+    def table_why(self, _samples: int | None = None) -> Table:
+        """Of each check, condition and refusal: designs that fail it, that fail it alone, and the nearest miss."""
+        rows = self.found.why
+        columns: dict[str, Sequence[Any]] = {
+            "name": [name for name, _, _ in rows],
+            "code": [code for _, code, _ in rows],
+            "fails": [miss.fails for _, _, miss in rows],
+            "alone_removes": [miss.alone for _, _, miss in rows],
+            "nearest": [miss.value for _, _, miss in rows],
+            "limit": [miss.limit for _, _, miss in rows],
+            "unit": [miss.unit for _, _, miss in rows],
+            "index": [miss.index for _, _, miss in rows],
+        }
+        return Table("why", tuple(columns), ("1",) * len(columns), tuple(columns.values()))
+
+    def check_feasible_designs(self) -> Check:
+        """GL161."""
+        share = self.feasible / self.designs
+        verb = "satisfies" if self.feasible == 1 else "satisfy"
+        text = f"{self.feasible} of {amount(self.designs, 'design')} {verb} {self.problem.asked}"
+        text += "; checks.must_pass: all asks for it too" if self.problem.waived else ""
+        if share >= _FEW:
+            return FEASIBLE.check("pass", text, share, _FEW)
+        name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
+        if worst.alone:
+            text += f"; {name} alone removes {worst.alone}"
+        return FEASIBLE.check("fail" if not self.feasible else "warn", f"{text}: see the table why", share, _FEW)
+
+    def check_range_end(self) -> Iterator[Check]:
+        """GL162 of each variable that kept designs have at an end of its range."""
+        rows = self.found.rows
+        for i, variable in enumerate(self.problem.variables):
+            if variable.values or variable.times or variable.low == variable.high or not rows:
+                continue
+            values = [row.variables[i][1] for row in rows]
+            for end, limit in zip(("lower", "upper"), _ends(variable), strict=True):
+                count = sum(abs(value - limit) <= _EDGE * max(1.0, abs(limit)) for value in values)
+                if count:
+                    share_of_rows = f"{count} of {amount(len(rows), 'row')}"
+                    text = f"{variable.path} is at {limit:g}, the {end} end of its range, in {share_of_rows}"
+                    yield RANGE_END.check("warn", f"{text}: widen it", float(limit), float(limit))
+
+
+def _ends(variable: Variable) -> tuple[float, float]:
+    low, high = variable.ends()
+    if variable.step is not None:
+        high = low + variable.step * int((high - low) / variable.step + _EDGE)
+    return float(low), float(high)

@@ -1,0 +1,288 @@
+"""What `loads` shows besides of a machine with cams: contact forces, pressures, rollers, the torque of the cams."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gearlink.core.base.results import cached_property
+from gearlink.core.studies.loads.cams import checks, tables
+from gearlink.core.studies.loads.design import LoadsDesign
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.studies.loads.base import Wanted
+    from gearlink.core.studies.loads.cams.contact import LineContact, RollerOnCam
+
+CONTACT = (
+    "contact_force_max",
+    "contact_force_min",
+    "hertz_pressure_max",
+    "shear_depth",
+    "roller_speed_max",
+    "roller_acceleration_max",
+    "traction_needed",
+    "entrainment_speed_max",
+    "cam_torque_max",
+    "cam_torque_min",
+    "cam_torque_rms",
+    "preload_needed",
+)
+_OF_EXTREMES = frozenset(CONTACT) - {"traction_needed", "cam_torque_rms", "preload_needed"}
+_RPM = 2.0 * math.pi / 60.0
+
+
+class CamLoadsDesign(LoadsDesign):
+    """Loads of a machine with rollers on cams; a subclass says where they are and how hard they press.
+
+    Quantities of the contact are lists, a value for each of `rollers`.
+    """
+
+    extra_tables: ClassVar[tuple[str, ...]] = (*LoadsDesign.extra_tables, "contact")
+    rollers: ClassVar[tuple[str, ...]] = ("main", "return")
+    on_two_sides: ClassVar[bool] = False
+    """Whether one follower has a roller for each sense of its force."""
+
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller at input angles, with derivatives by the turned angle of its cam."""
+        raise NotImplementedError
+
+    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+        """The same, made once for links that are kept."""
+        return self.machine.at(phi).once(f"roller {name}", lambda: self.roller_at(name, phi))
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Force between a roller and its cam at input angles [N]; a negative one is pulled."""
+        raise NotImplementedError
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """Magnitude of the speed of the cam [rad/s]."""
+        raise NotImplementedError
+
+    def cam_acceleration(self, phi: Reals) -> Reals:
+        """Its derivative by time [rad/s^2]."""
+        import numpy as np
+
+        return np.zeros_like(phi)
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """Cam angle at input angles [deg]."""
+        raise NotImplementedError
+
+    @property
+    def closing_remedy(self) -> str:
+        """What would press the rollers harder to their cams."""
+        return "press it harder, lower the speed, or lighten the follower"
+
+    @cached_property
+    def own_rollers(self) -> tuple[str, ...]:
+        """The rollers that this design has."""
+        return self.rollers
+
+    def contact(self, name: str, phi: Reals) -> LineContact | None:
+        """The Hertzian contact of a roller; None where the file gives no width."""
+        if self.section.roller is None:
+            return None
+        return self.machine.at(phi).once(f"contact {name}", lambda: self._contact_at(name, phi))
+
+    def _contact_at(self, name: str, phi: Reals) -> LineContact:
+        from gearlink.core.studies.loads.cams.contact import LineContact, plane_modulus
+        from gearlink.core.studies.loads.spec import Material
+
+        material = self.section.material or Material()
+        radius = self.roller_on_cam(name, phi).relative_radius
+        modulus = plane_modulus(material.modulus, material.poisson)
+        return LineContact(self.contact_force(name, phi), radius, self.section.roller.width, modulus)
+
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """Those of the rollers as well, `contact_force:main`."""
+        what, _, roller = name.partition(":")
+        if what == "cam_torque":
+            return self.cam_torque
+        return partial(self._of_roller(what), roller) if roller else super().course(name)
+
+    def _of_roller(self, what: str) -> Callable[[str, Reals], Reals]:
+        return {
+            "contact_force": self.contact_force,
+            "hertz_pressure": lambda name, phi: self._where_pressed(name, phi, "pressure"),
+            "shear_depth": lambda name, phi: self._where_pressed(name, phi, "shear_depth"),
+            "radius": self._radius,
+            "radius_anywhere": lambda name, phi: self.roller_on_cam(name, phi).relative_radius,
+            "traction": self.traction,
+            "roller_speed": lambda name, phi: abs(self.roller_speed(name, phi)),
+            "roller_acceleration": lambda name, phi: abs(self.roller_acceleration(name, phi)),
+            "entrainment_speed": lambda name, phi: abs(self.entrainment(name, phi)),
+        }[what]
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        if quantity not in _OF_EXTREMES:
+            return super().wanted(quantity)
+        course, greatest = quantity.removesuffix("_max").removesuffix("_min"), not quantity.endswith("_min")
+        if course == "cam_torque":
+            return ((course, greatest),)
+        found = [(f"{course}:{name}", greatest) for name in self.own_rollers]
+        if course in ("hertz_pressure", "shear_depth"):
+            found += [(f"radius_anywhere:{name}", False) for name in self.own_rollers]
+            return found if self.section.roller is not None else ()
+        return found
+
+    def _each(self, course: str, greatest: bool = True) -> list[Extreme]:
+        return [self.extreme_of(f"{course}:{name}", greatest) for name in self.own_rollers]
+
+    def _where_pressed(self, name: str, phi: Reals, what: str) -> Reals:
+        """Pressure or depth of a roller that is pressed; 0 where it is not."""
+        import numpy as np
+
+        contact = self.contact(name, phi)
+        assert contact is not None, "asked for only with a width"
+        return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
+
+    def _radius(self, name: str, phi: Reals) -> Reals:
+        """Relative radius of a roller that is pressed [mm]; its own where it is not, by which no least is found."""
+        import numpy as np
+
+        roller = self.roller_on_cam(name, phi)
+        return np.where(self.contact_force(name, phi) > 0.0, roller.relative_radius, roller.radius)
+
+    def _each_pressed(self, course: str) -> list[Extreme | None] | None:
+        """The greatest value of each roller; None for one that presses on an undercut, and all without a width."""
+        if self.section.roller is None:
+            return None
+        pairs = zip(self.own_rollers, self._each(course), strict=True)
+        return [None if self._is_pressed_on_undercut(name) else found for name, found in pairs]
+
+    def _is_pressed_on_undercut(self, name: str) -> bool:
+        """Whether a roller presses where its cam has no profile; where it presses is asked only if there is such."""
+        if self.extreme_of(f"radius_anywhere:{name}", False).value > 0.0:
+            return False
+        return self.extreme_of(f"radius:{name}", False).value <= 0.0
+
+    @cached_property
+    def force_extremes(self) -> list[tuple[Extreme, Extreme]]:
+        """Least and greatest force of each roller [N]."""
+        return list(zip(self._each("contact_force", False), self._each("contact_force"), strict=True))
+
+    @property
+    def contact_force_max(self) -> list[float]:
+        """Greatest contact force of each roller [N]."""
+        return [high.value for _, high in self.force_extremes]
+
+    @property
+    def contact_force_min(self) -> list[float]:
+        """Least contact force of each roller [N]."""
+        return [low.value for low, _ in self.force_extremes]
+
+    @cached_property
+    def pressure_extremes(self) -> list[Extreme | None] | None:
+        """Greatest Hertzian pressure of each roller [N/mm^2]; None where its cam is undercut, and without a width."""
+        return self._each_pressed("hertz_pressure")
+
+    @property
+    def hertz_pressure_max(self) -> list[float | None] | None:
+        """Greatest pressure of each roller and its cam [N/mm^2]."""
+        return _values(self.pressure_extremes)
+
+    @cached_property
+    def shear_depth(self) -> list[float | None] | None:
+        """Greatest depth of the greatest shear stress [mm]."""
+        return _values(self._each_pressed("shear_depth"))
+
+    def roller_speed(self, name: str, phi: Reals) -> Reals:
+        """Speed of a roller that rolls [rad/s]."""
+        found: Reals = self.roller_on_cam(name, phi).roller_speed * self.cam_speed(phi)
+        return found
+
+    def roller_acceleration(self, name: str, phi: Reals) -> Reals:
+        """Angular acceleration of it [rad/s^2]."""
+        roller, speed = self.roller_on_cam(name, phi), self.cam_speed(phi)
+        found: Reals = roller.roller_acceleration * speed**2 + roller.roller_speed * self.cam_acceleration(phi)
+        return found
+
+    @property
+    def roller_speed_max(self) -> list[float]:
+        """Greatest speed of each roller [1/min]."""
+        return [each.value / _RPM for each in self._each("roller_speed")]
+
+    @property
+    def roller_acceleration_max(self) -> list[float]:
+        """Greatest angular acceleration of each roller [rad/s^2]."""
+        return [each.value for each in self._each("roller_acceleration")]
+
+    def entrainment(self, name: str, phi: Reals) -> Reals:
+        """Speed of both surfaces through the contact [mm/s]."""
+        found: Reals = self.roller_on_cam(name, phi).entrainment * self.cam_speed(phi)
+        return found
+
+    @property
+    def entrainment_speed_max(self) -> list[float]:
+        """Greatest entrainment speed of each roller [mm/s]."""
+        return [each.value for each in self._each("entrainment_speed")]
+
+    def traction(self, name: str, phi: Reals) -> Reals:
+        """Share of the contact force that drives a roller round that stays on its cam, |J_r dw/dt| and its bearing's
+        moment."""
+        import numpy as np
+
+        from gearlink.core.mechanism.joints import NEWTON_METER
+
+        roller = self.section.roller
+        need = roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment
+        push = need * NEWTON_METER / self.roller_on_cam(name, phi).radius
+        return np.asarray(push / self.contact_force(name, phi))
+
+    @cached_property
+    def traction_needed(self) -> list[float | None] | None:
+        """Greatest share of the contact force that drives each roller round; None without a roller, and for one that
+        leaves its cam: then nothing drives it."""
+        roller = self.section.roller
+        if roller is None:
+            return None
+        if not roller.inertia and not roller.bearing_moment:
+            return [0.0 for _ in self.own_rollers]
+        pairs = zip(self.own_rollers, self.force_extremes, strict=True)
+        return [self.extreme_of(f"traction:{name}").value if low.value > 0.0 else None for name, (low, _) in pairs]
+
+    def cam_torque(self, phi: Reals) -> Reals:
+        """Torque that drives the cams about their axis, counter-clockwise [N m]."""
+        total = 0.0 * phi
+        for name in self.own_rollers:
+            total = total + self.roller_on_cam(name, phi).cam_torque(self.contact_force(name, phi))
+        return total
+
+    @cached_property
+    def cam_torque_max(self) -> float:
+        """Greatest torque on the cams, counter-clockwise [N m]."""
+        return self.extreme_of("cam_torque").value
+
+    @cached_property
+    def cam_torque_min(self) -> float:
+        """Least torque on the cams, counter-clockwise [N m]."""
+        return self.extreme_of("cam_torque", False).value
+
+    @cached_property
+    def cam_torque_rms(self) -> float:
+        """Root mean square of it over the input angle [N m]."""
+        return math.sqrt(self.machine.mean(lambda phi: self.cam_torque(phi) ** 2))
+
+    @property
+    def preload_needed(self) -> float | None:
+        """Least preload that keeps both rollers of a positive drive on their cams [N]; None elsewhere."""
+        return None
+
+    def side_force(self, phi: Reals) -> Reals:
+        """Force of a follower between two cams [N], positive on the main cam; of those `on_two_sides`."""
+        raise NotImplementedError
+
+    table_contact: Any = tables.contact
+
+    check_contact_pressure, check_contact_loss = checks.contact_pressure, checks.contact_loss
+    check_roller_skid, check_preload = checks.roller_skid, checks.preload
+    check_load_reversal = checks.load_reversal
+
+
+def _values(found: list[Extreme | None] | None) -> list[float | None] | None:
+    return None if found is None else [None if each is None else each.value for each in found]

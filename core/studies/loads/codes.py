@@ -1,0 +1,205 @@
+"""Codes of the checks of `loads`, each with what it says and what to do."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+POWER_IDENTITY = Rule(
+    "GL601",
+    "power identity",
+    "The input torque by virtual power and that by the forces of all joints differ.",
+    "Both follow from the same links, and losses of friction are counted from the motion of the joints; where they "
+    "differ, none of the forces can be trusted.",
+    "Move the mechanism away from a dead point: near one the forces grow beyond all digits.",
+    "|M_NE - M_VP| <= 1e-9 max |M|",
+    "virtual power against Newton and Euler",
+    checks=("power-identity",),
+    keys=("loads",),
+    side="<=",
+)
+LOAD_REVERSAL = Rule(
+    "GL602",
+    "load reversal",
+    "A tooth force, or the force of a roller between two cams, changes its sign.",
+    "There the teeth change flanks through the backlash: it rattles, and while it does the second gear "
+    "of the mesh lags by backlash/(2 r_w), r_w its own. Within a dwell or a synchronous zone that is an error of "
+    "place.",
+    "Add a constant load or a spring on the output, lower the speed, lighten what is driven, or take backlash away.",
+    "roots of F_t(phi)",
+    "own derivation: the flank that touches follows from the sign of F_t",
+    checks=("load-reversal",),
+    keys=("loads.backlash", "loads"),
+    side="<=",
+)
+MOTOR_TORQUE = Rule(
+    "GL603",
+    "motor torque",
+    "The motor gives more than it can for a moment (peak, driving or braking), or all the time (root mean square), or "
+    "it runs the machine at another speed than that of the file, at which forces, lives and vibration are computed.",
+    "Above its greatest torque it stalls or trips; above its rated torque in the mean it overheats. Forces of masses "
+    "grow with the square of the speed.",
+    "Take a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that levels the peak, or balance the load "
+    "by springs. Where the speed is another one, set loads.motor.ratio, or the speed to the one found.",
+    "|peak| <= max_torque/margin, rms <= rated_torque/margin (a file with neither warns), |(w_max + w_min)/(2 w) - 1| "
+    "<= 0.1",
+    "thermal and pull-out limit of an electric motor",
+    checks=("motor-torque", "motor-speed"),
+    keys=("loads.motor",),
+    side="<=",
+)
+SPEED_FLUCTUATION = Rule(
+    "GL604",
+    "speed fluctuation",
+    "The speed of the input varies by more than is allowed over a period, or the machine stops; where the file allows "
+    "no number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
+    "Uneven speed shows in the print, and all loads of motion grow with the square of the greatest speed.",
+    "Add flywheel inertia: loads.flywheel.fluctuation alone gives the least that is needed.",
+    "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, left out: 0.2",
+    "own derivation: energy with variable inertia",
+    checks=("speed-fluctuation",),
+    keys=("loads.flywheel",),
+    side="<=",
+)
+BEARING_LIFE = Rule(
+    "GL606",
+    "bearing life",
+    "The basic rating life of a pin's bearing is below what is wanted, or it swings too little for rolling bodies, or "
+    "helical teeth push along its axis, which forces in the plane of the machine do not show.",
+    "A bearing that fails stops the machine; one that only swings brinells at the same few places.",
+    "Take a bearing of a higher rating, or a plain one where the swing is small; less mass lowers the load.",
+    "L_10 = (C/P)^p 10^6 relative turns",
+    "ISO 281",
+    checks=("bearing-life",),
+    keys=("loads.bearings",),
+)
+FORCE_AMPLIFICATION = Rule(
+    "GL612",
+    "force amplification",
+    "The transmission angle becomes so small that pin forces are five times those at a right angle.",
+    "Forces grow as 1/sin of the transmission angle, and with them wear, play and the errors of these numbers.",
+    "Change the links for a larger least transmission angle.",
+    "1/sin(mu_min) <= 5",
+    "VDI 2142",
+    checks=("force-amplification",),
+    keys=("links", "loads"),
+    side="<=",
+)
+IMPACT = Rule(
+    "GL614",
+    "impact",
+    "The speed of a link jumps.",
+    "A jump of speed has no finite force: each start and stop costs energy, as heat and in the tooth that strikes.",
+    "Cut the first and last tooth, add entry cams, or lighten what is driven.",
+    "E = J_red w_F^2/2 at each start and stop",
+    "impulse and energy of a plastic impact",
+    checks=("impact",),
+    keys=("gears", "loads"),
+    side="<=",
+)
+SELF_LOCKING = Rule(
+    "GL615",
+    "self-locking",
+    "With its friction the mechanism locks itself, or comes near to it.",
+    "The forces of friction grow from the forces that they cause; near locking any change of friction stops it.",
+    "Make the pins thinner, lower the friction, or enlarge the transmission angle.",
+    "ratio of two passes of the friction < 0.5",
+    "own derivation: fixed point of the friction",
+    checks=("self-locking",),
+    keys=("loads.friction",),
+    side="<=",
+)
+TOOTH_LOAD = Rule(
+    "GL616",
+    "teeth rated for less than they carry",
+    "The greatest tooth force of the loads is above the one for which the file has the teeth rated, K_A counted; a "
+    "force on the other flanks bends the teeth both ways and counts for 3/7 of it besides.",
+    "The safeties against pitting and breaking (GL210, GL211) are those of a smaller force.",
+    "Raise the load of the rating (torque, power or tangential_force), or its application factor.",
+    "F_t + 3/7 F_back <= K_A F_t,rated r/r_w, 3/7 = (1 - M)/(1 + M) with M = 0.4 of tempered steel",
+    "ISO 6336-6 for a load that varies, ISO 6336-3 annex B for one that turns back; own derivation",
+    checks=("tooth-load",),
+    keys=("gears.load", "load", "loads"),
+    side="<=",
+)
+CONTACT_PRESSURE = Rule(
+    "GL607",
+    "contact pressure",
+    "The Hertzian pressure of roller and cam is above what their material allows.",
+    "The surface pits; the greatest shear lies below it, where the hardened depth must still reach.",
+    "Widen the roller (loads.roller.width), enlarge roller or cam, or lower speed, mass or spring.",
+    "p_max = sqrt(N E*/(pi b R)),  R = r_g (1 - r_g kappa)",
+    "Hertz, line contact",
+    checks=("contact-pressure",),
+    keys=("loads.material.allowed_pressure", "loads.roller"),
+    side="<=",
+)
+CONTACT_LOSS = Rule(
+    "GL608",
+    "contact loss",
+    "A roller leaves its cam at the speed of the design, or nearly does.",
+    "What lifts off comes back with a blow, and the follower leaves its law.",
+    "Raise the spring's force, lower the speed, or lighten the follower.",
+    "N > 0",
+    "VDI 2142",
+    checks=("contact-loss",),
+    keys=("loads", "spring"),
+)
+ROLLER_SKID = Rule(
+    "GL609",
+    "roller skid",
+    "The cam cannot drive the roller round: its inertia and bearing need more than friction gives.",
+    "A roller that slides wears itself and the cam.",
+    "Take a lighter roller, a bearing that runs more easily, or more contact force.",
+    "|J_r dw/dt|/r_g + M_b/r_g <= mu N",
+    "own derivation: friction at the contact",
+    checks=("roller-skid",),
+    keys=("loads.roller",),
+    side="<=",
+)
+PRELOAD = Rule(
+    "GL613",
+    "preload",
+    "The two rollers of a positive drive are not pressed on their cams all the time.",
+    "Where one opens, the drive has play: it strikes at every change of the force.",
+    "Raise loads.roller.preload to what is needed.",
+    "P >= max(F k_2/(k_1 + k_2), -F k_1/(k_1 + k_2))",
+    "own derivation: two springs against each other",
+    checks=("preload",),
+    keys=("loads.roller.preload", "loads.roller"),
+)
+
+RIGID_MODEL = Rule(
+    "GL605",
+    "rigid model",
+    "The first natural frequency is not far above the frequency of the input, or the motion is short against the "
+    "natural period.",
+    "All forces are those of rigid links; the nearer the frequencies, the more the output differs from its law.",
+    "Stiffen the drive of the output, lighten it, or lower the speed.",
+    "f_n >= limits.frequency_ratio f,  n_T = T_1 f_n",
+    "VDI 2149",
+    checks=("rigid-model",),
+    keys=("loads.vibration",),
+)
+RESIDUAL_VIBRATION = Rule(
+    "GL610",
+    "residual vibration",
+    "The output still vibrates in the dwell by more than is allowed.",
+    "What is gripped, printed or fed in the dwell moves.",
+    "Lower the speed, stiffen the drive of the output, or take a smoother law (4-5-6-7, cycloidal).",
+    "amplitude after the rise <= loads.vibration.allowed_residual",
+    "VDI 2149",
+    checks=("residual-vibration",),
+    keys=("loads.vibration.allowed_residual", "loads.vibration"),
+    side="<=",
+)
+RESONANCE = Rule(
+    "GL611",
+    "resonance",
+    "A harmonic of the motion lies at the natural frequency of the output.",
+    "Every period adds to the vibration; without damping it grows without limit.",
+    "Change the speed, or the natural frequency, by a tenth.",
+    "n_k = 60 f_n/k",
+    "linear vibration of one degree of freedom",
+    checks=("resonance",),
+    keys=("loads.vibration",),
+)

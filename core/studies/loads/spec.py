@@ -1,0 +1,317 @@
+"""The section `loads` of a design file: what all kinds share; each machine names its own links."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec
+
+Kilograms = Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "kg"})]
+Inertia = Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
+Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
+Vector = Annotated[list[Place], Field(min_length=2, max_length=2), Entries("[x, y]")]
+Newton = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N"})]
+NewtonMetre = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
+Gravity = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m/s^2"})]
+Speed = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1/min"})]
+Number = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "1"})]
+Coefficient = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
+Pair = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[angle, value]")]
+AboveZero = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N/mm"})]
+
+
+class Body(Spec):
+    """A link's mass; what is left out is zero."""
+
+    mass: Kilograms = Field(0.0, description="mass")
+    inertia: Inertia = Field(0.0, description="moment of inertia about the centre of mass; 0: a point mass")
+    center: Vector | None = Field(
+        None, description="centre of mass in link coordinates: origin at the first joint, x to the second"
+    )
+
+
+class Zone(Spec):
+    """A stretch of the input's turn with a constant value; zero outside of all zones."""
+
+    start: Angle = Field(alias="from", description="input angle at which it starts")
+    end: Angle = Field(alias="to", description="input angle at which it ends")
+    value: Number = Field(description="torque (N m) or force (N) in it")
+
+    @model_validator(mode="after")
+    def _some_width(self) -> Zone:
+        if self.start == self.end:
+            raise PydanticCustomError("GL111", "this zone is empty: it ends where it starts", {"key": "to"})
+        return self
+
+
+class Course(Spec):
+    """A value over the input angle, repeated every 360 deg: a table of [angle, value], or zones."""
+
+    table: Annotated[list[Pair], Field(min_length=1, max_length=10_000)] | None = Field(
+        None, description="pairs [input angle, value], ascending, within one turn"
+    )
+    interpolation: Literal["step", "linear", "cubic"] = Field("linear", description="between the pairs of the table")
+    zones: Annotated[list[Zone], Field(min_length=1, max_length=1000)] | None = Field(
+        None, description="stretches of constant value, in place of a table"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Course:
+        if (self.table is None) == (self.zones is None):
+            raise PydanticCustomError(
+                "GL111", "give either table or zones", {"key": "zones" if self.table else "table"}
+            )
+        if self.table is not None:
+            angles = [angle for angle, _ in self.table]
+            back = next((i for i, (a, b) in enumerate(itertools.pairwise(angles), 1) if b <= a), 0)
+            if back:
+                message = (
+                    f"the angles of a table must ascend: table[{back}] is at {angles[back]:.9g} deg, after "
+                    f"{angles[back - 1]:.9g} deg"
+                )
+                raise PydanticCustomError("GL111", "{message}", {"message": message, "key": f"table[{back}]"})
+            if angles[-1] - angles[0] > 360.0:
+                message = "a table covers one turn at most"
+                raise PydanticCustomError("GL111", message, {"key": "table"})
+            if angles[-1] - angles[0] == 360.0 and self.table[0][1] != self.table[-1][1]:
+                message = "a table over a whole turn ends with the value that it starts with, or without its last pair"
+                raise PydanticCustomError("GL111", message, {"key": "table"})
+            if self.interpolation == "cubic" and len(angles) < 3:
+                raise PydanticCustomError("GL111", "cubic needs three pairs or more", {"key": "interpolation"})
+        return self
+
+
+class Load(Spec):
+    """One applied force or torque."""
+
+    on: str = Field(description="the link that it acts on")
+    torque: NewtonMetre | Course | None = Field(None, description="torque, positive counter-clockwise")
+    force: Newton | Course | Annotated[list[Newton], Field(min_length=2, max_length=2), Entries("[x, y]")] | None = (
+        Field(
+            None,
+            description="on a slider: along its travel; with `point`: the vector [x, y] in the frame's coordinates",
+        )
+    )
+    point: Vector | None = Field(None, description="point of the link where the vector acts, in link coordinates")
+    resistance: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="force (N) or torque (N m) that is always against the motion"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Load:
+        given = [name for name in ("torque", "force", "resistance") if getattr(self, name) is not None]
+        if len(given) != 1:
+            message = "give torque, force or resistance" if not given else "give one of torque, force and resistance"
+            raise PydanticCustomError("GL111", message, {"key": given[1] if given else "on"})
+        if isinstance(self.force, list) and self.point is None:
+            raise PydanticCustomError("GL106", "a force [x, y] needs the point where it acts", {"key": "force"})
+        if self.point is not None and not isinstance(self.force, list):
+            raise PydanticCustomError("GL111", "point goes with a force [x, y]", {"key": "point"})
+        return self
+
+
+class Spring(Spec):
+    """A helical spring between points of two links, or of a link and the frame."""
+
+    between: Annotated[list[str], Field(min_length=2, max_length=2), Entries("[link, link or frame]")] = Field(
+        description="two links, or one and frame"
+    )
+    points: Annotated[list[Vector], Field(min_length=2, max_length=2), Entries("[[x, y], [x, y]]")] = Field(
+        description="its ends, each in its link's coordinates; those of the frame in the design's"
+    )
+    rate: Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "N/mm"})] = Field(description="spring rate")
+    free_length: Length = Field(description="length without force (with preload: at the preload)")
+    preload: Newton = Field(0.0, description="pull at the free length")
+
+
+class Friction(Spec):
+    """Coefficients of friction; a joint of its own has its own key."""
+
+    pins: Coefficient = Field(0.0, description="coefficient of friction in all pins")
+    pin_radius: Annotated[float, Field(ge=0, le=1e5, json_schema_extra={"unit": "mm"})] = Field(
+        0.0, description="radius of the pins"
+    )
+    guides: Coefficient = Field(0.0, description="coefficient of friction in all guides")
+    meshes: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="efficiency of all gear meshes, output over input power whichever gear drives"
+    )
+    joints: dict[str, Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]] = Field(
+        {}, description="coefficient of a pin or guide, or efficiency of a mesh, by its name"
+    )
+
+
+class Flywheel(Spec):
+    """A flywheel on the input shaft."""
+
+    inertia: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})] | None = Field(
+        None, description="its moment of inertia"
+    )
+    fluctuation: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="(greatest - least)/mean speed allowed, the mean of these two; alone, the inertia is sought"
+    )
+
+    @model_validator(mode="after")
+    def _something(self) -> Flywheel:
+        if self.inertia is None and self.fluctuation is None:
+            raise PydanticCustomError("GL106", "give inertia, fluctuation or both", {"key": "inertia"})
+        return self
+
+
+class Motor(Spec):
+    """A motor whose torque falls linearly with its speed."""
+
+    no_load_speed: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "1/min"})] = Field(
+        description="speed without torque, at the motor's shaft"
+    )
+    rated_speed: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="speed at rated_torque"
+    )
+    rated_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque that it may give all the time"
+    )
+    slope: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N m s"})] | None = Field(
+        None, description="torque lost per rad/s, in place of rated_speed and rated_torque"
+    )
+    inertia: Inertia = Field(0.0, description="moment of inertia at the motor's shaft")
+    ratio: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="motor turns per turn of the input"
+    )
+    max_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="greatest torque for a moment"
+    )
+
+    @model_validator(mode="after")
+    def _characteristic(self) -> Motor:
+        if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
+            raise PydanticCustomError("GL106", "give rated_speed and rated_torque, or slope", {"key": "rated_speed"})
+        if self.slope is not None and self.rated_speed is not None:
+            raise PydanticCustomError("GL111", "slope excludes rated_speed: give one", {"key": "slope"})
+        if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
+            message = (
+                f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"
+            )
+            raise PydanticCustomError("GL111", "{message}", {"message": message, "key": "rated_speed"})
+        return self
+
+
+class Bearing(Spec):
+    """A bearing of a pin."""
+
+    kind: Literal["ball", "roller", "needle", "plain"] = Field(description="exponent 3 for balls, 10/3 for rollers")
+    dynamic_rating: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="basic dynamic load rating C"
+    )
+    life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] | None = Field(
+        None, description="least life"
+    )
+    width: Length | None = Field(None, description="plain: width b")
+    diameter: Length | None = Field(None, description="plain: diameter d")
+    rolling_bodies: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="rolling bodies in a row"
+    )
+
+    @model_validator(mode="after")
+    def _complete(self) -> Bearing:
+        if self.kind == "plain" and (self.width is None or self.diameter is None):
+            raise PydanticCustomError("GL106", "a plain bearing needs width and diameter", {"key": "kind"})
+        rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
+        if self.kind == "plain" and rating is not None:
+            message = f"a plain bearing has no rating life, only bearing_pressure: leave {rating} out"
+            raise PydanticCustomError("GL111", "{message}", {"key": rating, "message": message})
+        if self.kind != "plain" and self.dynamic_rating is None:
+            raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})
+        return self
+
+
+class Vibration(Spec):
+    """The output as a mass on a spring."""
+
+    frequency: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})] | None = Field(
+        None, description="natural frequency"
+    )
+    stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="in place of frequency: of the output shaft (N m/rad) or of the slider's drive (N/mm)"
+    )
+    damping: Coefficient | None = Field(None, description="damping ratio; left out: 0.03, assumed")
+    allowed_residual: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="greatest vibration left in the dwell, deg or mm as the output moves"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Vibration:
+        if (self.frequency is None) == (self.stiffness is None):
+            raise PydanticCustomError("GL106", "give either frequency or stiffness", {"key": "frequency"})
+        return self
+
+
+class Roller(Spec):
+    """The cam's rollers."""
+
+    width: Length = Field(description="width of the contact")
+    inertia: Inertia = Field(0.0, description="moment of inertia of a roller about its axis")
+    friction: Coefficient = Field(0.08, description="coefficient of friction of roller and cam")
+    bearing_moment: Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "N m"})] = Field(
+        0.0, description="moment of friction in the roller's bearing"
+    )
+    preload: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "N"})] = Field(
+        0.0, description="force between both rollers and their cams at rest, where two rollers run on two cams"
+    )
+    stiffness: (
+        Annotated[list[AboveZero], Field(min_length=2, max_length=2), Entries("[main roller, return roller]")] | None
+    ) = Field(None, description="stiffness of the contact of main and return roller, N/mm")
+
+
+class Material(Spec):
+    """Cam and roller, of one material."""
+
+    modulus: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})] = Field(
+        206_000.0, description="modulus of elasticity"
+    )
+    poisson: Annotated[float, Field(ge=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
+        0.3, description="Poisson's ratio"
+    )
+    allowed_pressure: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
+        None, description="greatest Hertzian pressure"
+    )
+
+
+class Balance(Spec):
+    """Counterweights."""
+
+    share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="share of the full force balance"
+    )
+
+
+class CommonLoads(Spec):
+    """What the loads of every kind may say."""
+
+    gravity: Annotated[list[Gravity], Field(min_length=2, max_length=2), Entries("[x, y]", "[0, -9.81]")] = Field(
+        [0.0, 0.0], description="acceleration of gravity in the design's frame"
+    )
+    forces: Annotated[list[Load], Field(max_length=1000)] = Field([], description="applied forces and torques")
+    springs: Annotated[list[Spring], Field(max_length=1000)] = Field([], description="springs between links")
+    friction: Friction | None = None
+    flywheel: Flywheel | None = None
+    motor: Motor | None = None
+    bearings: Annotated[dict[str, Bearing], Field(max_length=100)] = Field({}, description="bearings by the pin's name")
+    backlash: Share | dict[str, Share] | None = Field(
+        None, description="play of the teeth at the pitch circle, of all meshes or by mesh [mm]"
+    )
+    vibration: Vibration | None = None
+
+
+class Loads(CommonLoads):
+    """The loads of a kind that is driven at a speed of its own."""
+
+    speed: Speed | None = Field(None, description="speed of the input, signed; left out: input_speed")
+
+
+def of_body(spec: Any, name: str) -> Body:
+    """The mass that a section `links` gives a link; a link of no mass where it gives none."""
+    found: Body | None = getattr(spec, name, None)
+    return Body() if found is None else found

@@ -1,0 +1,275 @@
+"""Vibration of what is driven through a spring: residual after a motion, periodic response, harmonics.
+
+z'' + 2 zeta w_n z' + w_n^2 z = -x''  with x imposed and z the deflection. With lam = -zeta w_n + i w_d it is
+z = -Im Z/w_d, Z(t) = int x''(s) e^(lam (t - s)) ds; where x rests |Z|/w_d is the amplitude that is left.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.arrays import Points, Reals
+
+ASSUMED_DAMPING = 0.03
+_NODES = 16
+_PHASE = 6.0
+"""Phase of the vibration over a panel [rad]: 16 Gauss nodes take it to rounding."""
+_STEP = math.radians(10.0)
+_UNBOUNDED, _STANDING, _ROUNDING = 1e-6, 1e-9, 1e-11
+_LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
+_BLOCK, _AT_ONCE = 8192, 100
+Function = Callable[[Reals], Reals]
+
+
+def bounded(frequency: float, speed: float, key: str) -> float:
+    """A natural frequency [rad/s] whose vibration over a turn of the input [rad/s] can be followed.
+
+    Raises
+        NoSolution - outside of 1e-6 to 10000 times the input's speed, with the key of the file
+    """
+    ratio = frequency / abs(speed)
+    if _LEAST_RATIO <= ratio <= _MOST_RATIO:
+        return frequency
+    remedy = "moves as a rigid one does: leave vibration out"
+    if ratio < _LEAST_RATIO:
+        remedy = "does not follow its drive: make it stiffer"
+    message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
+    raise NoSolution(f"{message}{_MOST_RATIO:g}; such an output {remedy}", key=key)
+
+
+@dataclass(frozen=True)
+class Oscillator:
+    """Natural frequency w_n [rad/s] and damping ratio zeta of one degree of freedom."""
+
+    frequency: float
+    damping: float = ASSUMED_DAMPING
+
+    @property
+    def damped(self) -> float:
+        """w_d [rad/s]."""
+        return self.frequency * math.sqrt(1.0 - self.damping**2)
+
+    @property
+    def exponent(self) -> complex:
+        """lam = -zeta w_n + i w_d [1/s]."""
+        return complex(-self.damping * self.frequency, self.damped)
+
+
+@dataclass(frozen=True)
+class Panelled:
+    """Second derivative of a motion at the Gauss nodes of panels over an interval of the input angle.
+
+    Fields
+        edges : (n + 1,) array [rad]
+        nodes, weights : (n, 16) arrays [rad]
+        values : (n, 16) array [per rad^2] - x''
+    """
+
+    edges: Reals
+    nodes: Reals
+    weights: Reals
+    values: Reals
+
+    @classmethod
+    def of(cls, bend: Function, start: float, end: float, breaks: Sequence[float], phase: float) -> Panelled:
+        """A motion between two input angles.
+
+        Parameters
+            bend : function of input angles - x''
+            start, end : float [rad]
+            breaks : input angles where x'' or a derivative jumps [rad]
+            phase : float [1] - phase of the vibration per input angle, w_n/Om, at the slowest speed that is asked for
+        """
+        step = min(_STEP, _PHASE / phase)
+        bounds = [start, *sorted(place for place in breaks if start < place < end), end]
+        parts = [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in pairwise(bounds)]
+        edges = np.append(np.concatenate(parts), end)
+        x, w = np.polynomial.legendre.leggauss(_NODES)
+        width = np.diff(edges)[:, None]
+        nodes = edges[:-1, None] + width * (0.5 * (x + 1.0))
+        return cls(edges, nodes, 0.5 * width * w, bend(nodes.ravel()).reshape(nodes.shape))
+
+    def state(self, oscillator: Oscillator, speed: float) -> complex:
+        """Z at the end, from rest at the start; x in its own unit times the frequency.
+
+        Parameters
+            speed : float [rad/s] - Om > 0
+        """
+        rate = oscillator.exponent / speed
+        return complex(speed * np.sum(self.weights * self.values * np.exp(rate * (self.edges[-1] - self.nodes))))
+
+    def residual(self, oscillator: Oscillator, speed: float) -> float:
+        """Amplitude that is left at the end, in the unit of x.
+
+        Example
+            >>> rise = Panelled.of(lambda u: 2.0 * math.pi * np.sin(2.0 * math.pi * u), 0.0, 1.0, [], 10.0)
+            >>> round(rise.residual(Oscillator(2.0 * math.pi, 0.0), 1.0), 12)  # a cycloid of one natural period: h/2
+            0.5
+        """
+        return abs(self.state(oscillator, speed)) / oscillator.damped
+
+    def residuals(self, oscillator: Oscillator, speeds: Reals) -> Reals:
+        """The residual at each of some speeds; no value depends on the others."""
+        exponent, left = oscillator.exponent, (self.edges[-1] - self.nodes).ravel()
+        rates, values = exponent.real / speeds + 1j * (exponent.imag / speeds), (self.weights * self.values).ravel()
+        at_once, found = max(1, _BLOCK // left.size), np.empty(len(speeds))
+        for start in range(0, len(speeds), at_once):
+            part = slice(start, start + at_once)
+            found[part] = np.abs(speeds[part] * np.sum(values * np.exp(rates[part, None] * left), axis=1))
+        return found / oscillator.damped
+
+
+@dataclass(frozen=True)
+class PeriodicResponse:
+    """Steady state of a motion that repeats, exact for any law that is smooth between its breaks.
+
+    Parameters
+        bend : function of input angles - x'' [per rad^2]
+        period : float [rad]
+        breaks : input angles where x'' or a derivative jumps
+        oscillator : Oscillator
+        speed : float [rad/s] - Om > 0
+    """
+
+    bend: Function
+    period: float
+    breaks: tuple[float, ...]
+    oscillator: Oscillator
+    speed: float
+
+    @cached_property
+    def _rate(self) -> complex:
+        return self.oscillator.exponent / self.speed
+
+    @cached_property
+    def _panels(self) -> Panelled:
+        phase = max(self.oscillator.frequency / self.speed, 1e-9)
+        return Panelled.of(self.bend, 0.0, self.period, self.breaks, phase)
+
+    @cached_property
+    def gain(self) -> float:
+        """|1 - e^(lam T)|: next to nothing where a harmonic of an undamped motion is the natural frequency."""
+        return abs(_one_less_exp(self._rate * self.period))
+
+    @property
+    def unbounded(self) -> bool:
+        """Whether the amplitude grows without limit: no damping, and a harmonic at the natural frequency."""
+        if self.oscillator.damping or self.gain >= _UNBOUNDED:
+            return False
+        # the harmonics beside the natural frequency give as much as the gain
+        size = self.speed * float(np.sum(self._panels.weights * np.abs(self._panels.values)))
+        return abs(self._of_period) > (_ROUNDING + 10.0 * self.gain) * size
+
+    @cached_property
+    def _pieces(self) -> Points:
+        """What each panel adds to Z at its end."""
+        panels, rate = self._panels, self._rate
+        decay = np.exp(rate * (panels.edges[1:, None] - panels.nodes))
+        return np.asarray(self.speed * np.sum(panels.weights * panels.values * decay, axis=1))
+
+    @cached_property
+    def _of_period(self) -> complex:
+        """What a period adds to Z at its end."""
+        return complex(np.sum(self._pieces * np.exp(self._rate * (self.period - self._panels.edges[1:]))))
+
+    def _start(self) -> complex:
+        """Z at the start of the steady state, F/(1 - e^(lam T)).
+
+        Notes
+            Of a motion without the harmonic that would stand still in it, whose F is rounding, the state without that
+            harmonic: the mean of Z e^(-lam t) vanishes.
+        """
+        panels, rate = self._panels, self._rate
+        if self.oscillator.damping or self.gain >= _STANDING:
+            return self._of_period / _one_less_exp(rate * self.period)
+        left = (1.0 - panels.nodes / self.period) * np.exp(-rate * panels.nodes)
+        return complex(-self.speed * np.sum(panels.weights * panels.values * left))
+
+    @cached_property
+    def _states(self) -> Points:
+        """Z at the edges of the panels."""
+        panels, rate, pieces = self._panels, self._rate, self._pieces
+        states = np.empty(len(panels.edges), dtype=np.complex128)
+        states[0] = self._start()
+        for k, decay in enumerate(np.exp(rate * np.diff(panels.edges))):
+            states[k + 1] = states[k] * decay + pieces[k]
+        return states
+
+    def state(self, phi: Reals) -> Points:
+        """Z at input angles within the period."""
+        panels, rate = self._panels, self._rate
+        row = np.searchsorted(panels.edges[1:-1], phi, side="right")
+        start = panels.edges[row]
+        x, w = np.polynomial.legendre.leggauss(_NODES)
+        width = (phi - start)[:, None]
+        nodes = start[:, None] + width * (0.5 * (x + 1.0))
+        values = self.bend(nodes.ravel()).reshape(nodes.shape)
+        added = self.speed * np.sum(0.5 * width * w * values * np.exp(rate * (phi[:, None] - nodes)), axis=1)
+        return np.asarray(self._states[row] * np.exp(rate * (phi - start)) + added)
+
+    def deflection(self, phi: Reals) -> Reals:
+        """z at input angles, in the unit of x."""
+        return np.asarray(-self.state(phi).imag / self.oscillator.damped)
+
+
+def _one_less_exp(z: complex) -> complex:
+    """1 - e^z without loss near z = 0."""
+    if abs(z) > 0.5:
+        return 1.0 - cmath.exp(z)
+    half = 0.5 * z
+    return -2.0 * cmath.exp(half) * cmath.sinh(half)
+
+
+def speed_limit(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed: float) -> float | None:
+    """Least speed at which the residual of a motion passes what is allowed; None where it does at none of them.
+
+    Parameters
+        speeds : ascending array [rad/s]
+        allowed : float - in the unit of x
+    Returns
+        speed : float [rad/s] - refined between two of the speeds by bisection
+    Notes
+        The lobes between the zeros move with damping and load: this is where the first of them passes.
+    """
+    first = _first_above(motion, oscillator, speeds, allowed)
+    if first is None:
+        return None
+    if first == 0:
+        return float(speeds[0])
+    low, high = float(speeds[first - 1]), float(speeds[first])
+    for _ in range(48):
+        middle = 0.5 * (low + high)
+        if motion.residual(oscillator, middle) > allowed:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def _first_above(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed: float) -> int | None:
+    """Number of the first speed at which the residual passes what is allowed; those behind it are not looked at."""
+    for start in range(0, len(speeds), _AT_ONCE):
+        above = motion.residuals(oscillator, speeds[start : start + _AT_ONCE]) > allowed
+        if above.any():
+            return start + int(np.argmax(above))
+    return None
+
+
+def harmonics(values: Reals, orders: int) -> Reals:
+    """Amplitudes of the harmonics 1, 2 ... of a function given at equal steps of its period.
+
+    Example
+        >>> x = np.arange(64) * (2.0 * math.pi / 64)
+        >>> [round(float(a), 12) for a in harmonics(3.0 + 2.0 * np.cos(x) - 0.5 * np.sin(3.0 * x), 3)]
+        [2.0, 0.0, 0.5]
+    """
+    spectrum = np.fft.rfft(values) / len(values)
+    return np.asarray(2.0 * np.abs(spectrum[1 : orders + 1]))

@@ -1,0 +1,379 @@
+"""The register budget of a machine: sources, stretch, the two torque signs, tables and checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import MissingSection, NoSolution, named
+from gearlink.core.base.report import Check, Status, Table, safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.mechanism.chain import Chain
+from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.studies.register.gains import Errors, Gains, Moves, Output
+from gearlink.core.studies.register.samples import SIGNS, own_errors, places, sampled_band, sampled_errors
+from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget
+from gearlink.core.studies.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
+from gearlink.core.studies.tolerance.correlation import of_sizes
+from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_play, scatters
+from gearlink.core.studies.tolerance.spec import Register
+
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.dual import Shift
+    from gearlink.core.mechanism.links import Mechanism
+
+_STEP = math.radians(0.5)
+
+
+class RegisterDesign(Design):
+    """The register budget of a machine, over a stretch of its cycle.
+
+    A machine gives `parts`, `mechanism` and `output`, what its `errors` move, its `stretch`, and what it knows of
+    torque and backlash.
+    """
+
+    default_at: ClassVar[str]
+    turning: ClassVar[str] = "torque on the output"
+    words: ClassVar[str] = "the output"
+    """What its sources move."""
+    outlines: ClassVar[dict[str, Outline]] = {
+        "register": Outline(
+            ("worst", "rss", "band", "dead_band", "flips"),
+            ("register-budget", "backlash-in-dwell"),
+            ("budget", "cycle"),
+        )
+    }
+    extra_tables = ("sources",)
+    advises = False
+
+    # What a machine gives
+
+    @property
+    def parts(self) -> Parts:
+        """What may scatter beside the keys of the file."""
+        raise NotImplementedError
+
+    def mechanism(self, input_angle: Reals) -> Mechanism:
+        """Links and joints at input angles [rad]."""
+        raise NotImplementedError
+
+    def output(self, input_angle: Reals) -> Output:
+        """What is looked at, out of the links at input angles [rad], which may stand one below the other."""
+        raise NotImplementedError
+
+    sizes: ClassVar[Errors] = {}
+    """By size of the file, or centre distance, what it moves."""
+    pins: ClassVar[Errors] = {}
+    """By pin, what its play moves, where that is not the element on the first link: along a link, or in the frame."""
+    gears: ClassVar[Mapping[str, str]] = {}
+    """By gear, its link."""
+
+    @property
+    def errors(self) -> Errors:
+        """By size, what it moves, where that depends on the design as well."""
+        return self.sizes
+
+    def own_gain(self, _key: str, _input_angle: Reals) -> Reals | None:
+        """Gain of a size on which the output depends beside the links."""
+        return None
+
+    def stretch(self, at: str) -> tuple[float, float]:
+        """First and last input angle [rad] of a place by name.
+
+        Raises
+            NoSolution - where the machine has no such place
+        """
+        raise NotImplementedError
+
+    # Gains
+
+    @cached_property
+    def moves(self) -> Moves:
+        """What the sources move."""
+        return Moves(self.errors, self.pins, self.gears, self.words)
+
+    def shifts(self, source: Scatter, mechanism: Mechanism) -> tuple[Shift, ...]:
+        """What a source moves; nothing where the output alone depends on it."""
+        if source.kind == "size" and self.own_gain(source.key, np.zeros(1)) is not None:
+            return ()
+        return self.moves.of(source, mechanism)
+
+    def gains(self, input_angle: Reals, torque_sign: int) -> Gains:
+        """The gains over input angles."""
+        return Gains(self.mechanism(input_angle), self.output(input_angle), self.moves, torque_sign)
+
+    def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
+        """Every source along input angles."""
+        return self.of_sources(self.gains(input_angle, torque_sign), input_angle)
+
+    def of_sources(self, gains: Gains, input_angle: Reals) -> list[Contribution]:
+        """Every source of the file."""
+        found = []
+        for source in self.sources:
+            own = self.own_gain(source.key, input_angle) if source.kind == "size" else None
+            found.append(contribution(source, gains.of(source) if own is None else own))
+        return found
+
+    def chain(self, input_angle: Reals, torque_sign: int) -> Chain:
+        """The chain over input angles, for what carries at a torque sign; without meshes that is one for both."""
+        key = input_angle.tobytes()
+        if (key, torque_sign) not in self._chains:
+            gains = self.gains(input_angle, torque_sign)
+            chain = Chain(gains.mechanism, gains.dual.sides)
+            self._chains |= {(key, sign): chain for sign in SIGNS if sign == torque_sign or not gains.dual.sides}
+        return self._chains[key, torque_sign]
+
+    @cached_property
+    def _chains(self) -> dict[tuple[bytes, int], Chain]:
+        """The chains that replications look at again and again."""
+        return {}
+
+    def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of machines as made at some input angles; (places, N) array [mm]."""
+        return sampled_errors(self, input_angle, torque_sign, parts)
+
+    # Torque and backlash
+
+    @property
+    def backlash(self) -> dict[str, float]:
+        """Circumferential backlash of each mesh on the way [mm]."""
+        return {}
+
+    @property
+    def dead_band(self) -> float | None:
+        """How far the output jumps where its torque turns [mm]."""
+        return sum(self.backlash.values()) if self.backlash else None
+
+    @property
+    def jump(self) -> float:
+        """How far it jumps where inertia, friction and load turn [mm]."""
+        return self.dead_band or 0.0
+
+    @property
+    def flips(self) -> list[float] | None:
+        """Input angles at which the output's torque turns [rad]."""
+        return None
+
+    # The budget
+
+    @cached_property
+    def section(self) -> Register:
+        """The section `register`, empty where the file has none."""
+        given = self.spec.register_
+        return Register() if given is None else given
+
+    @cached_property
+    def sources(self) -> tuple[Scatter, ...]:
+        """The sources of the file."""
+        if self.spec.tolerance is None:
+            raise MissingSection("`register` needs tolerance: {sources: {...}}", key="tolerance.sources")
+        return scatters(self.spec.tolerance, self.spec, self.parts)
+
+    def require_named(self) -> None:
+        """Refuse sources, meshes and places that the machine does not have."""
+        if self.spec.register_ is None:
+            self._require_pins()
+        else:
+            _ = self.sources, self.correlations, self.backlash
+            self.contributions(self.input_angles[:1], SIGNS[0])
+
+    def _require_pins(self) -> None:
+        section = self.spec.tolerance
+        plays = {} if section is None else {key: one for key, one in section.sources.items() if is_play(key)}
+        if plays:
+            scatters(section.model_copy(update={"sources": plays}), self.spec, self.parts)
+
+    @cached_property
+    def correlations(self) -> dict[tuple[str, str], float]:
+        """How sizes scatter together."""
+        return of_sizes(self.spec.tolerance, self.sources)
+
+    @cached_property
+    def place(self) -> str | float:
+        """Where the register is asked for: a name, or an input angle [deg]."""
+        at = self.default_at if self.section.at is None else self.section.at
+        try:
+            angle = float(at)
+        except ValueError:
+            return at
+        return angle if math.isfinite(angle) else str(at)
+
+    @cached_property
+    def input_angles(self) -> Reals:
+        """Input angles of the stretch [rad], every half degree; one alone where an angle is asked for."""
+        if isinstance(self.place, float):
+            return np.array([math.radians(self.place)])
+        start, end = self.stretch(self.place)
+        if start == end:
+            return np.array([start])
+        count = max(2, math.ceil((end - start) / _STEP) + 1)
+        return np.linspace(start, end, count)
+
+    def _budget(self, sign: int) -> Budget:
+        start = 0 if self.input_angles.size > 1 else None
+        return budget(self.contributions(self.input_angles, sign), start, self.correlations)
+
+    @cached_property
+    def budgets(self) -> tuple[Budget, Budget]:
+        """The budget for either sign of the torque on the output."""
+        return self._budget(1), self._budget(-1)
+
+    @cached_property
+    def worst(self) -> list[float]:
+        """Greatest error where all sources add up [mm]."""
+        return [float(one.worst.max()) for one in self.budgets]
+
+    @cached_property
+    def rss(self) -> list[float]:
+        """Greatest standard deviation of the error [mm]."""
+        return [float(one.rss.max()) for one in self.budgets]
+
+    @cached_property
+    def band(self) -> list[float]:
+        """What 99.73 % of the machines keep, to either side [mm]."""
+        if self.section.method == "worst":
+            return self.worst
+        if self.section.method == "mc":
+            return self.sampled_band
+        return [float(one.band.max()) for one in self.budgets]
+
+    @cached_property
+    def sampled_places(self) -> Reals:
+        """Input angles at which samples are closed [rad]."""
+        return places(self.input_angles)
+
+    @cached_property
+    def own_errors(self) -> list[list[Contribution]]:
+        """What the machine adds there to the sources of the file, for either torque sign."""
+        return own_errors(self, self.sampled_places)
+
+    @cached_property
+    def sampled_band(self) -> list[float]:
+        """What 99.73 % of the samples of the whole chain keep, to either side, for either torque sign [mm]."""
+        return sampled_band(self)
+
+    # Tables
+
+    def table_budget(self, _samples: int | None = None) -> Table:
+        """Every source where the whole is greatest, for either torque sign where they differ, the greatest first."""
+        both = list(zip(SIGNS, self.budgets, strict=True))
+        if are_alike(*self.budgets):
+            both = both[:1]
+        rows = [
+            (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
+            for sign, one in both
+            for row in sorted(one.rows, key=lambda row: -row.share)
+        ]
+        units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
+        columns = ("torque_sign", "source", "gain", "limit", "worst", "sigma", "share", "mean")
+        return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
+
+    def table_cycle(self, samples: int | None = None) -> Table:
+        """Absolute error over the whole cycle, for either torque sign."""
+        degrees = turn_degrees(samples)
+        found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
+        columns = {
+            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
+            "input_angle": (np.tile(degrees, 2), "deg"),
+            "worst": (np.concatenate([one.worst for one in found]), "mm"),
+            "band": (np.concatenate([one.band for one in found]), "mm"),
+        }
+        return Table.of("cycle", columns)
+
+    def table_sources(self, samples: int | None = None) -> Table:
+        """What each source costs at its limit over the whole cycle, absolute, for either torque sign."""
+        degrees = turn_degrees(samples)
+        both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
+        columns = {
+            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
+            "input_angle": (np.tile(degrees, 2), "deg"),
+        }
+        for pair in zip(*both, strict=True):
+            columns[pair[0].source] = (np.concatenate([one.limit * np.abs(one.gain) for one in pair]), "mm")
+        return Table.of("sources", columns)
+
+    # Checks
+
+    def check_register_budget(self) -> Iterator[Check]:
+        """GL520 where the file names what may be lost."""
+        limit = self.section.tolerance
+        if limit is None:
+            return
+        band, worst = max(self.band), max(self.worst)
+        status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
+        text = f"99.73 % of the machines keep +-{band:.4g} mm {self._where}, at worst {worst:.4g} mm"
+        if status != "pass":
+            sign = self.band.index(band)
+            first = max(self.budgets[sign].rows, key=lambda row: row.share)
+            text += (
+                f"; {limit:g} mm are allowed: improve {first.source} first ({100 * first.share:.3g} % of the variance)"
+            )
+            text += f", or allow {safely_above(band if status == 'fail' else worst)} mm"
+        yield REGISTER_BUDGET.check(status, text, band, limit, "mm")
+
+    @property
+    def _where(self) -> str:
+        if isinstance(self.place, float):
+            return f"at {self.place:g} deg"
+        return f"{'over' if self.input_angles.size > 1 else 'at'} the {self.place}"
+
+    @property
+    def judges_flips(self) -> bool:
+        """Whether places at which the torque turns are a finding."""
+        return True
+
+    def check_backlash_in_dwell(self) -> Iterator[Check]:
+        """GL521 where the torque on the output turns within the stretch."""
+        flips = self.flips if self.judges_flips else None
+        if flips is None or self.input_angles.size == 1:
+            return
+        start, end = float(self.input_angles[0]), float(self.input_angles[-1])
+        inside = [flip for flip in flips if (flip - start) % (2.0 * math.pi) < end - start]
+        if not inside:
+            yield BACKLASH_IN_DWELL.check("pass", f"the {self.turning} keeps its sign {self._where}", 0.0, 0.0)
+            return
+        places = ", ".join(f"{math.degrees(flip):.6g}" for flip in inside)
+        text = f"the {self.turning} turns at {places} deg {self._where}"
+        if self.jump:
+            text += f", where it jumps by {self.jump:.4g} mm"
+        yield BACKLASH_IN_DWELL.check("warn", f"{text}: {self.against_flips}", float(len(inside)), 0.0)
+
+    @property
+    def against_flips(self) -> str:
+        """What keeps the torque's sign."""
+        return "brake the output, or preload the gears"
+
+
+def are_alike(one: Budget, other: Budget) -> bool:
+    """Whether nothing depends on the flank that carries: what is below rounding is not the flank's."""
+    return all(
+        np.allclose(a, b, rtol=1e-9, atol=1e-12, equal_nan=True)
+        for a, b in ((one.band, other.band), (one.worst, other.worst))
+    )
+
+
+def mean_square(source: Scatter) -> float:
+    """Mean square of a deviation along one direction [mm^2]; of a vector of any direction half of its own."""
+    mean, sigma = source.law.moments()
+    if source.kind == "pin":
+        return 0.125 * (mean * mean + sigma * sigma)
+    if source.kind == "gear":
+        return 0.5 * (mean * mean + sigma * sigma)
+    return sigma * sigma
+
+
+def contribution(source: Scatter, gain: Any) -> Contribution:
+    """A source with its gain; what has a direction is 0 on average."""
+    mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
+    return Contribution(source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)), mean)
+
+
+def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
+    """A place that the machine does not have."""
+    return NoSolution(
+        f"no place {named(at)} here: give {', '.join(known)} or an input angle in degrees", key="register.at"
+    )

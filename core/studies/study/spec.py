@@ -1,0 +1,134 @@
+"""The study file: which designs, what is sought, what must hold."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import DesignSpec, Spec
+
+_MOST_OBJECTIVES = 6
+_MOST_DESIGNS = 1e12
+
+_UNIT = {"unit": "1"}
+
+Amount = Annotated[float, Field(json_schema_extra={"unit": "the key's"})]
+Value = Amount | Annotated[int, Field(json_schema_extra={"unit": "the key's"})] | str | bool
+Resolution = Annotated[float, Field(json_schema_extra={"unit": "the quantity's"})] | str
+
+
+class VariableSpec(Spec):
+    """A key of the design and its values: a list, or a range."""
+
+    from_: Amount | None = Field(None, alias="from", description="least value, in multiples of `times`")
+    to: Amount | None = Field(None, description="greatest value, in multiples of `times`")
+    step: Annotated[float, Field(gt=0, json_schema_extra={"unit": "the key's"})] | None = Field(
+        None, description="step of the range; default 1 for whole numbers; left out, real numbers are sampled"
+    )
+    points: Annotated[int, Field(ge=2, le=100_000, json_schema_extra=_UNIT)] | None = Field(
+        None, description="number of values from `from` to `to`, in place of step"
+    )
+    log: bool = Field(False, description="sampled, or divided into points, by equal ratios")
+    times: str | None = Field(None, description="path of a variable above, whose multiples `from` and `to` are")
+    values: Annotated[list[Value], Field(min_length=1, max_length=100_000)] | None = Field(
+        None, description="list of values, in place of from and to"
+    )
+    also: list[str] = Field([], description="keys that always take the same value")
+
+    @model_validator(mode="after")
+    def _one_form(self) -> VariableSpec:
+        if self.values is not None:
+            for name in ("from_", "to", "step", "points", "times"):
+                if getattr(self, name) is not None:
+                    message = "values goes without from, to, step, points and times: give the one or the others"
+                    raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
+            if self.log:
+                raise PydanticCustomError("GL111", "values are taken as they are: leave log out", {"key": "log"})
+            return self
+        if self.from_ is None or self.to is None:
+            missing = "from" if self.from_ is None else "to"
+            raise PydanticCustomError("GL106", "give from and to, or values", {"key": missing})
+        if self.step is not None and self.points is not None:
+            raise PydanticCustomError("GL111", "step and points exclude each other: give one", {"key": "points"})
+        if self.times is not None and self.points is not None:
+            raise PydanticCustomError("GL111", "points goes without times: give step", {"key": "points"})
+        if self.to < self.from_:
+            words = "the range is empty: from {low} is above to {high}; exchange them"
+            numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}
+            raise PydanticCustomError("GL111", words, numbers)
+        if self.log and self.step is not None:
+            message = "step makes equal steps, log equal ratios: give points in place of step, or leave log out"
+            raise PydanticCustomError("GL111", message, {"key": "log"})
+        if self.log and not self.from_ > 0.0:
+            raise PydanticCustomError("GL108", "equal ratios need a range above 0", {"key": "from"})
+        return self
+
+
+class Checks(Spec):
+    """Which checks a design must pass."""
+
+    must_pass: Literal["default", "all", "none"] | list[str] = Field(
+        "default", description="default: those that do not fail in the base; all, none, or a list of codes"
+    )
+    warn_counts: bool = Field(False, description="a warning counts as a failure")
+
+
+class Sampling(Spec):
+    """How many designs, and how they are chosen."""
+
+    method: Literal["auto", "grid", "sobol"] = Field(
+        "auto", description="auto: the whole grid where there is one within the budget, else a sample"
+    )
+    budget: Annotated[float, Field(ge=1, le=_MOST_DESIGNS, json_schema_extra=_UNIT)] | None = Field(
+        None, description="most designs; default 1e8 on a grid, 2^17 sampled (20,000 and 2^12 of a scalar kind)"
+    )
+    seed: Annotated[int, Field(ge=0, le=2**31 - 1, json_schema_extra=_UNIT)] = Field(
+        1, description="seed of the sample"
+    )
+
+
+class Refine(Spec):
+    """Local refinement of a sample."""
+
+    steps: Annotated[int, Field(ge=0, le=1000, json_schema_extra=_UNIT)] = Field(
+        40, description="most rounds from each kept design; 0: none"
+    )
+
+
+class StudySpec(DesignSpec):
+    """Many designs of one kind and which of them are the best."""
+
+    kind: Literal["study"]
+    of: str | None = Field(None, description="design file of the base design, relative to the study")
+    design: dict[str, Any] | None = Field(None, description="the base design itself, in place of of")
+    command: str | None = Field(None, description="whose checks count; default: the first that the base asks for")
+    variables: Annotated[dict[str, VariableSpec], Field(min_length=1, max_length=64)] = Field(
+        description="by the paths of the design's keys: {from, to, step}, or {values: [...]}"
+    )
+    define: dict[str, str] = Field({}, description="names of expressions of quantities")
+    minimize: dict[str, Resolution] = Field({}, description="quantities and their resolution, as 10 mm")
+    maximize: dict[str, Resolution] = Field({}, description="quantities and their resolution, as 2 deg")
+    where: list[str] = Field([], description="conditions on quantities, as frame_length <= 220 mm")
+    checks: Checks = Checks.model_construct()
+    sampling: Sampling = Sampling.model_construct()
+    refine: Refine = Refine.model_construct()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> StudySpec:
+        if (self.of is None) == (self.design is None):
+            message = "give `of` or `design`, exactly one"
+            raise PydanticCustomError("GL150", message, {"key": "of" if self.of is not None else "design"})
+        objectives = [*self.minimize, *self.maximize]
+        if not objectives:
+            raise PydanticCustomError("GL106", "give minimize, maximize or both", {"key": "minimize"})
+        if len(objectives) > _MOST_OBJECTIVES:
+            message = "{count} objectives are more than {most}: make some of them conditions under where"
+            context = {"key": "maximize" if self.maximize else "minimize", "count": len(objectives)}
+            raise PydanticCustomError("GL108", message, {**context, "most": _MOST_OBJECTIVES})
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """A study is explored."""
+        return ("explore",)

@@ -1,0 +1,222 @@
+"""From the entries of `tolerance.sources` to laws: how far each size of a design may lie from its nominal value."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+from gearlink.core.base.errors import NoSolution, named
+from gearlink.core.base.spec_paths import number_at, unit_at
+from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
+from gearlink.core.studies.tolerance.bearings import radial_clearance
+from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations
+from gearlink.core.studies.tolerance.iso_1328 import cumulative_pitch
+from gearlink.core.studies.tolerance.laws import Law, normal_between
+from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
+
+MOST_COORDINATES = 64
+
+
+@dataclass(frozen=True, slots=True)
+class GearOfSource:
+    """What the tolerance of a gear's teeth depends on: module and reference diameter [mm], pressure angle [rad]."""
+
+    module: float
+    diameter: float
+    pressure_angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Scatter:
+    """One source of a design.
+
+    Fields
+        key : str - as the file names it
+        kind : str - "size" of the file, "center", "pin" (a vector), "gear" (an eccentricity)
+        nominal : float - of a size or centre distance, in the unit of the file
+        law : Law - of the deviation; of a pin's diametral clearance; of a gear's eccentricity
+        entry : ToleranceSource
+    """
+
+    key: str
+    kind: str
+    nominal: float
+    law: Law
+    entry: ToleranceSource
+
+    @property
+    def coordinates(self) -> int:
+        """Random numbers that a sample of it takes: a vector has two."""
+        return 2 if self.kind in ("pin", "gear") else 1
+
+    @property
+    def limit(self) -> float:
+        """Greatest distance from nominal: of a pin half the clearance, of a gear the eccentricity."""
+        if self.kind == "pin":
+            return 0.5 * self.law.upper
+        return max(abs(self.law.lower), abs(self.law.upper))
+
+    def within(self, half: float) -> Scatter:
+        """The same size made to limits at one distance to either side, by the same process: law, C_p and C_pk."""
+        widths = (self.law.upper - self.law.lower, 2.0 * half)
+        given = dict.fromkeys(("lower", "upper", "limits", "sigma", "class_", "measured")) | {"plus_minus": half}
+        if self.entry.mode is not None:
+            given["mode"] = (self.entry.mode - 0.5 * (self.law.lower + self.law.upper)) * widths[1] / widths[0]
+        entry = self.entry.model_copy(update=given)
+        return replace(self, entry=entry, law=_law(entry, -half, half, ("tolerance", "sources", self.key)))
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """What a design has that no key of its file names, each with its nominal value."""
+
+    centers: dict[str, float]
+    pins: tuple[str, ...] = ()
+    gears: dict[str, GearOfSource] | None = None
+
+
+def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]:
+    """The sources of a design, in the order of the file.
+
+    Parameters
+        section : Tolerance
+        spec : the design's spec
+        parts : Parts - of its kind
+    Raises
+        WrongStudy - GL170 to GL175, each at its source
+    """
+    found: list[Scatter] = []
+    faults: list[Fault] = []
+    for key, entry in section.sources.items():
+        try:
+            found.append(_scatter(key, entry, spec, parts))
+        except WrongStudy as error:
+            faults.extend(error.faults)
+    if faults:
+        raise WrongStudy(faults)
+    if not found:
+        raise _no("GL170", "no source: name at least one size that scatters", ("tolerance", "sources"))
+    if sum(one.coordinates for one in found) > MOST_COORDINATES:
+        raise _no(
+            "GL175",
+            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): leave out the least",
+            ("tolerance", "sources"),
+        )
+    return tuple(found)
+
+
+def is_play(key: str) -> bool:
+    """Whether a source is the play of a pin."""
+    return key.startswith(("pins.", "bearings."))
+
+
+def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatter:
+    place = ("tolerance", "sources", key)
+    group, _, name = key.partition(".")
+    try:
+        if is_play(key):
+            return _pin(key, name, entry, parts, place)
+        if group == "gears" and entry.form in ("grade", "eccentricity"):
+            return _gear(key, name, entry, parts, place)
+        return _size(key, group, name, entry, spec, parts, place)
+    except NoSolution as error:
+        raise _no({"grade": "GL174"}.get(entry.form, "GL173"), error.message, place) from error
+
+
+def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:
+    if name not in parts.pins:
+        known = f": it has {', '.join(parts.pins)}" if parts.pins else ": play of pins is not computed for it"
+        raise _no("GL170", f"this design has no pin {named(name)}{known}", place)
+    if entry.fit is not None and entry.size is not None:
+        least, greatest = fit_clearances(entry.size, entry.fit)
+        if least < 0:
+            raise _no(
+                "GL171", f"the fit {entry.fit} may interfere by {-least:g} mm: a pin that turns needs clearance", place
+            )
+    elif entry.group is not None and entry.bore is not None:
+        least, greatest = (max(0.0, c - entry.reduction) for c in radial_clearance(entry.bore, entry.group))
+    elif entry.clearance is not None:
+        least, greatest = entry.clearance
+    else:
+        raise _no(
+            "GL171", f"a pin has a clearance, not {entry.form}: give fit and size, group and bore, or clearance", place
+        )
+    return Scatter(key, "pin", 0.0, _law(entry, least, greatest, place), entry)
+
+
+def _gear(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:
+    gears = parts.gears or {}
+    if name not in gears:
+        raise _no("GL170", f"this design has no gear {named(name)}: it has {', '.join(gears) or 'none'}", place)
+    gear, limit = gears[name], entry.eccentricity or 0.0
+    if entry.eccentricity is not None:
+        return Scatter(key, "gear", 0.0, Law("fixed", 0.0, limit, mean=limit), entry)
+    if entry.grade is not None and entry.width is not None:
+        pitch = cumulative_pitch(entry.grade, gear.module, gear.diameter, entry.width)
+        limit = 0.5 * pitch * math.cos(gear.pressure_angle)
+    return Scatter(key, "gear", 0.0, Law("triangular", 0.0, limit, mode=limit), entry)
+
+
+def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, parts: Parts, place: Place) -> Scatter:
+    if group == "centers":
+        if name not in parts.centers:
+            known = (
+                f"it has {', '.join(parts.centers)}" if parts.centers else "its centre distances are keys of the file"
+            )
+            raise _no("GL170", f"this design has no centre distance {named(name)}: {known}", place)
+        nominal: float | None = parts.centers[name]
+    else:
+        nominal = number_at(spec, key)
+    if nominal is None or (group != "centers" and isinstance(nominal, int)):
+        what = "holds a whole number, which does not scatter" if nominal is not None else "is no key with a number"
+        raise _no("GL170", f"{named(key)} {what}: name a length or an angle of this file", place)
+    unit = "mm" if group == "centers" else unit_at(spec, key)
+    if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
+        what = "class" if entry.form == "class" else "grades"
+        message = f"{what} takes its width from the length of a part, and {key} is in {unit}: give plus_minus or limits"
+        raise _no("GL173", message, (*place, what))
+    lower, upper = _limits(entry, nominal, place)
+    return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
+
+
+def _limits(entry: ToleranceSource, nominal: float, place: Place) -> tuple[float, float]:
+    form = entry.form
+    if form == "plus_minus":
+        return -entry.plus_minus, entry.plus_minus  # type: ignore[operator,return-value]
+    if form == "lower":
+        return entry.lower, entry.upper  # type: ignore[return-value]
+    if form == "limits":
+        return entry.limits[0], entry.limits[1]  # type: ignore[index]
+    if form == "sigma":
+        return -3.0 * entry.sigma, 3.0 * entry.sigma  # type: ignore[operator]
+    if form == "measured":
+        off = entry.measured - nominal  # type: ignore[operator]
+        return off, off
+    if form == "class":
+        return limit_deviations(abs(nominal), entry.class_ or "")
+    raise _no(
+        "GL171", f"{form} belongs to pins, bearings or gears: give plus_minus, limits, class, sigma or measured", place
+    )
+
+
+def _law(entry: ToleranceSource, lower: float, upper: float, place: Place) -> Law:
+    if entry.form == "measured":
+        return Law("fixed", lower, upper, mean=lower)
+    if not lower < upper:
+        raise _no("GL171", f"the limits {lower:g} and {upper:g} leave no room: nothing scatters", place)
+    normal = normal_between(lower, upper, entry.cp, entry.cpk, entry.shift != "down")
+    if entry.form == "sigma":
+        normal = Law("normal", lower, upper, 0.0, entry.sigma or 0.0)
+    if entry.law == "triangular":
+        mode = 0.5 * (lower + upper) if entry.mode is None else entry.mode
+        if not lower <= mode <= upper:
+            raise _no("GL171", f"mode {mode:g} lies outside of the limits {lower:g} to {upper:g}", place)
+        return Law("triangular", lower, upper, mode=mode)
+    if entry.law == "uniform":
+        return Law("uniform", lower, upper)
+    return Law(entry.law, lower, upper, normal.mean, normal.sigma)
+
+
+def _no(code: str, message: str, place: Place) -> WrongStudy:
+    return WrongStudy([Fault(code, message, place)])

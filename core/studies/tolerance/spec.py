@@ -1,0 +1,228 @@
+"""The section `tolerance` of a design file."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.errors import NoSolution, named
+from gearlink.core.base.spec import Angle, Distance, Length, Spec
+
+_SIZES = (
+    "plus_minus",
+    "lower",
+    "limits",
+    "sigma",
+    "class",
+    "fit",
+    "group",
+    "clearance",
+    "grade",
+    "eccentricity",
+    "measured",
+)
+_ONE = {"unit": "1"}
+Deviation = Annotated[float, Field(json_schema_extra={"unit": "mm"})]  # of an angle deg
+Width = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
+Positive = Annotated[float, Field(gt=0, json_schema_extra=_ONE)]
+FlankClass = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 11})]
+Grade = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 18})]
+Torque = Annotated[float, Field(json_schema_extra={"unit": "N m"})]
+Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
+
+
+def _wrong(code: str, text: str, key: str = "") -> PydanticCustomError:
+    text = text.replace("{", "{{").replace("}", "}}")
+    return PydanticCustomError(code, text, {"key": key}) if key else PydanticCustomError(code, text)
+
+
+class ToleranceSource(Spec):
+    """How one size scatters: its limits in one of several forms, and its law."""
+
+    plus_minus: Width | None = Field(None, description="limits at the same distance to either side")
+    lower: Deviation | None = Field(None, description="lower limit of the deviation")
+    upper: Deviation | None = Field(None, description="upper limit of the deviation")
+    limits: Pair | None = Field(None, description="[lower, upper] limit of the deviation")
+    sigma: Width | None = Field(None, description="standard deviation of a normal law; limits at 3 sigma")
+    class_: str | None = Field(
+        None, alias="class", description="tolerance class of ISO 286 at the nominal size, such as js7"
+    )
+    fit: str | None = Field(None, description="fit of a pin in its hole, such as H7/g6")
+    size: Length | None = Field(None, description="nominal diameter of the fit")
+    group: str | None = Field(None, description="clearance group of a deep-groove ball bearing: C2, CN, C3, C4, C5")
+    bore: Length | None = Field(None, description="bore of the bearing")
+    clearance: Pair | None = Field(None, description="[least, greatest] clearance in diameter")
+    reduction: Distance = Field(0.0, description="what fits and heat take off the bearing's clearance")
+    grade: FlankClass | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
+    width: Length | None = Field(None, description="face width of the gear")
+    eccentricity: Length | None = Field(None, description="greatest distance of a gear's pitch circle from its axis")
+    phase: Angle | None = Field(
+        None, description="measured direction of the eccentricity at input angle 0; left out: any"
+    )
+    measured: Deviation | None = Field(None, description="absolute size of one part in hand: it does not scatter")
+    law: Literal["normal", "uniform", "triangular", "truncated"] = Field("normal", description="law of distribution")
+    mode: Deviation | None = Field(None, description="deviation where a triangular law peaks; default the middle")
+    cp: Positive = Field(1.0, description="process capability C_p: limits lie at 3 C_p standard deviations")
+    cpk: Positive | None = Field(None, description="capability C_pk of a process off the middle, at most C_p")
+    shift: Literal["up", "down"] | None = Field(None, description="towards which limit the process lies")
+    play: Literal["contact", "floating"] = Field(
+        "contact", description="whether the pin touches its hole or lies anywhere in it"
+    )
+    cost: Positive = Field(1.0, description="cost of this part at IT9, in any unit")
+    grades: Annotated[list[Grade], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="[finest, coarsest] IT grade that may be chosen"
+    )
+
+    @property
+    def form(self) -> str:
+        """The key that gives the size of the scatter."""
+        return next(name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None)
+
+    @model_validator(mode="after")
+    def _one_form(self) -> ToleranceSource:
+        given = [name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None]
+        if self.upper is not None and self.lower is None:
+            raise _wrong("GL171", "upper without lower: give both, or plus_minus")
+        if self.lower is not None and self.upper is None:
+            raise _wrong("GL171", "lower without upper: give both, or plus_minus")
+        if not given and self.grades is not None:
+            text = (
+                "grades alone say no size to begin with, from which --allocate chooses: add class: js8, or plus_minus"
+            )
+            raise _wrong("GL171", text)
+        if not given:
+            raise _wrong("GL171", f"no limits: give one of {', '.join(_SIZES)}")
+        if len(given) > 1:
+            raise _wrong("GL171", f"{' and '.join(given)} exclude each other: keep one")
+        self._complete(given[0])
+        self._process()
+        return self
+
+    def _complete(self, form: str) -> None:
+        for one, other in (("fit", "size"), ("group", "bore"), ("grade", "width")):
+            if (form == one) != (getattr(self, other) is not None):
+                what = f"{other} belongs to {one}" if form != one else f"{one} needs {other}"
+                raise _wrong("GL171", f"{what}: give both or neither")
+        for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
+            if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
+                raise _wrong(
+                    "GL171", f"the limits {pair[0]:g} and {pair[1]:g} leave no room: the first must be the smaller"
+                )
+        if self.clearance is not None and self.clearance[0] < 0:
+            raise _wrong("GL171", f"a clearance of {self.clearance[0]:g} mm is an interference: give 0 or more")
+        if self.grades is not None and not 1 <= self.grades[0] <= self.grades[1] <= 18:
+            raise _wrong(
+                "GL173", f"grades {self.grades}: give the finest and the coarsest of IT1 to IT18, in that order"
+            )
+
+    def _process(self) -> None:
+        if self.cpk is not None and self.cpk > self.cp:
+            raise _wrong(
+                "GL172", f"cpk {self.cpk:g} is above cp {self.cp:g}: a process is at best in the middle, cpk = cp"
+            )
+        if self.cpk is not None and self.cpk < self.cp and self.shift is None:
+            raise _wrong(
+                "GL172", f"cpk {self.cpk:g} is below cp {self.cp:g}: say with shift: up or down where the process lies"
+            )
+        if self.mode is not None and self.law != "triangular":
+            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}: leave it out")
+
+
+class Correlation(Spec):
+    """Sources that scatter together."""
+
+    sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
+    rho: Annotated[float, Field(json_schema_extra={**_ONE, "minimum": -1, "maximum": 1})] = Field(
+        description="correlation of each two of them (Gaussian copula)"
+    )
+
+    @model_validator(mode="after")
+    def _a_correlation(self) -> Correlation:
+        if not -1.0 <= self.rho <= 1.0:
+            raise _wrong("GL176", f"rho {self.rho:g} is no correlation: it lies between -1 and 1", "rho")
+        return self
+
+
+class Cost(Spec):
+    """What a finer grade costs."""
+
+    ratio: Annotated[float, Field(gt=1, json_schema_extra=_ONE)] = Field(
+        1.6, description="cost of one IT grade finer over that of the grade"
+    )
+
+
+class Tolerance(Spec):
+    """Tolerances of a design, for the commands tolerance and register."""
+
+    command: str | None = Field(
+        None, description="command whose quantities and checks are judged; default the file's first"
+    )
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)] = Field(
+        1, description="the same seed gives the same samples"
+    )
+    samples: Annotated[int, Field(ge=16, le=2**24, json_schema_extra=_ONE)] | None = Field(
+        None, description="rounded up to 16 x 2^k; default 131072, 4096 where each design is computed alone"
+    )
+    sources: dict[str, ToleranceSource] = Field(description="how sizes scatter, by the keys of this file")
+    correlated: list[Correlation] = Field([], description="sources that scatter together")
+    require: list[str] = Field([], description="conditions beside the checks, such as back_step_angle <= 20.4 deg")
+    target_yield: Share | None = Field(
+        None, description="share of designs that must be good; below it the command fails"
+    )
+    cost: Cost = Cost.model_construct()
+    sobol: bool = Field(False, description="Sobol' indices in the table contributions (--sobol)")
+
+    @model_validator(mode="after")
+    def _known_sources(self) -> Tolerance:
+        for group in self.correlated:
+            if unknown := [name for name in group.sources if name not in self.sources]:
+                raise _wrong(
+                    "GL176", f"{named(unknown[0])} of correlated is no source: name keys of `sources`", "correlated"
+                )
+            if twice := [name for name in group.sources if group.sources.count(name) > 1]:
+                raise _wrong(
+                    "GL176",
+                    f"{named(twice[0])} stands twice in one group of correlated: name different sources",
+                    "correlated",
+                )
+        return self
+
+
+class Register(Spec):
+    """What the register of a printing machine may lose, for the command register."""
+
+    tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
+    at: str | Annotated[float, Field(json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="dwell, zone, handover, or an input angle in degrees"
+    )
+    method: Literal["worst", "rss", "mc"] = Field("rss", description="how the band is computed")
+    radius: Length | None = Field(
+        None, description="radius at which the output's error is measured; default its reference radius"
+    )
+    backlash: Distance | dict[str, Distance] | None = Field(
+        None, description="circumferential backlash of each mesh by its name, or one for all"
+    )
+    cam_error: Length | None = Field(None, description="greatest error of a cam's profile, at right angles to it")
+    output_inertia: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})] | None = Field(
+        None, description="moment of inertia of all that turns with the output"
+    )
+    friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
+    load: Torque = Field(0.0, description="torque that the machine takes from the output")
+    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | None = Field(
+        None, description="of the output shaft; left out: rigid"
+    )
+
+    def backlash_of(self, meshes: tuple[str, ...]) -> dict[str, float]:
+        """Backlash of each mesh of a machine; empty where none is given."""
+        given = self.backlash
+        if given is None:
+            return {}
+        if not isinstance(given, dict):
+            return dict.fromkeys(meshes, given)
+        if unknown := [name for name in given if name not in meshes]:
+            message = f"no mesh {named(unknown[0])}: there are {', '.join(meshes)}"
+            raise NoSolution(message, key=f'register.backlash."{unknown[0]}"')
+        return {name: given.get(name, 0.0) for name in meshes}

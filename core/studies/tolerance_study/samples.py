@@ -1,0 +1,142 @@
+"""Designs as made: computed, judged, and summed up replication by replication."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.base.design import in_unit
+from gearlink.core.base.design_axis import Evaluated, Single, as_arrays
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.nomenclature import term
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.studies.explore.base import Refused
+from gearlink.core.studies.explore.one_by_one import findings_of
+from gearlink.core.studies.tolerance.sampling import REPLICATIONS, replication, rounded_up
+from gearlink.core.studies.tolerance.shares import seen
+from gearlink.core.studies.tolerance_study.problem import Problem
+
+Columns = Mapping[str, Reals | Points]
+_BLOCK = 8192  # of the array form; of one by one, from the fewest up to what takes so many seconds
+_FEWEST, _SECONDS = 16, 0.05
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One replication.
+
+    Fields
+        quantities : (N,) arrays by name - in the units of design files, NaN where one does not apply
+        passes : (N,) masks by code that is judged on any of them, and by line of `require`
+        exists, good : (N,) masks - whether the mechanism exists, and passes everything
+    """
+
+    quantities: Mapping[str, Reals]
+    passes: Mapping[str, Mask]
+    exists: Mask
+    good: Mask
+
+
+def judged(made: Problem, points: Reals) -> Judged:
+    """Compute and judge the designs of some random points, block by block.
+
+    Notes
+        Blocks of the array form are all of one size, since the last bit of a design may depend on those beside it;
+        designs computed one by one depend on nothing, and their blocks are such as take a tenth of a second.
+    """
+    blocks: list[Judged] = []
+    first, size = 0, _BLOCK if made.is_quick else _FEWEST
+    while first < len(points):
+        start = perf_counter()
+        block = points[first : first + size]
+        blocks.append(_judged(made, block))
+        first += len(block)
+        seen(len(block))
+        if not made.is_quick and perf_counter() - start < _SECONDS:
+            size *= 2
+    return blocks[0] if len(blocks) == 1 else _together(blocks)
+
+
+def _together(blocks: Sequence[Judged]) -> Judged:
+    """Blocks as one; where a check says nothing of a block's designs, all that exist pass it."""
+    return Judged(
+        {name: np.concatenate([one.quantities[name] for one in blocks]) for name in blocks[0].quantities},
+        {
+            name: np.concatenate([one.passes.get(name, one.exists) for one in blocks])
+            for name in dict.fromkeys(name for one in blocks for name in one.passes)
+        },
+        np.concatenate([one.exists for one in blocks]),
+        np.concatenate([one.good for one in blocks]),
+    )
+
+
+def _judged(made: Problem, points: Reals) -> Judged:
+    found = evaluated(made, made.sizes(points))
+    exists: Mask = found.refused == 0
+    judged_by = {finding.code for finding in found.findings}
+    passes: dict[str, Mask] = {code: exists.copy() for code in made.base.codes if code in judged_by}
+    for finding in found.findings:
+        passes[finding.code] &= ~finding.fails
+    for one in made.requirements:
+        passes[one.text] = exists & one.holds(one.expression.value(found.quantities))
+    good = exists.copy()
+    for mask in passes.values():
+        good &= mask
+    return Judged(found.quantities, passes, exists, good)
+
+
+def evaluated(made: Problem, columns: Columns) -> Evaluated:
+    """Designs of given sizes, over arrays where the kind has them."""
+    if made.is_quick and made.axis is not None:
+        return made.axis.evaluate(columns, made.quick_names)
+    return as_arrays([_single(made, row) for row in rows_of(columns)], made.names, list(made.base.codes))
+
+
+def rows_of(columns: Columns) -> Iterator[dict[str, Any]]:
+    """The sizes of each design by itself."""
+    for i in range(len(next(iter(columns.values())))):
+        yield {key: value[i].item() for key, value in columns.items()}
+
+
+def design_of(made: Problem, row: Mapping[str, Any]) -> Any:
+    """One design as made.
+
+    Raises
+        Refused, NoSolution - where there is no such mechanism
+    """
+    if made.axis is None:
+        return made.base.design(row.items())
+    own = {key: value for key, value in row.items() if made.axis.sets(key)}
+    cut = made.base.design([one for one in row.items() if one[0] not in own]) if len(own) < len(row) else None
+    return made.axis.design(own, cut)
+
+
+def _single(made: Problem, row: Mapping[str, Any]) -> Single:
+    try:
+        design = design_of(made, row)
+        own = _extra(made)
+        values = made.base.values(design, [name for name in made.names if name not in own])
+        values |= {name: in_unit(design.raw(name), term(name).unit) for name in made.names if name in own}
+        return Single(values, tuple(findings_of(made.base, design, list(made.base.codes))))
+    except Refused as error:
+        return Single({}, (), error.key or "kind", str(error))
+    except NoSolution as error:
+        return Single({}, (), error.key or "kind", error.message)
+
+
+def _extra(made: Problem) -> Sequence[str]:
+    return () if made.axis is None else made.axis.extra
+
+
+def judged_replication(made: Problem, number: int) -> Judged:
+    """One replication of the study."""
+    return judged(made, replication(made.coordinates, rounded_up(made.samples), made.section.seed, number))
+
+
+def replication_size(made: Problem) -> int:
+    """Samples of a replication."""
+    return rounded_up(made.samples) // REPLICATIONS

@@ -1,0 +1,193 @@
+"""What came of the samples: yields, moments, quantiles and capabilities, each with the interval of its replications."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.tolerance.quantiles import Quantile, Window, quantile, window
+from gearlink.core.studies.tolerance.sampling import Estimate, estimate, share_estimate
+from gearlink.core.studies.tolerance_study.problem import Problem
+from gearlink.core.studies.tolerance_study.samples import judged_replication, replication_size
+from gearlink.core.studies.tolerance_study.shares import replicated
+
+QUANTILES = (0.00135, 0.5, 0.99865)
+_KEPT = 16_384  # values of a quantity that pictures show, of the first replications
+
+
+@dataclass(frozen=True)
+class Yield:
+    """Share of good designs with its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """A quantity over the samples: mean, standard deviation, and the quantiles of 0.135, 50 and 99.865 %."""
+
+    mean: Estimate
+    sigma: Estimate
+    places: tuple[Quantile, Quantile, Quantile]
+
+    @property
+    def quantiles(self) -> tuple[Estimate, Estimate, Estimate]:
+        """The quantiles with their intervals."""
+        low, middle, high = (place.estimate for place in self.places)
+        return low, middle, high
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Mean, deviation and the values about the quantiles of one replication; None where a quantity does not apply."""
+
+    mean: float
+    sigma: float
+    windows: tuple[Window, ...]
+
+
+@dataclass(frozen=True)
+class Result:
+    """All of a study.
+
+    Fields
+        samples : int
+        good : Yield - of everything together
+        missing : float - share of designs that do not exist
+        passes : Yield by code and by requirement
+        spreads : Spread by quantity
+        values : (M,) arrays by quantity - of the first replications, for pictures
+    """
+
+    samples: int
+    good: Yield
+    missing: float
+    passes: Mapping[str, Yield]
+    spreads: Mapping[str, Spread]
+    values: Mapping[str, Reals]
+
+
+@dataclass(frozen=True)
+class Counted:
+    """What is kept of a replication.
+
+    Fields
+        count : int
+        good, missing : float - shares
+        passes : share by code and by requirement
+        numbers : Numbers by quantity, None where it does not apply
+        values : (N,) arrays by quantity - of the first replications
+    """
+
+    count: int
+    good: float
+    missing: float
+    passes: Mapping[str, float]
+    numbers: Mapping[str, Numbers | None]
+    values: Mapping[str, Reals]
+
+
+def counted(made: Problem, number: int) -> Counted:
+    """Compute a replication, and keep what the study needs of it."""
+    one = judged_replication(made, number)
+    real = {name: value for name, value in one.quantities.items() if value.dtype.kind == "f"}
+    return Counted(
+        one.good.size,
+        float(one.good.mean()),
+        float(1.0 - one.exists.mean()),
+        {name: float(mask.mean()) for name, mask in one.passes.items()},
+        {name: _numbers(value) for name, value in real.items()},
+        real if number * one.exists.size < _KEPT else {},
+    )
+
+
+def result(made: Problem) -> Result:
+    """Compute a study, and sum up its replications."""
+    rows = list(replicated(made, counted, replication_size(made)))
+    count = sum(one.count for one in rows)
+    names = list(dict.fromkeys(name for one in rows for name in one.passes))
+    kept = [one.values for one in rows if one.values]
+    return Result(
+        count,
+        _yield([one.good for one in rows], count),
+        float(np.mean([one.missing for one in rows])),
+        # A replication on whose designs a check says nothing: all that exist pass it.
+        {name: _yield([one.passes.get(name, 1.0 - one.missing) for one in rows], count) for name in names},
+        {name: _spread([one.numbers[name] for one in rows]) for name in rows[0].numbers},
+        {name: np.concatenate([values[name] for values in kept]) for name in rows[0].numbers},
+    )
+
+
+def _yield(shares: list[float], count: int) -> Yield:
+    return Yield(*share_estimate(np.array(shares), count))
+
+
+def _numbers(values: Reals) -> Numbers | None:
+    """What is kept of a quantity, without the designs that it does not apply to."""
+    there = np.sort(values[~np.isnan(values)])
+    if there.size < 2:
+        return None
+    # About the first value: a mean of nearly equal numbers then loses nothing.
+    off = there - there[0]
+    # Not over N - 1: the mean of scrambled points hardly scatters.
+    windows = tuple(window(there, share) for share in QUANTILES)
+    return Numbers(float(there[0] + off.mean()), float(off.std()), windows)
+
+
+def _spread(rows: list[Numbers | None]) -> Spread:
+    """The replications together, without those where the quantity does not apply."""
+    there = [one for one in rows if one is not None]
+    if len(there) < 2:
+        nothing = Estimate(math.nan, math.nan)
+        no_place = Quantile(math.nan, np.full(2, math.nan))
+        return Spread(nothing, nothing, (no_place, no_place, no_place))
+    mean, sigma = (estimate(np.array(column)) for column in zip(*((one.mean, one.sigma) for one in there), strict=True))
+    low, middle, high = (quantile([one.windows[i] for one in there], share) for i, share in enumerate(QUANTILES))
+    return Spread(mean, sigma, (low, middle, high))
+
+
+def capabilities(rows: Spread, lower: float | None, upper: float | None) -> tuple[Estimate | None, Estimate | None]:
+    """C_p and C_pk of a quantity against its limits.
+
+    C_p = (U - L)/(q99.865 - q0.135),   C_pk = min((U - q50)/(q99.865 - q50), (q50 - L)/(q50 - q0.135))
+
+    Parameters
+        rows : Spread
+        lower, upper : float or None - limits; C_p needs both, C_pk one
+    Returns
+        cp, cpk : Estimate or None - None without limits, or where nothing scatters
+    Notes
+        Equal to the usual indices for a normal quantity. Intervals by the replications: the quantiles of one move
+        together.
+    Source
+        ISO 22514-2, percentile method
+    """
+    low, middle, high = rows.places
+    width = high.value - low.value
+    if not width > 0.0 or (lower is None and upper is None):
+        return None, None
+    cp = None
+    if lower is not None and upper is not None:
+        value = (upper - lower) / width
+        cp = Quantile(value, -value / width * (high.off - low.off)).estimate
+    sides = []
+    if upper is not None:
+        sides.append(_side(upper - middle.value, high.value - middle.value, -middle.off, high.off - middle.off))
+    if lower is not None:
+        sides.append(_side(middle.value - lower, middle.value - low.value, middle.off, middle.off - low.off))
+    there = [side for side in sides if side is not None]
+    return cp, min(there, key=lambda side: side.value) if there else None
+
+
+def _side(room: float, spread: float, room_off: Reals, spread_off: Reals) -> Estimate | None:
+    """Room over spread; both differ from replication to replication."""
+    if not spread > 0.0:
+        return None
+    value = room / spread
+    return Quantile(value, (room_off - value * spread_off) / spread).estimate
