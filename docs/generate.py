@@ -18,7 +18,7 @@ _HEAD = """# Nomenclature
 
 A quantity has one name, the same in design files, results, code and messages. Gears follow ISO 21771,
 laws of motion and cams VDI 2142 and VDI 2143. Units are those of design files and results; inside the engine an
-angle is in radians. This page is written by `make docs` from `core/nomenclature.py`.
+angle is in radians. This page is written by `make docs` from `core/base/nomenclature.py`.
 
 | name | symbol | unit | meaning | source | kinds |
 | --- | --- | --- | --- | --- | --- |

@@ -179,7 +179,7 @@ def test_checks_of_scalar_designs_import_no_numpy() -> None:
 def test_help_imports_no_models() -> None:
     *_, modules = modules_after("--help", "synth --help")
     assert "numpy" not in modules
-    assert not {m for m in modules if m.startswith("gearlink.core.") and "base.spec" in m.rpartition(".")[2]}
+    assert not {m for m in modules if m.startswith("gearlink.core.") and "spec" in m.rpartition(".")[2]}
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
@@ -246,10 +246,10 @@ _EVALUATED = [
     ("press", "ty460", "sync_start", "slider_crank bed cylinder"),
     ("cam", "ty460", "follower_stroke", "slider_crank bed cylinder sync_start sync_end follower"),
     ("cam", "ty460", "cam_base_radius", "base_radius"),
-    ("gripper", "machines.swing_gripper", "total_swing", "law"),
-    ("gripper", "machines.swing_gripper", "handover_speed", "law state speed shaft_speed"),
-    ("gripper", "machines.swing_gripper", "min_transmission_angle", "law linkage"),
-    ("cam", "machines.swing_gripper", "max_pressure_angle", "law linkage section center main_cam return_cam"),
+    ("gripper", "swing_gripper", "total_swing", "law"),
+    ("gripper", "swing_gripper", "handover_speed", "law state speed shaft_speed"),
+    ("gripper", "swing_gripper", "min_transmission_angle", "law linkage"),
+    ("cam", "swing_gripper", "max_pressure_angle", "law linkage section center main_cam return_cam"),
     ("swing", "wide_swing_twin_cam", "energy_parameter", "swing device plain_law"),
     ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
     ("swing", "wide_swing_twin_cam", "spring_rate", "swing device plain_law"),
@@ -272,8 +272,8 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     # the file as completed and as read, whether to advise, the kind that made it, and a function: nothing worked out
-    given = ("base.spec", "asked", "advise", "kin", "_way_back")
-    parts = [each for name, each in vars(made).items() if hasattr(each, "base.spec") and name not in given]
+    given = ("spec", "asked", "advise", "kin", "_way_back")
+    parts = [each for name, each in vars(made).items() if hasattr(each, "spec") and name not in given]
     return {
         name
         for each in (made, *parts)
