@@ -82,7 +82,7 @@ def _register(
     at: Annotated[
         str | None,
         typer.Option(
-            "--at", metavar="PLACE", help="dwell, zone, handover, or an angle", autocompletion=offers("places")
+            "--at", metavar="PLACE", help="dwell, zone, handover, range, or an angle", autocompletion=offers("places")
         ),
     ] = None,
     method: Annotated[Method | None, typer.Option("--method", help="how the band is computed")] = None,
@@ -94,7 +94,7 @@ def _register(
     jobs: Jobs = 0,
     dask: Scheduler = "",
 ) -> None:
-    """Register: what play, pitch error and the other errors of the parts cost at the print, by source.
+    """Register: what play, runout and the other errors of the parts cost at the output, by source.
 
     Exit status: 1 the budget is exceeded.
 

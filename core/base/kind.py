@@ -10,11 +10,13 @@ from weakref import WeakValueDictionary
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
     from gearlink.core.base.design_axis import Maker
+    from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Motion
 
 _SHARED = {
     "explore": "studies.explore.exploration:Exploration",
     "tolerance": "studies.tolerance_study.design:ToleranceStudy",
+    "register": "studies.register.of_motion:MotionRegister",
 }
 """Commands that are no kind's own."""
 
@@ -32,6 +34,7 @@ class Kind(NamedTuple):
         array : str - its array form, which computes many designs at once; "": none
         samples : str - array form of the designs as made, for `tolerance`; "": each is computed alone
         outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
+        errors : str - what its sizes, gears and pins move, for `register`; "": pins alone are known
         register_at : str - where `register` looks where the file does not say
         picture, scene : str - what draws its own commands, what builds its film; "": what any motion has
         profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
@@ -50,6 +53,7 @@ class Kind(NamedTuple):
     array: str = ""
     samples: str = ""
     outputs: Mapping[str, tuple[str, ...]] = {}
+    errors: str = ""
     register_at: str = ""
     picture: str = ""
     scene: str = ""
@@ -86,6 +90,12 @@ class Kind(NamedTuple):
         """The motion of a design of this kind."""
         found: Motion = self._own(self.motion)(design)
         return found
+
+    def movable(self, design: Design, mechanism: Mechanism) -> Any:
+        """What the sizes, gears and pins of a design move: a `Movable`."""
+        if self.errors:
+            return self._own(self.errors)(design, mechanism)
+        return load("core.studies.register.movable:Movable")()
 
     def axis_maker(self) -> Maker | None:
         """What makes the kind's array form, where it has one."""

@@ -123,6 +123,9 @@ class TolerancedSpec(DesignSpec):
     tolerance: Annotated[Any, Deferred("studies.tolerance.spec:Tolerance")] | None = Field(
         None, description="how sizes scatter, for the commands tolerance and register"
     )
+    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
+        None, alias="register", description="what the output may lose by the errors of the parts, for register"
+    )
 
 
 class DrivenSpec(TolerancedSpec):

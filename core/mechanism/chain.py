@@ -205,7 +205,9 @@ class _Moved:
     def mechanism(self) -> Mechanism:
         """The links where they stand."""
         links = {
-            name: Link(Point(link.origin.value + self.place[name]), Turn(link.turn.value + self.turn[name]))
+            name: Link(
+                Point(link.origin.value + self.place[name]), Turn(link.turn.value + self.turn[name]), link.points
+            )
             for name, link in self.nominal.links.items()
         }
         return Mechanism(links, (), self.nominal.drive)

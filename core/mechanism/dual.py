@@ -14,13 +14,16 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gearlink.core.mechanism.dynamics import System
-from gearlink.core.mechanism.joints import Act, Column, Connection, Flank, Toothed, meshes_of
+from gearlink.core.mechanism.joints import Act, Column, Connection, Flank, Mesh, Pin, Toothed, meshes_of
 from gearlink.core.mechanism.links import Link, Mechanism
 from gearlink.core.mechanism.rates import Point, Turn, cross
 from gearlink.core.numerics.arrays import Points, Reals
 
 Value: TypeAlias = Callable[[Mechanism], Sequence[Reals]]
 """What is looked at, out of the places and angles of links, and its derivative."""
+
+_SAME_PLACE = 1e-9
+"""Of its distance from the origin, by which a computed place may be off."""
 
 
 @dataclass(frozen=True)
@@ -169,6 +172,35 @@ def joints_of(mechanism: Mechanism, link: str, names: Sequence[str]) -> Iterator
         yield found[0]
 
 
+def elements_at(mechanism: Mechanism, link: str, place: complex) -> tuple[str, ...]:
+    """Names of the pins and meshes whose element on a link stands at a place of it [mm]: what an error there moves."""
+    body = mechanism.link(link)
+    at = place if body is None else body.at(place).value
+    found = []
+    for joint in mechanism.connections:
+        if isinstance(joint, Pin):
+            centers: dict[str, Points] = {joint.first: joint.at, joint.second: joint.at}
+        elif isinstance(joint, Mesh):
+            apart = joint.radius - joint.mate_radius if joint.internal else joint.radius + joint.mate_radius
+            centers = {joint.first: joint.center, joint.second: joint.center + joint.toward * apart}
+        else:
+            continue
+        if link in centers and np.all(np.abs(centers[link] - at) <= _SAME_PLACE * (1.0 + np.abs(at))):
+            found.append(joint.name)
+    return tuple(found)
+
+
+def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dict[str, tuple[Shift, ...]]:
+    """By size, what moves where a link is too long: all that stands at its end, away from its origin.
+
+    Parameters
+        ends : by size, a link or the frame and the end of it that the size places, from its origin [mm]
+    """
+    return {
+        size: (Shift(link, elements_at(mechanism, link, end), end / abs(end)),) for size, (link, end) in ends.items()
+    }
+
+
 def origin_of(link: Link | None) -> Points | complex:
     """Where the coordinates of a link begin; those of the frame at 0."""
     return 0j if link is None else link.origin.value
@@ -217,4 +249,4 @@ def _act(mechanism: Mechanism, value: Value, name: str) -> Act:
 
 def _moving(link: Link, origin: complex, turn: float) -> Link:
     at, angle = link.origin.value, link.turn.value
-    return Link(Point(at, np.full(at.shape, origin)), Turn(angle, np.full(angle.shape, turn)))
+    return Link(Point(at, np.full(at.shape, origin)), Turn(angle, np.full(angle.shape, turn)), link.points)

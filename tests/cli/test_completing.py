@@ -92,7 +92,7 @@ def test_without_a_design_all_names_are_offered(line: pytest.MonkeyPatch) -> Non
     line.setenv("COMP_WORDS", "gearlink export nowhere.yaml --part ")
     assert {"rack", "main_cam", "gear5"} <= set(words(completing.parts("")))
     assert {"motion", "drawing"} <= set(words(completing.sheets("")))
-    assert set(words(completing.places(""))) == {"dwell", "zone", "handover"}
+    assert set(words(completing.places(""))) == {"dwell", "zone", "handover", "range"}
 
 
 def test_commands() -> None:

@@ -20,9 +20,11 @@ RECORD = Kind(
     "crank that pushes a slider",
     "push_rod",
     "spec:PushRodSpec",
-    {"analyze": "design:PushRod", "loads": "design:PushRodLoadsDesign", "tolerance": ""},
+    {"analyze": "design:PushRod", "loads": "design:PushRodLoadsDesign", "register": "", "tolerance": ""},
     motion="mechanism:motion",
     codes="",
+    errors="mechanism:errors",
+    register_at="range",
     outputs={"motion": ("displacement",)},
 )
 TEXT = """kind: push-rod
@@ -43,6 +45,7 @@ tolerance:
   sources:
     crank: {plus_minus: 0.05}
     rod: {plus_minus: 0.1}
+    pins.C: {clearance: [0.01, 0.03]}
 """
 STUDY = """kind: study
 name: rods
@@ -101,6 +104,14 @@ def test_sheet_film_report_and_picture(run: Any, tmp_path: Path) -> None:
     run("analyze", "push-rod.yaml", "--plot", "--out", "plots")
     made = {path.suffix for folder in ("sheets", "film", "page", "plots") for path in (tmp_path / folder).iterdir()}
     assert {".png", ".html"} <= made
+
+
+def test_register(run: Any) -> None:
+    found = json.loads(run("register", "push-rod.yaml", "--at", "0", "--format", "json"))
+    rows = found["tables"]["budget"]["rows"]
+    columns = list(found["tables"]["budget"]["columns"])
+    gains = {row[columns.index("source")]: row[columns.index("gain")] for row in rows}
+    assert gains == pytest.approx({"crank": 1.0, "rod": 1.0, "pins.C": 1.0}, rel=1e-12)
 
 
 def test_tolerance_and_explore(run: Any) -> None:

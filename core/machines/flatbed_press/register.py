@@ -34,7 +34,8 @@ from gearlink.core.studies.tolerance.sources import Parts
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.studies.register.gains import Errors, Off, Output
+    from gearlink.core.studies.register.gains import Off, Output
+    from gearlink.core.studies.register.movable import Errors
 
 _CHAINS = {"bed": ("gear2", "BC", "CDE"), "cylinder": ("gear1", "HM", "MN")}
 _RADIUS = "cylinder.radius"
@@ -73,7 +74,8 @@ class PressRegister(RegisterDesign):
     def errors(self) -> Errors:
         """By size; the bed's slide line keeps its place, so a longer frame puts A back."""
         bed, degree = self.design.bed, math.radians(1.0)
-        crank = self._crank_per_stroke * cmath.exp(-1j * bed.crank_offset_angle)
+        per_stroke = 0.5 * self.design.motion.slider_crank.crank_per_stroke  # the bed goes twice as far
+        crank = per_stroke * cmath.exp(-1j * bed.crank_offset_angle)
         found = {
             "bed.stroke": (Shift("CDE", ("E",), crank),),
             "bed.rod": (Shift("EF", ("F",)),),
@@ -249,17 +251,6 @@ class PressRegister(RegisterDesign):
         if not self.backlash:
             return None
         return zeros_over_turn(lambda phi: float(self.design.motion.cylinder.travel(phi, 2).second))
-
-    @property
-    def _crank_per_stroke(self) -> float:
-        """Error of the crank DE per mm of the bed's stroke, which is how the file gives it: dr/dS, in closed form.
-
-        r = (s/2) sqrt((4 L^2 - 4 e^2 - s^2)/(4 L^2 - s^2)),   s = S/2
-        """
-        bed = self.spec.bed
-        s, crank = 0.5 * bed.stroke, self.design.motion.slider_crank.crank_length
-        inner, outer = 4.0 * (bed.rod**2 - bed.offset**2) - s * s, 4.0 * bed.rod**2 - s * s
-        return 0.5 * crank * (1.0 / s - s / inner + s / outer)
 
     def _cam_lean(self, phi: Reals) -> Reals:
         """Pressure angle of the main cam along the zone [rad]."""

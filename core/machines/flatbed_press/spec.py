@@ -139,11 +139,6 @@ class FlatbedPressSpec(TolerancedSpec):
     cam: PressCam | None = None
     size: PressSize | None = None
     limits: PressLimits = PressLimits.model_construct()
-    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
-        None,
-        alias="register",
-        description="what bed and cylinder may lose in the synchronous zone, for the command register",
-    )
     loads: Annotated[Any, Deferred("machines.flatbed_press.loads_spec:PressLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.linkage import GripperMotion
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.mechanism.joints import Connection
-    from gearlink.core.studies.register.gains import Errors, Off, Output
+    from gearlink.core.studies.register.gains import Off, Output
+    from gearlink.core.studies.register.movable import Errors
 
 _PINS = ("A", "C", "D", "E")
 _PIVOTS = {"pivots.input": "A", "pivots.output": "E", "cam.center": "O"}

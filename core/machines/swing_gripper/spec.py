@@ -222,11 +222,6 @@ class SwingGripperSpec(TolerancedSpec):
     inertia: Inertia | None = None
     spring: ClosingSpring | None = None
     limits: GripperLimits = GripperLimits.model_construct()
-    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
-        None,
-        alias="register",
-        description="what the register may lose, for the command register: the tip at the handover",
-    )
     loads: Annotated[Any, Deferred("machines.swing_gripper.loads_spec:GripperLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

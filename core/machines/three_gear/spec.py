@@ -112,9 +112,6 @@ class ThreeGearSpec(DrivenSpec):
     shafts: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Shafts")] | None = Field(
         None, description="shafts that pass through the plane of the gears"
     )
-    register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
-        None, alias="register", description="what the output may lose in its dwell, for the command register"
-    )
     loads: Annotated[Any, Deferred("machines.three_gear.loads_spec:ThreeGearLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -14,13 +14,14 @@ from gearlink.core.base.report import Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.mechanism.chain import Chain
 from gearlink.core.numerics.arrays import Reals, turn_degrees
-from gearlink.core.studies.register.gains import Errors, Gains, Moves, Output
+from gearlink.core.studies.register.gains import Gains, Moves, Output
+from gearlink.core.studies.register.movable import Errors
 from gearlink.core.studies.register.samples import SIGNS, own_errors, places, sampled_band, sampled_errors
 from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget
 from gearlink.core.studies.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.studies.tolerance.correlation import of_sizes
-from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_play, scatters
-from gearlink.core.studies.tolerance.spec import Register
+from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
+from gearlink.core.studies.tolerance.spec import Register, Tolerance
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.dual import Shift
@@ -88,6 +89,10 @@ class RegisterDesign(Design):
             NoSolution - where the machine has no such place
         """
         raise NotImplementedError
+
+    def cycle_degrees(self, samples: int | None) -> Reals:
+        """Inputs of the tables over the cycle."""
+        return turn_degrees(samples)
 
     # Gains
 
@@ -176,16 +181,20 @@ class RegisterDesign(Design):
     def require_named(self) -> None:
         """Refuse sources, meshes and places that the machine does not have."""
         if self.spec.register_ is None:
-            self._require_pins()
+            self.require_parts(self.spec.tolerance)
         else:
             _ = self.sources, self.correlations, self.backlash
             self.contributions(self.input_angles[:1], SIGNS[0])
 
-    def _require_pins(self) -> None:
-        section = self.spec.tolerance
-        plays = {} if section is None else {key: one for key, one in section.sources.items() if is_play(key)}
-        if plays:
-            scatters(section.model_copy(update={"sources": plays}), self.spec, self.parts)
+    def require_parts(self, section: Tolerance | None) -> None:
+        """Refuse pins, gears and centre distances that the machine does not have.
+
+        Raises
+            WrongStudy - GL170, GL171, at its source
+        """
+        parts = {} if section is None else {key: one for key, one in section.sources.items() if is_of_parts(key, one)}
+        if section is not None and parts:
+            scatters(section.model_copy(update={"sources": parts}), self.spec, self.parts)
 
     @cached_property
     def correlations(self) -> dict[tuple[str, str], float]:
@@ -274,7 +283,7 @@ class RegisterDesign(Design):
 
     def table_cycle(self, samples: int | None = None) -> Table:
         """Absolute error over the whole cycle, for either torque sign."""
-        degrees = turn_degrees(samples)
+        degrees = self.cycle_degrees(samples)
         found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
         columns = {
             "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
@@ -286,7 +295,7 @@ class RegisterDesign(Design):
 
     def table_sources(self, samples: int | None = None) -> Table:
         """What each source costs at its limit over the whole cycle, absolute, for either torque sign."""
-        degrees = turn_degrees(samples)
+        degrees = self.cycle_degrees(samples)
         both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
         columns = {
             "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),

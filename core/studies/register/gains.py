@@ -13,12 +13,9 @@ from gearlink.core.mechanism.dual import Dual, Shift
 from gearlink.core.mechanism.joints import Flank, Toothed
 from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.register.movable import Errors
 from gearlink.core.studies.tolerance.budget import Contribution
 from gearlink.core.studies.tolerance.sources import Scatter
-
-Errors = Mapping[str, tuple[Shift, ...]]
-"""By key of the file, or centre distance, the elements that an error of it moves."""
-
 
 Off: TypeAlias = Mapping[str, Any] | None
 """Errors by source, of those on which the output depends beside the links."""
@@ -120,14 +117,5 @@ def turning(link: str, radius: float, sense: float = 1.0) -> Output:
 
     def output(mechanism: Mechanism, _parts: Off = None) -> Sequence[Reals]:
         return [sense * radius * rate for rate in mechanism.links[link].turn]
-
-    return output
-
-
-def sliding(link: str, along: complex) -> Output:
-    """The way of a link along a direction [mm]."""
-
-    def output(mechanism: Mechanism, _parts: Off = None) -> Sequence[Reals]:
-        return [(rate * along.conjugate()).real for rate in mechanism.links[link].origin]
 
     return output

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gearlink.core.base.errors import NoSolution, named
@@ -16,6 +16,7 @@ from gearlink.core.studies.tolerance.laws import Law, normal_between
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 
 MOST_COORDINATES = 64
+CAM_PROFILE = "cam.profile"
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,7 @@ class Parts:
     centers: dict[str, float]
     pins: tuple[str, ...] = ()
     gears: dict[str, GearOfSource] | None = None
+    others: dict[str, float] = field(default_factory=dict)
 
 
 def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]:
@@ -109,6 +111,12 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
 def is_play(key: str) -> bool:
     """Whether a source is the play of a pin."""
     return key.startswith(("pins.", "bearings."))
+
+
+def is_of_parts(key: str, entry: ToleranceSource) -> bool:
+    """Whether a source names a part and not a key of the file: play, runout, a centre distance, a cam's profile."""
+    runout = key.startswith("gears.") and entry.form in ("grade", "eccentricity")
+    return is_play(key) or runout or key.startswith("centers.") or key == CAM_PROFILE
 
 
 def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatter:
@@ -166,12 +174,14 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
             )
             raise _no("GL170", f"this design has no centre distance {named(name)}: {known}", place)
         nominal: float | None = parts.centers[name]
+    elif key in parts.others:
+        nominal = parts.others[key]
     else:
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
         what = "holds a whole number, which does not scatter" if nominal is not None else "is no key with a number"
         raise _no("GL170", f"{named(key)} {what}: name a length or an angle of this file", place)
-    unit = "mm" if group == "centers" else unit_at(spec, key)
+    unit = "mm" if group == "centers" or key in parts.others else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
         what = "class" if entry.form == "class" else "grades"
         message = f"{what} takes its width from the length of a part, and {key} is in {unit}: give plus_minus or limits"

@@ -196,7 +196,7 @@ class Register(Spec):
 
     tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
     at: str | Annotated[float, Field(json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="dwell, zone, handover, or an input angle in degrees"
+        None, description="dwell, zone, handover, range, or an input angle in degrees"
     )
     method: Literal["worst", "rss", "mc"] = Field("rss", description="how the band is computed")
     radius: Length | None = Field(

@@ -22,8 +22,8 @@ from gearlink.core.studies.explore.requirements import Condition, FaultFound, Na
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.axis import ToleranceAxis
 from gearlink.core.studies.tolerance.correlation import coordinate_root, together
-from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_play, scatters
-from gearlink.core.studies.tolerance.spec import Tolerance
+from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
+from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 
 ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
@@ -53,20 +53,22 @@ class Problem:
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
-        """The sources whose scatter changes the design; teeth, and pins of press and gripper, count in `register`.
+        """The sources whose scatter changes the design; parts that no key of the file names count in `register`.
 
         Raises
             WrongStudy - GL170 where none is left, GL171 for a measured size that no design has
         """
         parts = Parts({}) if self.axis is None else self.axis.parts
         given = self.section.sources
-        counted = {key: one for key, one in given.items() if not self._is_play(key)}
+        counted = {key: one for key, one in given.items() if not self._is_of_register(key, one)}
+        if len(counted) < len(given):
+            self.base.kind.design("register", self.base.spec()).require_parts(self.section)
         found: tuple[Scatter, ...] = ()
         if counted or not given:
             found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
         found = tuple(one for one in found if one.kind != "gear")
         if not found:
-            raise no("GL170", "play and runout of these parts count in `register` alone: name a size", "sources")
+            raise no("GL170", "these parts count in `register` alone: name a size of the file", "sources")
         for one in found:
             self._possible(one)
         return found
@@ -82,11 +84,11 @@ class Problem:
     def of_register_alone(self) -> bool:
         """Whether no source changes the samples."""
         runout = ("grade", "eccentricity")
-        return all(self._is_play(key) or one.form in runout for key, one in self.section.sources.items())
+        return all(self._is_of_register(key, one) or one.form in runout for key, one in self.section.sources.items())
 
-    def _is_play(self, key: str) -> bool:
-        """Play of pins in the machines whose register counts it, but whose analysis has no play."""
-        return self.axis is None and "register" in self.base.kind.commands and is_play(key)
+    def _is_of_register(self, key: str, entry: ToleranceSource) -> bool:
+        """Parts that the register of a machine counts and its analysis does not know."""
+        return self.axis is None and "register" in self.base.kind.commands and is_of_parts(key, entry)
 
     @property
     def coordinates(self) -> int:

@@ -54,7 +54,7 @@ def test_gains_are_the_reference(case: dict[str, Any]) -> None:
 def test_the_stroke_stands_for_the_crank() -> None:
     made = factory.design("ty460", command="register", tolerance={"sources": {"bed.stroke": {"plus_minus": 0.1}}})
     up, down = (factory.design("ty460", bed__stroke=620.0 + d).motion.slider_crank.crank_length for d in (0.01, -0.01))
-    assert made._crank_per_stroke == pytest.approx((up - down) / 0.02, rel=1e-8)
+    assert 0.5 * made.design.motion.slider_crank.crank_per_stroke == pytest.approx((up - down) / 0.02, rel=1e-8)
 
 
 def test_contributions_of_the_printed_budget() -> None:
@@ -127,7 +127,9 @@ def test_gains_by_duality_are_those_derived_by_hand() -> None:
     made, phi = press(), np.radians([34.0, 70.0, 120.0, 150.0, 200.0, 300.0])
     by_hand = PressGains(made.design, phi)
     for one in made.contributions(phi, 1):
-        assert one.gain == pytest.approx(by_hand.of(one.source, made._crank_per_stroke), abs=1e-12), one.source
+        assert one.gain == pytest.approx(
+            by_hand.of(one.source, 0.5 * made.design.motion.slider_crank.crank_per_stroke), abs=1e-12
+        ), one.source
 
 
 def test_the_whole_chain_is_the_one_closed_by_hand() -> None:
@@ -136,7 +138,7 @@ def test_the_whole_chain_is_the_one_closed_by_hand() -> None:
     parts = {key: 0.01 * random.uniform(-1.0, 1.0, 5) for key in KEYS}
     parts |= {f"pins.{pin}": 0.01 * np.exp(6j * random.uniform(size=5)) for pin in "ABCDEFGHMN"}
     others = {
-        "bed.stroke": ("crank", made._crank_per_stroke),
+        "bed.stroke": ("crank", 0.5 * made.design.motion.slider_crank.crank_per_stroke),
         "bed.crank_offset_angle": ("angle", math.radians(1.0)),
         "cylinder.initial_crank_angle": ("cylinder.angle", math.radians(1.0)),
     }

@@ -424,7 +424,7 @@ MENDED: list[tuple[WideSwingDesign, str, str]] = [
 @pytest.mark.parametrize(("made", "check", "path"), mostly_slow(MENDED, 4))
 def test_closed_form_as_given_repairs_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
     ((_, value),) = next(remedy for remedy in remedies.candidates(made, check or REFUSAL) if remedy[0][0] == path)
-    repaired = factory.design(replaced(made.spec, path, value).model_dump())
+    repaired = factory.design(replaced(made.spec, path, value).model_dump(by_alias=True))
     if check and made.spec.unloader.pivot_ratio > 1.0:
         assert "fail" in statuses(made, check)
         assert "fail" not in statuses(repaired, check)
@@ -455,7 +455,7 @@ def test_remedy_that_breaks_another_check_is_not_said(made: WideSwingDesign, che
     assert found.remedy == ()
     assert "; set " not in found.message
     ((_, value),) = next(remedy for remedy in remedies.candidates(made, check) if remedy[0][0] == path)
-    repaired = factory.design(replaced(made.spec, path, value).model_dump())
+    repaired = factory.design(replaced(made.spec, path, value).model_dump(by_alias=True))
     before, after = (
         {name for name in each.outline("swing").checks if "fail" in statuses(each, name)} for each in (made, repaired)
     )

@@ -6,10 +6,12 @@ from typing import Any
 
 from gearlink.core.mechanism.closures import slider
 from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.joints import Connection, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, standing, steady
+from gearlink.core.studies.register.movable import Movable
 
 SLIDER = coordinate("slider")
 
@@ -35,3 +37,9 @@ def motion(design: Any) -> Motion:
         return Mechanism(links, joints, "crank", travel={"slider": 1.0 + 0j})
 
     return Motion(make, Input("crank_angle"), (Output("Slider", SLIDER),))
+
+
+def errors(design: Any, mechanism: Mechanism) -> Movable:
+    """What an error of its sizes moves."""
+    spec = design.spec
+    return Movable(longer(mechanism, {"crank": ("crank", spec.crank), "rod": ("rod", spec.rod)}))

@@ -163,6 +163,16 @@ class SliderCrank:
         """r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2)) [mm]."""
         return _crank_length(self.stroke, self.rod, self.offset, self.fn)
 
+    @property
+    def crank_per_stroke(self) -> float:
+        """Change of the crank per mm of the stroke, in closed form.
+
+        r = (s/2) sqrt((4 L^2 - 4 e^2 - s^2)/(4 L^2 - s^2))
+        """
+        s = self.stroke
+        inner, outer = 4.0 * (self.rod**2 - self.offset**2) - s * s, 4.0 * self.rod**2 - s * s
+        return self.crank_length * (1.0 / s - s / inner + s / outer)
+
     @cached_property
     def _far(self) -> float:
         return 2.0 * self.rod * self.crank_length / self.stroke + self.stroke / 2.0

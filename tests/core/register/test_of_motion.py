@@ -1,0 +1,180 @@
+"""The register of every kind with a motion: gains against designs made anew, against the whole chain, and refusals."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.base.spec_paths import changed, number_at
+from gearlink.core.studies.register.of_motion import MotionRegister
+from gearlink.core.studies.study.faults import WrongStudy
+from tests import factory
+
+PLAY, RUNOUT, SIZE = {"clearance": [0.0, 0.02]}, {"eccentricity": 0.01}, {"plus_minus": 0.05}
+LINKS = ("links.crank", "links.coupler", "links.rocker", "links.frame")
+CASES: dict[str, tuple[str, ...]] = {
+    "two_gear_drag_link": (*LINKS[1:], "centers.planet_sun", "pins.B", "pins.A_output", "gears.planet", "gears.sun"),
+    "two_gear_ring": (*LINKS[1:], "centers.planet_ring", "pins.C", "gears.ring"),
+    "wide_lever": ("links.coupler", "links.frame", "centers.coupler_output", "pins.C", "pins.D_output"),
+    "slider_crank_tolerances": ("crank", "rod", "offset", "pins.D", "pins.F"),
+    "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame", "centers.input", "pins.A"),
+    "hypocycloid_slider": ("centers.planet_ring", "pins.M", "pins.planet", "gears.planet"),
+    "mutilated_gear_press": ("links.crank", "links.coupler", "links.rocker", "pins.C", "gears.driven"),
+    "five_bar_path": (
+        *("links.input", "links.coupler", "links.follower", "links.output", "centers.gears", "pins.C"),
+        *("coupler_point.along", "coupler_point.across", "gears.input"),
+    ),
+    "five_bar_function": ("links.coupler", "links.follower", "links.output", "phase", "centers.gears", "pins.D"),
+    "gear_pair": ("centers.gears", "pins.gear1", "gears.gear1", "gears.gear2"),
+    "wide_swing_cycle": ("centers.cam", "cam.profile", "cam.roller_radius", "pins.roller", "pins.D"),
+}
+REMADE = {
+    "two_gear_drag_link": LINKS[1:],
+    "two_gear_ring": LINKS[1:],
+    "slider_crank_tolerances": ("crank", "rod", "offset"),
+    "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame"),
+    "five_bar_path": CASES["five_bar_path"][:4] + CASES["five_bar_path"][6:8],
+}
+"""Sizes that change nothing but themselves, so that a design may be made anew with another one."""
+WITHOUT_MESH = ("slider_crank_tolerances", "wide_swing_cycle")
+
+
+def register(name: str, sources: tuple[str, ...] = (), **keys: Any) -> MotionRegister:
+    entries = {key: _entry(key) for key in sources or CASES[name]}
+    given = {"backlash": 0.03} if name not in WITHOUT_MESH else {}
+    if name == "wide_swing_cycle":
+        given["radius"] = 200.0
+    made = factory.design(name, command="register", tolerance={"sources": entries}, register=given | keys)
+    assert isinstance(made, MotionRegister)
+    return made
+
+
+def _entry(key: str) -> dict[str, Any]:
+    return PLAY if key.startswith("pins.") else RUNOUT if key.startswith("gears.") else SIZE
+
+
+def some(made: MotionRegister, count: int = 11) -> Any:
+    given = made.motion.input
+    return np.linspace(given.start, given.end, count + 2)[1:-1] + 1e-3
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_whole_chain_goes_as_the_gains_but_for_squares(name: str) -> None:
+    made = register(name)
+    phi = some(made)
+    for sign in (1, -1):
+        gains = {one.source: one.gain for one in made.contributions(phi, sign)}
+        off = []
+        for size in (1e-3, 1e-4):
+            errors = {
+                one.key: np.array([size * (1.0 if one.coordinates == 1 else np.exp(0.7j))]) for one in made.sources
+            }
+            linear = sum(np.real(gains[key] * error) for key, error in errors.items())
+            off.append(np.abs(made.sampled_errors(phi, sign, errors)[:, 0] - linear).max())
+        assert off[1] < 0.02 * off[0] + 1e-12, name
+
+
+@pytest.mark.parametrize("name", REMADE)
+def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
+    made, step = register(name, REMADE[name]), 1e-4
+    phi = some(made)
+    for one in made.contributions(phi, 1):
+        if one.source not in REMADE[name]:
+            continue
+        value = number_at(made.spec, one.source)
+        places = [
+            made.radius
+            * made.course.rates(MotionRegister(changed(made.spec, [(one.source, value + way)])).motion, phi, 0)[0]
+            for way in (step, -step)
+        ]
+        found = (places[0] - places[1]) / (2.0 * step)
+        # a design counts its output from its own start: the changes over the motion are compared
+        assert found - found[0] == pytest.approx(one.gain - one.gain[0], abs=2e-8), one.source
+
+
+def test_a_gear_pair_in_closed_form() -> None:
+    """Both runouts are transmitted along the line of action, once per revolution; the backlash is a lag."""
+    made = register("gear_pair")
+    pair, phi = made.design.gear_pair, some(made)
+    found = {one.source: one.gain for one in made.contributions(phi, 1)}
+    scale = made.radius / pair.base_radius[1]
+    assert np.abs(found["gears.gear1"]) == pytest.approx(scale, rel=1e-12)
+    assert np.abs(found["gears.gear2"]) == pytest.approx(scale, rel=1e-12)
+    assert found["centers.gears"] == pytest.approx(-scale * math.sin(pair.working_pressure_angle), rel=1e-12)
+    lag = made.radius / pair.working_radius[1]
+    assert found["backlash of mesh_12"] == pytest.approx(-lag, rel=1e-12)
+    assert made.dead_band == pytest.approx(0.03 * lag, rel=1e-12)
+
+
+def test_a_slider_crank_in_closed_form() -> None:
+    """d(x)/d(crank) and d(x)/d(rod) of an offset slider-crank at right angles."""
+    made = register("slider_crank_tolerances", ("crank", "rod"))
+    found = {one.source: one.gain[0] for one in made.contributions(np.array([0.0]), 1)}
+    part = made.design.slider_crank
+    lean = math.asin((part.crank_length + part.offset) / part.rod)
+    assert found["rod"] == pytest.approx(1.0 / math.cos(lean), rel=1e-12)
+    assert found["crank"] == pytest.approx(-math.tan(lean), rel=1e-12)
+
+
+def test_torque_turns_where_the_output_is_fastest() -> None:
+    made = register("two_gear_drag_link")
+    design = made.design
+    wanted = sorted(design.quantity(f"speed_ratio_{name}_at").value for name in ("max", "min"))
+    assert np.degrees(sorted(made.flips)) == pytest.approx(wanted, abs=1e-6)
+
+
+def test_torque_with_friction_and_load_turns_elsewhere() -> None:
+    made = register("two_gear_drag_link", output_inertia=0.02, friction=0.5, load=-0.2)
+    with pytest.raises(NoSolution, match="input_speed"):
+        _ = made.flips
+    spec = changed(made.spec, [("input_speed", 60.0)])
+    for place in MotionRegister(spec).flips or ():
+        near = MotionRegister(spec).output_torque(np.array([place - 1e-7, place + 1e-7]))
+        assert near[0] * near[1] <= 0.0
+
+
+def test_a_shaft_lags_under_the_torque() -> None:
+    made = register("two_gear_drag_link", load=2.0, stiffness=1000.0)
+    phi = some(made)
+    found = {one.source: one for one in made.contributions(phi, 1)}["wind-up of the output shaft"]
+    assert found.mean * found.gain == pytest.approx(np.full(phi.shape, -made.radius * 2.0 / 1000.0), rel=1e-12)
+
+
+def test_what_a_machine_does_not_have_is_refused() -> None:
+    with pytest.raises(WrongStudy, match="no centre distance 'sun'"):
+        _ = register("two_gear_drag_link", ("centers.sun",)).sources
+    with pytest.raises(NoSolution, match="no mesh lies on the way"):
+        _ = register("slider_crank_tolerances", backlash=0.02).backlash
+    with pytest.raises(NoSolution, match="this one slides"):
+        _ = register("slider_crank_tolerances", radius=10.0).radius
+    with pytest.raises(NoSolution, match="this one slides"):
+        _ = register("slider_crank_tolerances", load=10.0).flips
+    with pytest.raises(NoSolution, match="no place 'dwell' here: give range"):
+        _ = register("slider_crank_tolerances", at="dwell").input_angles
+    made = factory.design("wide_swing_cycle", command="register", tolerance={"sources": {"cam.profile": SIZE}})
+    with pytest.raises(MissingSection, match=r"give register\.radius"):
+        _ = made.worst
+
+
+def test_a_synthesis_is_completed_first() -> None:
+    made = register("two_gear_standing", ("links.coupler", "links.frame"))
+    assert made.spec.links.frame is not None
+    assert max(made.band) > 0.0
+
+
+@pytest.mark.parametrize("name", [kind for kind, record in KINDS.items() if "loads" in record.commands])
+def test_every_kind_with_loads_has_a_register(name: str) -> None:
+    assert "register" in KINDS[name].commands
+
+
+def test_tables_run_over_the_range_of_the_input() -> None:
+    made = register("five_bar_function", ("links.coupler",))
+    start, end = (math.degrees(angle) for angle in made.design.input_range)
+    table = made.table_cycle()
+    angles = table.data[table.columns.index("input_angle")]
+    assert (min(angles), max(angles)) == pytest.approx((start, end), abs=1e-9)
