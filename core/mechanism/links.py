@@ -47,13 +47,30 @@ class Link:
         return {}
 
 
+class Later(Sequence[T]):
+    """Joints that are made when first looked at: tables, films and sheets need the links alone."""
+
+    def __init__(self, make: Callable[[], Sequence[T]]) -> None:
+        self._make = make
+
+    @cached_property
+    def _made(self) -> Sequence[T]:
+        return self._make()
+
+    def __getitem__(self, index: Any) -> Any:
+        return self._made[index]
+
+    def __len__(self) -> int:
+        return len(self._made)
+
+
 @dataclass(frozen=True)
 class Mechanism:
     """A machine at an array of input angles.
 
     Fields
         links : by name, in the order of the machine
-        connections : what joins them
+        connections : what joins them, in many machines made when first looked at
         drive : str - link that the input torque acts on, or the connection that drives (`gain` then says how)
         sense : float - +1 where that link turns with the input, -1 where against it
         pivot : complex [mm] - about which the frame's moment is taken

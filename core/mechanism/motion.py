@@ -32,7 +32,7 @@ class Input:
         column : str - the first column of its tables
         unit : "rad" or "mm"
         start, end : float [unit] - its period, or its range
-        turns : int or None - revolutions of the period; None: a range, nothing repeats
+        turns : int or None - revolutions of the period; None: a range that does not repeat, or no whole revolutions
         joints : floats [unit] - inputs at which a rate may jump, ascending, from start to end
     """
 
@@ -51,7 +51,7 @@ class Motion:
     Fields
         input : Input
         make : function of an array of inputs (N,) [rad or mm], of the order of the highest derivative, and of the side
-        outputs : what moves in the end, the first of them the output that tolerances and registers speak of
+        outputs : what moves in the end, as sheets and films show it; of the first one `register` counts the errors
         highest : int - the highest derivative there is; 2 where a law has no third
 
     A rate that jumps at an input is the one just after it, with `side` -1 the one just before.
@@ -82,7 +82,7 @@ class Motion:
                 return found
         # The oldest go; of long arrays few are held, so that a table of a million rows does not fill the memory.
         while kept and (len(kept) >= _KEPT or (len(kept) + 1) * q.size > _ROWS_KEPT):
-            del kept[next(iter(kept))]
+            kept.pop(next(iter(tuple(kept)), (0, b"")), None)  # several threads may do so at once
         made = self.make(q, order, side)
         kept[side * (order + 1), rows] = made
         return made

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ from gearlink.core.machines.flatbed_press.loads_spec import PressLoads as Sectio
 from gearlink.core.mechanism.closures import slider
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin, Rack
-from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, from_start, mixed, standing, steady
 from gearlink.core.parts.linkages.fourbar import position as fourbar
@@ -127,14 +128,15 @@ class _Press:
         """All links; one derivative at least, for the normals of the rollers."""
         order = max(order, 1)
         links = self.rods(phi, order)
-        of_cylinder = self._cylinder_chain(links, phi, order)
+        self._cylinder_chain(links, phi, order)
         cam = self._racks(links, phi)
-        joints = self._bed_joints(links)
-        if cam is not None and self.has_profile:
-            joints.append(self._follower_joint(links, cam))
-        joints += of_cylinder
+
+        def joints() -> list[Connection]:
+            follower = [self._follower_joint(links, cam)] if cam is not None and self.has_profile else []
+            return [*self._bed_joints(links), *follower, *self._cylinder_joints(links)]
+
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
-        made = Mechanism(links, joints, drive, sense, travel={name: 1j for name in SLIDING if name in links})
+        made = Mechanism(links, Later(joints), drive, sense, travel={name: 1j for name in SLIDING if name in links})
         if cam is not None:
             made.once("lift", lambda: cam)
         return made
@@ -194,7 +196,7 @@ class _Press:
         links["bed"] = Link(_sliding(f.value.real + self.to_bed, travel), still)
         return cam
 
-    @property
+    @cached_property
     def _rolled_at_start(self) -> float:
         """What the pinion has rolled at input angle 0, where its own x axis lies along that of the frame [rad]."""
         start = np.zeros(1)
@@ -230,7 +232,8 @@ class _Press:
 
     # Cylinder
 
-    def _cylinder_chain(self, links: dict[str, Link], phi: Reals, order: int) -> list[Connection]:
+    def _cylinder_chain(self, links: dict[str, Link], phi: Reals, order: int) -> None:
+        """The links from gear 1 to the cylinder."""
         chain, section = self.design.motion.cylinder, self.section
         four = chain.linkage
         pair = None if self.design.spec.input_gears is None else self.design.gear_pair
@@ -243,22 +246,29 @@ class _Press:
         links["HM"] = Link(links["gear1"].at("H"), from_start(coupler, -half_turn), {"H": 0.0, "M": four.coupler})
         n = fixed(complex(g.value[0]) + self.side * four.frame, phi, order=order)
         links["MN"] = Link(n, from_start(rocker, -half_turn), {"N": 0.0, "M": four.rocker})
-        r3, r4 = pitch_radii(self.design)
-        side = _unit(section.cylinder_direction, 0.0)
-        axis = fixed(complex(n.value[0]) + (r3 + r4) * side, phi, order=order)
+        axis = fixed(complex(n.value[0]) + sum(pitch_radii(self.design)) * self._to_cylinder, phi, order=order)
         at_start = fourbar.solve(four, chain.initial_angle).rocker_angle
         links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, at_start))))
+
+    @property
+    def _to_cylinder(self) -> complex:
+        return _unit(self.section.cylinder_direction, 0.0)
+
+    def _cylinder_joints(self, links: dict[str, Link]) -> list[Connection]:
+        pair = None if self.design.spec.input_gears is None else self.design.gear_pair
+        n, toward = links["MN"].origin.value, _unit(self.section.gear_1_direction, 90.0)
+        r3, r4 = pitch_radii(self.design)
         joints: list[Connection] = [
-            Pin("G", FRAME, "gear1", g.value),
+            Pin("G", FRAME, "gear1", links["gear1"].origin.value),
             Pin("H", "gear1", "HM", links["HM"].origin.value),
             Pin("M", "HM", "MN", links["MN"].at("M").value),
-            Pin("N", FRAME, "MN", n.value),
-            Pin("cylinder", FRAME, "cylinder", axis.value),
+            Pin("N", FRAME, "MN", n),
+            Pin("cylinder", FRAME, "cylinder", links["cylinder"].origin.value),
         ]
         if pair is not None:
             (r1, r2), tangent = pair.working_radius, math.tan(pair.working_pressure_angle)
             joints.append(Mesh("mesh_12", "gear2", "gear1", links["gear2"].origin.value, toward, r2, r1, tangent))
-        return [*joints, Mesh("mesh_34", "MN", "cylinder", n.value, side, r3, r4, math.tan(_RACK_ANGLE))]
+        return [*joints, Mesh("mesh_34", "MN", "cylinder", n, self._to_cylinder, r3, r4, math.tan(_RACK_ANGLE))]
 
 
 def _sliding(place: Reals, way: tuple[Reals, ...]) -> Point:

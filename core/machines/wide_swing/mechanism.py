@@ -39,17 +39,33 @@ def motion(design: WideSwingDesign) -> Motion:
 
     Without `cam` there are the rocker and its slider alone, about D at 0.
     """
-    spec, angle = design.spec, design.motion.cycle_angle
-    whole = spec.cycle is not None or (spec.drive is not None and spec.cam is not None)
-    outputs = [Output("Rocker", turned("rocker"))]
-    if spec.slider is not None:
-        outputs.append(Output("Slider", coordinate("slider", along=slider_way(design))))
-    given, highest = Input(end=TURN if whole else angle, turns=1 if whole else None), design.motion.highest
+    spec = design.spec
     if spec.cam is None:
-        return Motion(lambda phi, order, _: _alone(design, phi, order), given, tuple(outputs), highest)
+        return working_stroke(design)
+    whole = spec.cycle is not None or spec.drive is not None
     machine = _WithCams(design, whole)
-    given = Input(end=given.end, turns=given.turns, joints=machine.joints)
-    return Motion(machine.at, given, tuple(outputs), highest)
+    end, turns = (TURN, 1) if whole else (design.motion.cycle_angle, None)
+    return Motion(
+        machine.at, Input(end=end, turns=turns, joints=machine.joints), _outputs(design), design.motion.highest
+    )
+
+
+def working_stroke(design: WideSwingDesign) -> Motion:
+    """Rocker and slider over the working stroke, by its law alone, about D at 0: whatever the cams are."""
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        return _alone(design, phi, order)
+
+    whole = design.spec.cycle is not None and design.spec.cam is None
+    given = Input(end=TURN if whole else design.motion.cycle_angle, turns=1 if whole else None)
+    return Motion(make, given, _outputs(design), design.motion.highest)
+
+
+def _outputs(design: WideSwingDesign) -> tuple[Output, ...]:
+    outputs = [Output("Rocker", turned("rocker"))]
+    if design.spec.slider is not None:
+        outputs.append(Output("Slider", coordinate("slider", along=slider_way(design))))
+    return tuple(outputs)
 
 
 def slider_way(design: WideSwingDesign) -> complex:

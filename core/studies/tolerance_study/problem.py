@@ -62,7 +62,8 @@ class Problem:
         given = self.section.sources
         counted = {key: one for key, one in given.items() if not self._is_of_register(key, one)}
         if len(counted) < len(given):
-            self.base.kind.design("register", self.base.spec()).require_parts(self.section)
+            register: Any = self.base.kind.design("register", self.base.spec())
+            register.require_parts(self.section)
         found: tuple[Scatter, ...] = ()
         if counted or not given:
             found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)

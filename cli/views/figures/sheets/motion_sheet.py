@@ -227,7 +227,9 @@ def five_bar(design: Any) -> list[Course]:
 
 def wide_swing(design: Any) -> list[Course]:
     """The rocker over its working stroke, and the slider that it drives, both from where the stroke begins."""
-    moving, angle = design.moving, design.motion.cycle_angle
+    from gearlink.core.machines.wide_swing.mechanism import working_stroke
+
+    moving, angle = working_stroke(design), design.motion.cycle_angle
     x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / design.motion.working_time
     over = "cam angle [deg]" if design.spec.drive is None else "crank angle [deg]"
 
