@@ -1,4 +1,4 @@
-"""Roots, extremes, quadrature, elliptic integrals, double-double arithmetic, blocks: no word of mechanisms.
+"""Roots, extremes, quadrature, elliptic integrals, least squares, linear programs, blocks: no word of mechanisms.
 
 Begin with `roots` (one number, `math` alone) and `extremes` (functions of arrays).
 """

@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
 
 
-# Gears, links and synthesis of a geared five-bar; what it does with them: `geared_five_bar`
-
 MESHES = ("input_idler", "idler_output")
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 
 import numpy as np
@@ -15,18 +16,16 @@ from gearlink.core.machines.five_bar.family import UNKNOWNS, FiveBarFamily, near
 from gearlink.core.machines.five_bar.path import distances
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.machines.five_bar.starts import bounds, scattered_starts
-from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.lm import DAMPING, State, damped, descend
 
-_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-15, 1e8
-_SOFTER, _HARDER = 0.3, 4.0
+_LEAST_DAMPING = 1e-15
 # Longest step of a logarithm, of the phase, and of an input angle [rad].
 _REACH, _PHI_REACH = 0.5, 0.3
 _MATCHED_EVERY = 10
 _FOOT_STEPS = 3
 # So many branches of a path that crosses itself are tried for each target.
 _BRANCHES = 3
-# So many steps in which no row gained end a descent.
-_IDLE, _GAIN = 6, 1e-9
 # How far the limit of the cosine is drawn in against the give of a penalty.
 _MOST_SHIFT = 0.3
 _SLOW = 1e-9
@@ -52,25 +51,7 @@ class PathProblem:
     weight: float
 
 
-@dataclass(frozen=True, slots=True)
-class _State:
-    """Misses (K, N), path velocities (K, N), slopes (K, N, 7), penalties (K, 8) with slopes (K, 8, 7), cost (K,)."""
-
-    miss: Points
-    velocity: Points
-    slopes: Points
-    penalty: Reals
-    penalty_slopes: Reals
-    cost: Reals
-
-    def updated(self, other: _State, rows: Mask) -> _State:
-        """This state with some rows taken from another."""
-        mask = {ndim: rows.reshape(-1, *(1,) * (ndim - 1)) for ndim in (1, 2, 3)}
-        pairs = [(getattr(self, name), getattr(other, name)) for name in self.__slots__]
-        return _State(*(np.where(mask[old.ndim], new, old) for old, new in pairs))
-
-
-def descend(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[Reals, Reals, Reals]:
+def descended(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[Reals, Reals, Reals]:
     """Rows of unknowns after so many Levenberg-Marquardt steps, each row with its own damping.
 
     sum |M(phi_j) - P_j|^2 + weight^2 sum max(0, |cos| - limit)^2 -> min over x and every phi_j
@@ -88,24 +69,20 @@ def descend(problem: PathProblem, x: Reals, phi: Reals, steps: int) -> tuple[Rea
     Source
         D. W. Marquardt, J. SIAM 11 (1963) 431-441; M. J. D. Powell, in: Optimization (1969) 283-298; own derivation
     """
-    damping, idle = np.full(len(x), _DAMPING), 0
-    limit = np.full((len(x), 2), problem.cosine)
-    state = _state(problem, x, phi, limit)
-    for i in range(steps):
-        if i and i % _MATCHED_EVERY == 0:
-            phi, limit = matched(problem, x, phi), _drawn_in(problem, x, limit)
-            state, damping = _state(problem, x, phi, limit), np.minimum(damping, _DAMPING)
-        dx, dphi = _step(problem, x, state, damping)
-        new_x, new_phi = np.clip(x + dx, problem.low, problem.high), phi + dphi
-        new = _state(problem, new_x, new_phi, limit)
-        better = new.cost < state.cost
-        idle = 0 if np.any(new.cost < (1.0 - _GAIN) * state.cost) else idle + 1
-        if idle == _IDLE:
+    limit, damping = np.full((len(x), 2), problem.cosine), np.full(len(x), DAMPING)
+    z, targets = np.concatenate((x, phi), axis=1), phi.shape[1]
+    for first in range(0, steps, _MATCHED_EVERY):
+        if first:
+            x = z[:, :UNKNOWNS]
+            z = np.concatenate((x, matched(problem, x, z[:, UNKNOWNS:])), axis=1)
+            limit, damping = _drawn_in(problem, x, limit), np.minimum(damping, DAMPING)
+        few = min(_MATCHED_EVERY, steps - first)
+        z, (cost, *_), damping, taken = descend(
+            partial(_state, problem, limit), partial(_step, problem), z, few, damping=damping, least=_LEAST_DAMPING
+        )
+        if taken < few:
             break
-        x, phi = np.where(better[:, None], new_x, x), np.where(better[:, None], new_phi, phi)
-        state = state.updated(new, better)
-        damping = np.clip(np.where(better, _SOFTER, _HARDER) * damping, _LEAST_DAMPING, _MOST_DAMPING)
-    return x, phi, state.cost / phi.shape[1]
+    return z[:, :UNKNOWNS], z[:, UNKNOWNS:], cost / targets
 
 
 def matched(problem: PathProblem, x: Reals, phi: Reals | None = None) -> Reals:
@@ -142,15 +119,17 @@ def _feet(problem: PathProblem, x: Reals, tried: Reals) -> tuple[Reals, Reals]:
     return phi.reshape(tried.shape), away.reshape(tried.shape)
 
 
-def _state(problem: PathProblem, x: Reals, phi: Reals, limit: Reals) -> _State:
-    found = problem.family.path_slopes(x, phi)
+def _state(problem: PathProblem, limit: Reals, z: Reals) -> State:
+    """Cost (K,), misses (K, N), path velocities (K, N), slopes (K, N, 7), penalties (K, 8) with slopes (K, 8, 7)."""
+    x = z[:, :UNKNOWNS]
+    found = problem.family.path_slopes(x, z[:, UNKNOWNS:])
     cosine, slopes = problem.family.cosines(x)
     excess = cosine - np.repeat(limit, cosine.shape[1] // 2, axis=1)
     on, miss = excess > 0.0, found.point - problem.targets
     penalty = problem.weight * np.where(on, excess, 0.0)
     slopes = problem.weight * np.where(on[..., None], slopes, 0.0)
     cost = np.sum(miss.real**2 + miss.imag**2, axis=1) + np.sum(penalty**2, axis=1)
-    return _State(miss, found.velocity, found.slopes, penalty, slopes, np.where(np.isfinite(cost), cost, np.inf))
+    return np.where(np.isfinite(cost), cost, np.inf), miss, found.velocity, found.slopes, penalty, slopes
 
 
 def _drawn_in(problem: PathProblem, x: Reals, limit: Reals) -> Reals:
@@ -160,32 +139,23 @@ def _drawn_in(problem: PathProblem, x: Reals, limit: Reals) -> Reals:
     return np.asarray(problem.cosine + np.where(np.isfinite(shift), shift, 0.0))
 
 
-def _step(problem: PathProblem, x: Reals, state: _State, damping: Reals) -> tuple[Reals, Reals]:
-    """Steps of the unknowns and of the input angles."""
-    speed = np.maximum(np.abs(state.velocity), _SLOW)
-    back = np.conj(np.where(np.abs(state.velocity) > _SLOW, state.velocity / speed, 1.0))
-    slopes, miss = state.slopes * back[..., None], state.miss * back
+def _step(problem: PathProblem, z: Reals, state: State, damping: Reals) -> Reals:
+    """Steps of the unknowns and of the input angles; an unknown at its bound that is pushed outward stays there."""
+    _, miss, velocity, slopes, penalty, penalty_slopes = state
+    x, speed = z[:, :UNKNOWNS], np.maximum(np.abs(velocity), _SLOW)
+    back = np.conj(np.where(np.abs(velocity) > _SLOW, velocity / speed, 1.0))
+    slopes, miss = slopes * back[..., None], miss * back
     held = np.sqrt(damping / (1.0 + damping))[:, None]
-    rows = np.concatenate((slopes.imag, held[..., None] * slopes.real, state.penalty_slopes), axis=1)
-    value = np.concatenate((miss.imag, held * miss.real, state.penalty), axis=1)
-    dx = _solved(problem, x, rows, value, damping)
-    left = miss.real + np.squeeze(slopes.real @ dx[..., None], axis=2)
-    return dx, np.clip(-left / (speed * (1.0 + damping[:, None])), -_PHI_REACH, _PHI_REACH)
-
-
-def _solved(problem: PathProblem, x: Reals, rows: Reals, value: Reals, damping: Reals) -> Reals:
-    """Damped least squares for seven unknowns; one that stands at its bound and is pushed outward stays there."""
-    across = np.swapaxes(rows, 1, 2)
-    square, slope = across @ rows, np.squeeze(across @ value[..., None], axis=2)
+    rows = np.concatenate((slopes.imag, held[..., None] * slopes.real, penalty_slopes), axis=1)
+    value = np.concatenate((miss.imag, held * miss.real, penalty), axis=1)
+    slope = np.squeeze(np.swapaxes(rows, 1, 2) @ value[..., None], axis=2)
     free = ~((x <= problem.low) & (slope > 0.0) | (x >= problem.high) & (slope < 0.0))
-    square = square * free[:, :, None] * free[:, None, :]
-    size = np.einsum("kii->ki", square)
-    floor = 1e-14 * size.sum(axis=1, keepdims=True) + 1e-300
-    added = damping[:, None] * (size + 1e-3 * size.max(axis=1, keepdims=True)) + floor
-    square[:, range(UNKNOWNS), range(UNKNOWNS)] += added
-    step = -np.squeeze(np.linalg.solve(square, (free * slope)[..., None]), axis=2)
+    step = damped(rows, value, damping, free=free)
     longest = np.max(np.abs(step[:, :5]), axis=1, keepdims=True)
-    return np.asarray(step * np.minimum(1.0, _REACH / np.maximum(longest, 1e-300)))
+    step = step * np.minimum(1.0, _REACH / np.maximum(longest, 1e-300))
+    left = miss.real + np.squeeze(slopes.real @ step[..., None], axis=2)
+    turned = np.clip(-left / (speed * (1.0 + damping[:, None])), -_PHI_REACH, _PHI_REACH)
+    return np.concatenate((np.clip(x + step, problem.low, problem.high), z[:, UNKNOWNS:] + turned), axis=1)
 
 
 def thinned(problem: PathProblem, most: int) -> PathProblem:
@@ -296,21 +266,21 @@ def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, 
     for rows, steps, weight, most in _STAGES:
         stage = _refined(replace(thinned(problem, most), weight=weight), rows)
         x = x[: rows + 1]
-        x, _, cost = descend(stage, x, matched(stage, x), steps)
+        x, _, cost = descended(stage, x, matched(stage, x), steps)
         x = x[np.argsort(cost, kind="stable")]
     return _finished(_refined(replace(problem, weight=weight), _LAST), x[:_LAST], least)
 
 
 def _finished(problem: PathProblem, x: Reals, least: float) -> Reals:
     """The last stage, over all targets, and more steps for rows that still miss the transmission angle."""
-    x, phi, cost = descend(_aimed(problem, least + _MARGIN), x, matched(problem, x), _STEPS)
+    x, phi, cost = descended(_aimed(problem, least + _MARGIN), x, matched(problem, x), _STEPS)
     spans = _between(_SPANS_TO_FINISH * problem.family.waves, _FEWEST_SPANS, _MOST_SPANS_TO_FINISH)
     problem = replace(problem, family=replace(problem.family, span_count=spans))
     for margin in _MARGINS:
         missing = ~(np.max(problem.family.cosines(x)[0], axis=1) <= math.cos(least))
         if not np.any(missing):
             break
-        more = descend(_aimed(problem, least + margin), x[missing], phi[missing], _MORE_STEPS)
+        more = descended(_aimed(problem, least + margin), x[missing], phi[missing], _MORE_STEPS)
         x[missing], phi[missing], cost[missing] = more
     return np.asarray(x[np.argsort(cost, kind="stable")])
 

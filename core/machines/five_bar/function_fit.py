@@ -13,8 +13,9 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.levelling import WIDEST, Levelling
 from gearlink.core.machines.five_bar.wanted import StructuralError, Wanted, outputs, structural_error
-from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.halton import halton
+from gearlink.core.numerics.lm import State, damped, descend
 
 _NODES, _GRID = 9, 121
 _STARTS, _ROUNDS, _STEPS = 300, 1, 60
@@ -161,20 +162,16 @@ def _moving(first: FunctionFiveBar, row: Reals, wanted: Wanted) -> Iterator[tupl
 
 def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> tuple[Reals, Reals]:
     """Rows of ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20, phi0, psi0 after Levenberg's steps, and their squares."""
-    damping, value = np.full(len(x), 1e-2), _misses(x, phi, psi, ratio, cosine)
-    cost = np.sum(value**2, axis=1)
-    for _ in range(_STEPS):
-        slopes = _slopes(x, value, phi, psi, ratio, cosine)
-        across = np.swapaxes(slopes, 1, 2)
-        square = across @ slopes + damping[:, None, None] * np.eye(7)
-        step = np.linalg.solve(square, across @ value[:, :, None])[:, :, 0]
-        new = x - np.clip(np.nan_to_num(step), -0.4, 0.4)
-        new_value = _misses(new, phi, psi, ratio, cosine)
-        new_cost = np.sum(new_value**2, axis=1)
-        better: Mask = new_cost < cost
-        x, value = np.where(better[:, None], new, x), np.where(better[:, None], new_value, value)
-        cost = np.where(better, new_cost, cost)
-        damping = np.clip(np.where(better, 0.3, 4.0) * damping, 1e-12, 1e6)
+
+    def state(x: Reals) -> State:
+        value = _misses(x, phi, psi, ratio, cosine)
+        return np.sum(value**2, axis=1), value
+
+    def step(x: Reals, state: State, damping: Reals) -> Reals:
+        moved = damped(_slopes(x, state[1], phi, psi, ratio, cosine), state[1], damping, scaled=False)
+        return x + np.clip(np.nan_to_num(moved), -0.4, 0.4)
+
+    x, (cost, _), _, _ = descend(state, step, x, _STEPS)
     return x, cost
 
 

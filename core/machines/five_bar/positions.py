@@ -14,6 +14,7 @@ from gearlink.core.base.wording import amount
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.halton import halton
+from gearlink.core.numerics.lm import State, descend
 
 Positions = Sequence[tuple[float, float]]
 
@@ -109,17 +110,8 @@ def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[Functi
     """Five-bars that satisfy the equations of the positions, not yet known to move between them."""
     phi, psi = (np.array(column) for column in zip(*positions, strict=True))
     x = _starts(start)
-    damping = np.ones(len(x))
-    value, slopes = _misses(x, phi, psi, start.coupler_ratio)
-    cost = np.sum(value**2, axis=1)
-    for _ in range(_STEPS):
-        new = x - _step(value, slopes, damping * np.minimum(cost, 1.0))
-        new_value, new_slopes = _misses(new, phi, psi, start.coupler_ratio)
-        new_cost = np.sum(new_value**2, axis=1)
-        better = new_cost < cost
-        x[better], cost[better] = new[better], new_cost[better]
-        value[better], slopes[better] = new_value[better], new_slopes[better]
-        damping = np.where(better, 0.3 * damping, 4.0 * np.minimum(damping, 1e6))
+    ratio = start.coupler_ratio
+    x, (cost, *_), _, _ = descend(lambda x: _state(x, phi, psi, ratio), _step, x, _STEPS, damping=1.0, least=0.0)
     close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < _WIDEST, axis=1)
     seen: set[tuple[float, ...]] = set()
     for row in x[close]:
@@ -132,8 +124,8 @@ def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[Functi
         yield replace(start, coupler=b, follower=c, output=e, frame=d, phase=float(row[4]))
 
 
-def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float) -> tuple[Reals, Reals]:
-    """|CD| - c at each position over the input link, for every row of unknowns, and its derivatives."""
+def _state(x: Reals, phi: Reals, psi: Reals, ratio: float) -> State:
+    """Squares, |CD| - c at each position over the input link, for every row of unknowns, and its derivatives."""
     b, c, e, d = (np.exp(np.clip(x[:, i], -_FARTHEST, _FARTHEST))[:, None] for i in range(4))
     coupler = b * np.exp(1j * (x[:, 4:5] + ratio * phi))
     arm = e * np.exp(1j * psi)
@@ -142,18 +134,18 @@ def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float) -> tuple[Reals, Real
     toward = np.conj(gap) / np.maximum(long, 1e-12)
     parts = (coupler * toward).real, -c + 0.0 * long, -(arm * toward).real, -d * toward.real
     slopes = np.stack((*parts, (1j * coupler * toward).real), axis=2)
-    return long - c, slopes
+    return np.sum((long - c) ** 2, axis=1), long - c, slopes
 
 
-def _step(value: Reals, slopes: Reals, damping: Reals) -> Reals:
-    """Levenberg's step of least length for every row: J^T (J J^T + damping)^-1 value."""
-    count = value.shape[1]
+def _step(x: Reals, state: State, damping: Reals) -> Reals:
+    """Levenberg's step of least length for every row: -J^T (J J^T + damping)^-1 value."""
+    cost, value, slopes = state
     square = slopes @ np.swapaxes(slopes, 1, 2)
     # The floor goes with the size, else rounding takes it where one link is a million times the others.
     floor = 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
-    square += (damping + floor)[:, None, None] * np.eye(count)
+    square += (damping * np.minimum(cost, 1.0) + floor)[:, None, None] * np.eye(value.shape[1])
     step: Reals = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
-    return np.clip(step, -0.5, 0.5)
+    return x - np.clip(step, -0.5, 0.5)
 
 
 def _moving(bar: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:

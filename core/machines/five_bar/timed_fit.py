@@ -17,6 +17,7 @@ from gearlink.core.machines.five_bar.path import points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.machines.five_bar.starts import bounds, scattered_starts
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.lm import State, damped, descend
 
 _PLACES = 48  # of the first point over the period, for each start
 _FOLLOWED, _STEPS, _BEST = 48, 120, 6
@@ -130,27 +131,20 @@ def _descended(
     family: FiveBarFamily, z: Reals, targets: Points, angles: Reals, cosine: float, limits: tuple[Reals, Reals]
 ) -> Reals:
     """Rows after Levenberg's and Marquardt's steps, the best first."""
-    damping = np.full(len(z), 1e-2)
-    cost, normal, slope = _state(family, z, targets, angles, cosine)
-    for _ in range(_STEPS):
-        diagonal = np.eye(8) * (damping[:, None] * (1e-9 + np.einsum("kii->ki", normal)))[:, None, :]
-        step = np.linalg.solve(np.nan_to_num(normal) + diagonal + 1e-12 * np.eye(8), np.nan_to_num(slope)[..., None])
-        new = z - np.clip(step[..., 0], -0.4, 0.4)
+
+    def step(z: Reals, state: State, damping: Reals) -> Reals:
+        _, value, slopes = state
+        moved = damped(np.nan_to_num(slopes), np.nan_to_num(value), damping)
+        new = z + np.clip(moved, -0.4, 0.4)
         new[:, :7] = np.clip(new[:, :7], *limits)
-        state = _state(family, new, targets, angles, cosine)
-        better = state[0] < cost
-        z = np.where(better[:, None], new, z)
-        cost = np.where(better, state[0], cost)
-        normal = np.where(better[:, None, None], state[1], normal)
-        slope = np.where(better[:, None], state[2], slope)
-        damping = np.clip(np.where(better, 0.3, 4.0) * damping, 1e-12, 1e8)
+        return new
+
+    z, (cost, *_), _, _ = descend(lambda z: _state(family, z, targets, angles, cosine), step, z, _STEPS)
     return np.asarray(z[np.argsort(cost, kind="stable")])
 
 
-def _state(
-    family: FiveBarFamily, z: Reals, targets: Points, angles: Reals, cosine: float
-) -> tuple[Reals, Reals, Reals]:
-    """Cost, normal matrix and gradient of every row; infinite where it opens."""
+def _state(family: FiveBarFamily, z: Reals, targets: Points, angles: Reals, cosine: float) -> State:
+    """Squares, misses and excess of the cosine with their derivatives for every row; infinite where it opens."""
     x = z[:, :7]
     at = family.path_slopes(x, z[:, 7:8] + angles)
     miss = at.point - targets
@@ -159,7 +153,6 @@ def _state(
     excess = _WEIGHT * np.maximum(0.0, limit - cosine)
     over = np.where((excess > 0.0)[..., None], _WEIGHT * limit_slopes, 0.0)
     over = np.concatenate((over, np.zeros((*over.shape[:2], 1))), axis=2)
-    cost = np.sum(np.abs(miss) ** 2, axis=1) + np.sum(excess**2, axis=1)
-    normal = np.einsum("kni,knj->kij", np.conj(slopes), slopes).real + np.einsum("kni,knj->kij", over, over)
-    slope = np.einsum("kni,kn->ki", np.conj(slopes), miss).real + np.einsum("kni,kn->ki", over, excess)
-    return np.where(np.isfinite(cost), cost, np.inf), normal, slope
+    value = np.concatenate((miss.real, miss.imag, excess), axis=1)
+    cost = np.sum(value**2, axis=1)
+    return np.where(np.isfinite(cost), cost, np.inf), value, np.concatenate((slopes.real, slopes.imag, over), axis=1)

@@ -16,7 +16,7 @@ from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.family import UNKNOWNS, FiveBarFamily
-from gearlink.core.machines.five_bar.fit import PathProblem, descend, fit_path, judge, matched
+from gearlink.core.machines.five_bar.fit import PathProblem, descended, fit_path, judge, matched
 from gearlink.core.machines.five_bar.path import coupler_angles, distances, points, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
@@ -90,7 +90,7 @@ def test_descent_reaches_a_path_that_exists():
     targets = points(bar, np.linspace(0.3, bar.period, 12), OFFSET) / 50.0
     problem = PathProblem(family, targets, x[0] - 1.0, x[0] + 1.0, math.cos(0.1), 3.0)
     away = x + 0.005 * np.array([[1.0, -1.0, 0.5, 1.0, -1.0, 0.5, 1.0]])
-    _, phi, cost = descend(problem, away, matched(problem, away), 60)
+    _, phi, cost = descended(problem, away, matched(problem, away), 60)
     assert phi.shape == (1, 12)
     assert cost[0] < 1e-24
 
