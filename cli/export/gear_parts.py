@@ -11,7 +11,6 @@ import numpy as np
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.outline.tooth_profile import Curve, ToothProfile
@@ -57,9 +56,7 @@ def gear_of(
     )
 
 
-def ring_of(
-    mesh: GearPair | InternalMesh, rim: float, name: str, title: str, width: float | None = None, hand: str = "right"
-) -> Part:
+def ring_of(mesh: GearPair, rim: float, name: str, title: str, width: float | None = None, hand: str = "right") -> Part:
     """The ring of a pair, the middle of a tooth space on the x axis, within its rim [mm]; helical ones of a hand.
 
     Raises
@@ -87,12 +84,12 @@ def ring_of(
         ),
         notes=_ring_notes(mesh, shape, rim),
         width=width,
-        twist=SENSES[hand] * math.tan(mesh.helix_angle) / shape.reference if isinstance(mesh, GearPair) else 0.0,
+        twist=SENSES[hand] * math.tan(mesh.helix_angle) / shape.reference,
         rim=rim,
     )
 
 
-def _ring_notes(mesh: GearPair | InternalMesh, shape: RingProfile, rim: float) -> tuple[str, ...]:
+def _ring_notes(mesh: GearPair, shape: RingProfile, rim: float) -> tuple[str, ...]:
     section = "; transverse section" if shape.helical else ""
     root = "involute down to the root circle; the fillet there is the cutter's, which the file does not name"
     if shape.shaped is not None:

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import MissingSection, at_key
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
-    from gearlink.core.parts.gears.mesh.pair import GearPair
 
 Makers = dict[str, Callable[[], "Part"]]
 
@@ -102,7 +100,7 @@ def pair_hands(design: Any) -> tuple[str, str]:
     given = getattr(design.spec, "helix_hand", None)
     if given is not None:
         return given[0], given[1]
-    return "right", "right" if is_ring(design.gear_pair) else "left"
+    return "right", "right" if design.gear_pair.internal else "left"
 
 
 def train_hands(design: Any, label: str = "") -> tuple[str, str]:
@@ -172,9 +170,9 @@ def five_bar(design: Any) -> Makers:
 def _five_bar_gears(design: Any, mesh: Any) -> list[str]:
     """Names of the two gears of a five-bar with a single mesh, the ring last."""
     if not design.is_path:
-        return ["planet", "ring" if is_ring(mesh) else "sun"]
+        return ["planet", "ring" if mesh.internal else "sun"]
     gears = design.spec.gears
-    return ["output", "input"] if is_ring(mesh) and gears.input > gears.output else ["input", "output"]
+    return ["output", "input"] if mesh.internal and gears.input > gears.output else ["input", "output"]
 
 
 def six_bar(design: Any) -> Makers:
@@ -209,24 +207,9 @@ def _of_mesh(
         with at_key(key):
             widths = widths_of()
             width = widths[number] if widths else None
-            if number == 1 and is_ring(mesh):
+            if number == 1 and mesh.internal:
                 outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim))
                 return gear_parts.ring_of(mesh, outer, names[1], titles[1], width, hands[1])
-            pair = _planet(mesh) if isinstance(mesh, InternalMesh) else mesh
-            return gear_parts.gear_of(pair, number, names[number], titles[number], width, hands[number])
+            return gear_parts.gear_of(mesh, number, names[number], titles[number], width, hands[number])
 
     return {name: partial(gear, number) for number, name in enumerate(names)}
-
-
-def is_ring(mesh: Any) -> bool:
-    """Whether gear 2 of a mesh is a ring."""
-    return isinstance(mesh, InternalMesh) or mesh.teeth[1] < 0
-
-
-def _planet(mesh: Any) -> GearPair:
-    """The planet of an internal mesh without shift, as one of two equal external gears: its teeth are the same."""
-    from gearlink.core.parts.gears.mesh.pair import GearPair
-
-    teeth = (mesh.teeth[0], mesh.teeth[0])
-    profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}
-    return GearPair.from_shift(mesh.module, teeth, pressure_angle=mesh.pressure_angle, **profile)

@@ -14,11 +14,10 @@ from datetime import UTC, datetime
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
-from gearlink.cli.export.parts import is_ring, pair_hands, train_hands
+from gearlink.cli.export.parts import pair_hands, train_hands
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 from gearlink.core.parts.gears.train.meshed import Meshed
 from gearlink.core.version import VERSION
 
@@ -110,7 +109,7 @@ def _gear(
         return known[name]
     shaft = model.component("shaft", f"shaft of {name}", iter(()))
     model.relation("assembly", assembly=unit, part=shaft)
-    ring = i == 1 and is_ring(pair)
+    ring = i == 1 and pair.internal
     gear = model.component("ring_gear" if ring else "cylindrical_gear", name, _gear_data(pair, i, widths, hand))
     model.relation("assembly", assembly=shaft, part=gear)
     sides = [model.component("cylindrical_gear_flank", f"{name}, {side} flank", _flank(pair, i)) for side in _SIDES]
@@ -206,7 +205,7 @@ def _meshes(design: Any) -> Iterator[_Mesh]:
         names = names or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
         for label, place in zip(design.mesh_names, design.teeth_train.places, strict=True):
             one, other = place.gears
-            pair = signed_pair(design.meshes[label])
+            pair = design.meshes[label]
             yield _Mesh((names[one], names[other]), pair, design.widths_of(label), train_hands(design, label))
 
 

@@ -121,7 +121,6 @@ _DATA = {
     "parts.gears.measures.allowances",
 }
 _RINGS = {
-    "parts.gears.mesh.internal_mesh",
     "parts.gears.mesh.ring_cutter",
     "parts.gears.mesh.ring_interference",
     "parts.gears.outline.mesh_phase",

@@ -135,7 +135,7 @@ def test_a_ring_has_one_rim_whichever_key_gives_it() -> None:
         assert "fail" in {c.status for c in checks}
         assert "fail" not in {c.status for c in factory.design(base, **keys, **more).check("shaft-clearance")}
     ring = factory.design("ring_feed", command="synth dwell", gears__rim_thickness=[None, None, 9.0])
-    outer = ring.meshes["idler_output"].root_radius[1] + 9.0
+    outer = 9.0 - ring.meshes["idler_output"].root_radius[1]
     assert ring.layout.gears[2].outer == outer
     mesh, still = ring.meshes["idler_output"], np.zeros(1)
     drawn = gear(mesh, 1, still + 0j, still, 1.0, "#000000", "5", rim=ring.outer_rim("idler_output"))

@@ -11,7 +11,6 @@ from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, styl
 from gearlink.cli.views.scenes.geared_five_bar import build
 from gearlink.core.machines.five_bar.design import GearedFiveBar
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +42,7 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
         from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
 
         named = zip(meshes, _gears(design), strict=True)
-        return mesh_figure(title, [Mesh(signed_pair(mesh), name.replace("_", "-"), two) for (name, mesh), two in named])
+        return mesh_figure(title, [Mesh(mesh, name.replace("_", "-"), two) for (name, mesh), two in named])
     if design.is_path:
         return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _velocity, _transmission, _span])
     error = [_structural_error] if design.wanted is not None else []

@@ -10,7 +10,6 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.geared_six_bar import build
 from gearlink.core.machines.six_bar.design import GearedSixBar
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,9 +33,7 @@ def draw(command: str, design: GearedSixBar) -> Figure:
     if command == "gear":
         from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
 
-        return mesh_figure(
-            title, [Mesh(signed_pair(mesh), pins, (pins[0], pins[1])) for pins, mesh in design.meshes.items()]
-        )
+        return mesh_figure(title, [Mesh(mesh, pins, (pins[0], pins[1])) for pins, mesh in design.meshes.items()])
     charts: list[linkage.Panel] = [
         partial(_curve, name="output_angle", ylabel="output angle [deg]", order=0),
         partial(_curve, name="speed_ratio", ylabel="speed ratio", order=1),

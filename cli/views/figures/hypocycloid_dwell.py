@@ -10,7 +10,6 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
 from gearlink.cli.views.scenes.hypocycloid_dwell import build
 from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +32,7 @@ def draw(command: str, design: HypocycloidDwell) -> Figure:
     if command == "gear":
         from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
 
-        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(signed_pair(design.mesh), "", ("2", "ring"))])
+        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.mesh, "", ("2", "ring"))])
     return linkage.sheet(
         f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified, _transmission]
     )

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from gearlink.cli.views.figures.drawing import failing, linkage, panels, style, time_axes
 from gearlink.cli.views.figures.three_gear_mechanism import mechanism, words
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,7 +23,7 @@ def draw(command: str, design: ThreeGearFourBar) -> Figure:
 
         names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
         meshes = zip(design.meshes.values(), names, strict=True)
-        return mesh_figure(title, [Mesh(signed_pair(mesh), *name) for mesh, name in meshes])
+        return mesh_figure(title, [Mesh(mesh, *name) for mesh, name in meshes])
     charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
     if command == "analyze":
         charts += [_acceleration, _transmission]

@@ -12,7 +12,6 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.two_gear_four_bar import build
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +37,7 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
     if command == "gear":
         from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
 
-        return mesh_figure(title, [Mesh(signed_pair(design.mesh), "", ("2", "5"))])
+        return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
     charts: list[linkage.Panel] = [
         _output,
         linkage.over_crank,
@@ -57,7 +56,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
     scene = build(design, np.array([phi / (2.0 * math.pi)]))
     scene_axes.draw(axes, scene, ahead=build(design, np.array([phi / (2.0 * math.pi) + scene_axes.AHEAD])))
-    pole, d = cmath.rect(design.mesh.reference_radius[1], phi), complex(design.frame_length)
+    pole, d = cmath.rect(abs(design.mesh.reference_radius[1]), phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
     joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
     look = {"color": style.RED, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 3.8}

@@ -32,7 +32,7 @@ from gearlink.core.parts.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.design import GearedFiveBar
-    from gearlink.core.parts.gears.train.meshed import AnyMesh
+    from gearlink.core.parts.gears.mesh.pair import GearPair
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:
@@ -95,10 +95,10 @@ def _path_gears(design: GearedFiveBar, phi: Reals, fraction: Reals) -> list[Part
     first, *more = design.meshes.values()
     level, turned = np.zeros_like(phi), period * float(bar.ratio)
 
-    def on_input(mesh: AnyMesh, number: int) -> list[Body]:
+    def on_input(mesh: GearPair, number: int) -> list[Body]:
         return gear(mesh, number, a, phi, period, BLUE, "1", "input gear", design.outer_rim(design.mesh_names[0]))
 
-    def on_output(mesh: AnyMesh, number: int, turn: Reals) -> list[Body]:
+    def on_output(mesh: GearPair, number: int, turn: Reals) -> list[Body]:
         return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear", design.outer_rim(design.mesh_names[0]))
 
     if first.internal:

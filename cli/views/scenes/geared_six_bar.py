@@ -25,7 +25,6 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.machines.six_bar.mechanism import output, pins
 from gearlink.core.machines.six_bar.spec import LINKS
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -87,23 +86,23 @@ def _gears(design: GearedSixBar, phi: Reals, joints: Sequence[Points]) -> list[P
             name, place = _name(design, number, k), joints["ABCDEF".index(pin)]
             turns, color = float(whole[-1] - whole[0]) / TURN, _COLORS[number][k % 3]
             index = _number(mesh, teeth, bool(k))
-            found.append((teeth < 0, [*gear(mesh, index, place, turn, turns, color, "", name)]))
+            found.append((teeth < 0, [*gear(mesh, index, place, turn, turns, color, "", name, train.rim)]))
     return [part for _, parts in sorted(found, key=lambda pair: not pair[0]) for part in parts]
 
 
-def _number(mesh: GearPair | InternalMesh, teeth: int, second: bool) -> int:
+def _number(mesh: GearPair, teeth: int, second: bool) -> int:
     """Which gear of its mesh a gear is; of an internal one the ring is the second."""
-    return int(teeth < 0) if isinstance(mesh, InternalMesh) else int(second)
+    return int(teeth < 0) if mesh.internal else int(second)
 
 
-def _driven(mesh: GearPair | InternalMesh, first: int, carrier: Reals, turn: Reals) -> Reals:
+def _driven(mesh: GearPair, first: int, carrier: Reals, turn: Reals) -> Reals:
     """Place of the next gear on a link from that of the gear before it."""
     one, other = mesh.teeth
-    if not isinstance(mesh, InternalMesh):
+    if not mesh.internal:
         return driven_turn((one, other), carrier, turn)
     if first < 0:
-        return ring_turn((other, one), carrier, turn)
-    return ring_turn((one, other), carrier + math.pi, turn)
+        return ring_turn((-other, one), carrier, turn)
+    return ring_turn((one, -other), carrier + math.pi, turn)
 
 
 def _name(design: GearedSixBar, number: int, k: int) -> str:

@@ -10,7 +10,6 @@ import numpy as np
 from gearlink.cli.views.scenes.colors import WHITE, pale
 from gearlink.cli.views.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
@@ -21,7 +20,7 @@ _MOST_TEETH = 600
 
 
 def gear(
-    pair: GearPair | InternalMesh,
+    pair: GearPair,
     number: int,
     place: Points,
     turn: Reals,
@@ -34,7 +33,7 @@ def gear(
     """Gear 0 or 1 of a pair with its holes; a tool that leaves no such teeth leaves the tip circle.
 
     Parameters
-        pair : GearPair, or InternalMesh (whose gear 1, the ring, is drawn as the line of its teeth and its rim)
+        pair : GearPair - whose gear 1, where it is a ring, is drawn as the line of its teeth and its rim
         place, turn : tracks [mm, rad] - axis, and direction of the middle of a tooth space
         loop_turns : float - turns of the gear over the loop; the holes are so many that they come to meet themselves
         label, name : words on the gear, and in a legend, where the number of teeth is added
@@ -42,20 +41,15 @@ def gear(
     """
     teeth, tip = abs(pair.teeth[number]), pair.tip_radius[number]
     look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
-    radii = pair.reference_radius if isinstance(pair, InternalMesh) else pair.working_radius
     look = replace(
         look,
         name=f"{name}, z = {teeth if 'ring gear' in name else pair.teeth[number]}".removeprefix(", ").replace("-", "−"),
-        pitch=abs(radii[number]),
+        pitch=abs(pair.working_radius[number]),
     )
-    if isinstance(pair, GearPair) and pair.teeth[number] < 0:
+    if pair.teeth[number] < 0:
         outer = rim_radius(pair.root_radius[1], pair.module, rim)
-        return _ring(look, teeth, RingProfile.of(pair).outline(), outer)
-    if isinstance(pair, InternalMesh):
-        if number == 1:
-            return _ring(look, teeth, RingProfile.of(pair).outline(6), pair.rim_radius if rim is None else rim)
-        pair = GearPair.from_shift(pair.module, (teeth, teeth), (0.0, 0.0), pressure_angle=pair.pressure_angle)
-        number = 0
+        points = 12 if any(pair.profile_shift) else 6  # on a flank: teeth with shifts are looked at more closely
+        return _ring(look, teeth, RingProfile.of(pair).outline(points), outer)
     outline = _teeth(pair, number)
     if outline is None:
         body = replace(look, outline=circle(tip), repeats=0, label=f"{label} (tip circle)".lstrip())

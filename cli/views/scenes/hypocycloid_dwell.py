@@ -45,7 +45,7 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
     way = rest - np.array([course.min() - size, course.max() + size]) + 0j
     return Scene(
         parts=(
-            *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, ORANGE, "", "ring gear, fixed"),
+            *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, ORANGE, "", "ring gear, fixed", design.rim_of("")),
             *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, BLUE, "2", "planet"),
             standing(whole["planet"].at("M").value, fraction, GREEN, "path of the point M"),
             *(Line(points=way + side * 0.5j * size, width=1.5) for side in (-1.0, 1.0)),

@@ -18,7 +18,7 @@ def hypocycloid_layout(design: HypocycloidDwell) -> Layout:
     """The planet on its carrier goes round the shaft O."""
     spec, mesh = design.spec, design.mesh
     return Layout(
-        gears=(Gear("the planet", "M", mesh.tip_radius[0], mates="O"), ring_gear("O", mesh)),
+        gears=(Gear("the planet", "M", mesh.tip_radius[0], mates="O"), ring_gear("O", mesh, rim=design.rim_of(""))),
         shafts=shafts_at("O", spec.shafts),
         reaches={"MO": constant(design.carrier_length)},
         least_shaft=least_shaft(spec.limits, spec.gears.module),

@@ -11,7 +11,6 @@ from gearlink.core.mechanism.joints import Connection, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, standing, steady
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
@@ -22,7 +21,7 @@ def motion(design: HypocycloidDwell) -> Motion:
     """Links and joints over the carrier angle from the middle of the dwell's arc; ring's centre at 0, slider on +x."""
     geometry = design.slider
     r, n, rod = geometry.planet_radius, geometry.cusps, geometry.rod
-    tangent = math.tan(signed_pair(design.mesh).working_pressure_angle)
+    tangent = math.tan(design.mesh.working_pressure_angle)
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
         carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1) * r})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import at_key
@@ -32,7 +32,6 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, sha
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
-    from gearlink.core.parts.gears.mesh.pair import GearPair
 
 _TURN = 2.0 * math.pi
 _SHOWN_CYCLES = 100
@@ -161,11 +160,6 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     driven_turn: float = placed("mutilated.driven_turn")
     driven_speed_ratio: float = placed("mutilated.speed_ratio")
     cycles_to_repeat: int = placed("mutilated.cycles_to_repeat")
-
-    @property
-    def mesh(self) -> GearPair:
-        """Wheel and driven gear, where teeth meet."""
-        return cast("GearPair", super().mesh)
 
     @property
     def signed_teeth(self) -> tuple[int, ...]:

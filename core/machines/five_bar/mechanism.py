@@ -17,7 +17,6 @@ from gearlink.core.mechanism.joints import Connection, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.design import GearedFiveBar
@@ -66,7 +65,7 @@ def function_motion(design: GearedFiveBar, bar: FunctionFiveBar, start: float, e
 
 def _rolling(design: GearedFiveBar, name: str = "") -> tuple[float, float, float]:
     """Working radii of a mesh [mm], the first gear of the file's lists first, and tan of the pressure angle."""
-    pair = signed_pair(design.meshes[name])
+    pair = design.meshes[name]
     one, other = (abs(radius) for radius in pair.working_radius)
     if design.signed_teeth[0] < 0:
         one, other = other, one

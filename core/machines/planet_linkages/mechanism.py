@@ -10,7 +10,6 @@ from gearlink.core.mechanism.joints import Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import from_start, mixed
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.position import solve
 
@@ -41,7 +40,7 @@ def _motion(design: Any, carrier: str, output_pin: str, internal: bool) -> Motio
         thesis 2.2.1, integrated
     """
     linkage, ratio = design.linkage, design.gear_ratio
-    pair, at_start = signed_pair(design.mesh), solve(linkage, 0.0)
+    pair, at_start = design.mesh, solve(linkage, 0.0)
     r2, r5 = pair.working_radius
     tangent = math.tan(pair.working_pressure_angle)
 

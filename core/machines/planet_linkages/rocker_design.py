@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
@@ -32,7 +32,6 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, sha
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_spec import GearedRockerSpec
-    from gearlink.core.parts.gears.mesh.pair import GearPair
 
 
 # The crank that gives the output of a geared rocker its swing
@@ -249,11 +248,6 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
     def gear_ratio(self) -> float:
         """Ratio i = -z2/z5."""
         return -self.coupler_gear_teeth / self.output_teeth
-
-    @property
-    def mesh(self) -> GearPair:
-        """Coupler gear and output gear."""
-        return cast("GearPair", super().mesh)
 
     @property
     def signed_teeth(self) -> tuple[int, ...]:

@@ -10,7 +10,6 @@ from itertools import chain, combinations
 from typing import TYPE_CHECKING
 
 from gearlink.core.machines.six_bar.spec import LINKS, PINS
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.studies.clearance.reach import Reach, constant, reaches
 
@@ -44,8 +43,7 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
         mates = "".join(train.pins[j] for j in (k - 1, k + 1) if 0 <= j < len(train.pins))
         shaft = "A" if pin == "B" and k == 0 else "F" if pin == "E" and k == len(train.pins) - 1 else ""
         if teeth < 0:
-            assert isinstance(mesh, InternalMesh), "a ring makes its mesh internal"
-            ring = ring_gear(pin, mesh, mates)
+            ring = ring_gear(pin, mesh, mates, train.rim)
             found.append(ring._replace(name=f"the ring gear on {pin}", turns_with=shaft))
             continue
         tip = 0.5 * train.module * teeth + train.module

@@ -16,7 +16,6 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.six_bar.spec import LINKS
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.checks import gear_ways
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
@@ -106,14 +105,14 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     # Gears and links
 
     @cached_property
-    def train_meshes(self) -> list[list[GearPair | InternalMesh]]:
+    def train_meshes(self) -> list[list[GearPair]]:
         """The meshes of each train, from pin to pin."""
         return [[_mesh(train, k) for k in range(len(train.gears) - 1)] for train in self.spec.trains]
 
     @property
-    def meshes(self) -> dict[str, GearPair | InternalMesh]:
+    def meshes(self) -> dict[str, GearPair]:
         """The meshes by their pins, and by their train where both have one there."""
-        found: dict[str, GearPair | InternalMesh] = {}
+        found: dict[str, GearPair] = {}
         for number, (train, meshes) in enumerate(zip(self.spec.trains, self.train_meshes, strict=True), start=1):
             for (one, other), mesh in zip(pairwise(train.pins), meshes, strict=True):
                 pins = f"{one}{other}"
@@ -123,7 +122,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @property
     def center_distance(self) -> list[float]:
         """Centre distance of each mesh [mm]."""
-        return [mesh.center_distance for mesh in self.meshes.values()]
+        return [abs(mesh.center_distance) for mesh in self.meshes.values()]
 
     @property
     def contact_ratio(self) -> list[float] | None:
@@ -137,7 +136,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         carried: dict[str, tuple[float, str]] = {}
         for i, (train, meshes) in enumerate(zip(self.spec.trains, self.train_meshes, strict=True)):
             for k, mesh in enumerate(meshes):
-                link, distance = LINKS[(train.first_pin + k + 1) % 6], mesh.center_distance
+                link, distance = LINKS[(train.first_pin + k + 1) % 6], abs(mesh.center_distance)
                 known = carried.setdefault(link, (distance, f"trains[{i}]"))[0]
                 self._require_equal(link, known, distance, f"trains[{i}].gears", "the train before asks for")
         return tuple(self._length(name, carried.get(name)) for name in LINKS)
@@ -371,11 +370,8 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         return transmission_check(self.min_transmission_angle, limit, remedy, "the least transmission angle")
 
 
-def _mesh(train: SixTrain, k: int) -> GearPair | InternalMesh:
+def _mesh(train: SixTrain, k: int) -> GearPair:
     one, other = train.gears[k : k + 2]
     alpha = math.radians(train.pressure_angle)
     with at_key("trains"):
-        if min(one, other) < 0:
-            small, ring = sorted((abs(one), abs(other)))
-            return InternalMesh(train.module, (small, ring), alpha, rim=train.rim)
-        return GearPair.from_shift(train.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+        return GearPair.from_shift(train.module, (other, one) if one < 0 else (one, other), pressure_angle=alpha)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.machines.three_gear.motion import tip_radius
+from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
@@ -58,10 +59,8 @@ def _gear(name: str, axis: str, teeth: float, train: GearTrain, gears: Gears, ma
     if teeth > 0:
         tip = tip_radius(teeth, gears.module)
         return Gear(name, axis, tip, mates=mates, root=tip - FULL_HEIGHT * gears.module)
-    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
-
-    mesh = InternalMesh(gears.module, (int(train.idler), int(-teeth)))
-    return Gear(f"{name}, a ring,", axis, _outer(axis, mesh, gears), mesh.tip_radius[1], mates)
+    mesh = GearPair.from_shift(gears.module, (int(train.idler), int(teeth)))
+    return Gear(f"{name}, a ring,", axis, _outer(axis, mesh, gears), -mesh.tip_radius[1], mates)
 
 
 def _outer(axis: str, mesh: Any, gears: Gears) -> float:

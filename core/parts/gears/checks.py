@@ -19,9 +19,11 @@ from gearlink.core.parts.gears.codes import (
     TOOTH_FORM,
     UNDERCUT,
 )
+from gearlink.core.parts.gears.drawing_names import GEARS, Roles
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.pair import GearPair
+    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
 
 
 class GearQuantities:
@@ -111,7 +113,9 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     return shown(name, value)
 
 
-def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False) -> Iterator[Check]:
+def gear_check(
+    name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False, roles: Roles = GEARS
+) -> Iterator[Check]:
     """The findings of one of GEAR_CHECKS on a pair.
 
     Parameters
@@ -120,6 +124,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts
         limits : the `limits` section of a spec
         mesh : str - name of the mesh in a design with several, put before the message
         shifts : bool - the design file has keys of the profile shifts, which messages may then name
+        roles : (str, str) - what messages call the two gears
     Source
         ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance, sliding)
     """
@@ -129,7 +134,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts
         yield contact_check(pair.contact_ratio, limits, f"{before}the contact ratio", remedy)
         return
     for gear in (0, 1):
-        which = _Gear(pair, gear, f"{before}{{}}gear {gear + 1}", shifts)
+        which = _Gear(pair, gear, before, shifts, roles)
         yield from _OF_ONE_GEAR[name](which, limits)
 
 
@@ -138,12 +143,13 @@ def _either(shifts: bool, words: str) -> str:
 
 
 class _Gear(NamedTuple):
-    """A gear of a pair, what its messages begin with, and whether they may name shifts."""
+    """A gear of a pair, what its messages begin with, whether they may name shifts, and what they call both gears."""
 
     pair: GearPair
     place: int
-    words: str
+    before: str
     shifts: bool
+    roles: Roles
 
     def of(self, quantity: str) -> float:
         """A quantity of this gear."""
@@ -155,7 +161,12 @@ class _Gear(NamedTuple):
 
     def named(self, part: str = "") -> str:
         """The gear, or a part of it, in words."""
-        return self.words.format(part)
+        return f"{self.before}{part}{self.roles[self.place]}"
+
+    @property
+    def mate(self) -> str:
+        """The other gear in words."""
+        return self.roles[1 - self.place]
 
 
 def measured(name: str, pair: GearPair, gear: int, limits: Limits) -> Measured:
@@ -181,6 +192,21 @@ class Measured(NamedTuple):
     def status(self) -> Status:
         """As it is judged."""
         return "fail" if self.value < self.fails_below else "warn" if self.value < self.warns_below else "pass"
+
+
+def fouling_check(internal: InternalInterference, roles: Roles = ("pinion", "ring")) -> Iterator[Check]:
+    """GL206 of a pinion in its ring; nothing where their tip circles do not cross."""
+    both = " and ".join(role.removeprefix("the ") for role in roles)
+    margin, part = internal.tip_fouling_margin, f"tips of {both}"
+    if internal.tip_circles_apart < 0.0:
+        margin, part = internal.tip_circles_apart, f"tip circles of {both}"
+    if margin is None:
+        return
+    text = f"the {part} keep {margin:.4g} mm from cutting into each other"
+    if margin < 0.0:
+        remedy = f"give {roles[1]} more teeth, {roles[0]} fewer, or shorten the tips"
+        text = f"the {part} cut {-margin:.4g} mm into each other: {remedy}"
+    yield TIP_FOULING.check("fail" if margin < 0.0 else "pass", text, margin, 0.0, "mm")
 
 
 def most_sliding(limits: Any) -> float:
@@ -289,11 +315,10 @@ def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
         text = f"{tip} stays {margin:.4g} mm short of the mate's base tangent point"
         yield INTERFERENCE.check("pass", text, margin, 0.0, "mm")
         return
-    one, mate = gear.place + 1, 2 - gear.place
     remedy = (
-        f"raise the profile shift of gear {mate} or lower the addendum of gear {one}"
+        f"raise the profile shift of {gear.mate} or lower the addendum of {gear.roles[gear.place]}"
         if gear.shifts
-        else f"take more teeth on gear {mate}, or a larger pressure angle"
+        else f"take more teeth on {gear.mate}, or a larger pressure angle"
     )
     text = f"{tip} goes {-margin:.4g} mm beyond the mate's base tangent point: {remedy}"
     yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
@@ -307,7 +332,7 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
     if not deeper and gear.pair.keeps_clearance:
         remedy += f" to {found.fails_below if found.status == 'fail' else found.warns_below:g} or more"
     else:
-        remedy += f", or shorten the tips of gear {2 - gear.place}"
+        remedy += f", or shorten the tips of {gear.mate}"
     yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
 
 

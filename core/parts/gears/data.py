@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
-from gearlink.core.parts.gears.drawing_names import PLACES
+from gearlink.core.parts.gears.drawing_names import GEARS, PLACES, Roles
 from gearlink.core.parts.gears.measures.inspection import Ball, chord, preferred_pin
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
@@ -57,6 +57,7 @@ class GearData:
         rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
         accuracy_grade : int or None - of ISO 1328
         idlers : (bool, bool) - gears that have another mate besides
+        roles : (str, str) - what findings call the two gears
     """
 
     pair: GearPair
@@ -71,6 +72,7 @@ class GearData:
     rims: Both = (None, None)
     accuracy_grade: int | None = None
     idlers: tuple[bool, bool] = (False, False)
+    roles: Roles = GEARS
 
     @cached_property
     def path(self) -> PathOfContact:
@@ -240,7 +242,7 @@ class GearData:
 
     def called(self, gear: int) -> str:
         """What findings call gear 0 or 1."""
-        return f"gear {gear + 1}"
+        return self.roles[gear]
 
     def rated_with(self, _gear: int) -> str:
         """What a root needs so that it can be rated, in words."""

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Protocol
 
 from gearlink.core.base.report import Check, Rule, Status, safely_above
 from gearlink.core.base.wording import amount
-from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, gear_check
+from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, fouling_check, gear_check
 from gearlink.core.parts.gears.codes import (
     AT_LIMITS,
     BACKLASH,
@@ -143,7 +143,7 @@ def pair_check(
         return [replace(check, message=before + check.message) if before else check for check in found]
     if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
         return [helical]
-    checks = list(gear_check(name, data.pair, limits, mesh, shifts))
+    checks = list(gear_check(name, data.pair, limits, mesh, shifts, data.roles))
     if name == INTERFERENCE.name:
         checks += [replace(check, message=before_mesh(mesh) + check.message) for check in tip_beyond_cutter(data)]
     return checks
@@ -168,19 +168,8 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
 
 
 def _tip_fouling(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
-    internal = data.internal
-    if internal is None:
-        return
-    margin, part = internal.tip_fouling_margin, "tips of pinion and ring"
-    if internal.tip_circles_apart < 0.0:
-        margin, part = internal.tip_circles_apart, "tip circles of pinion and ring"
-    if margin is None:
-        return
-    remedy = "give the ring more teeth, the pinion fewer, or shorten the tips"
-    text = f"the {part} keep {margin:.4g} mm from cutting into each other"
-    if margin < 0.0:
-        text = f"the {part} cut {-margin:.4g} mm into each other: {remedy}"
-    yield TIP_FOULING.check("fail" if margin < 0.0 else "pass", text, margin, 0.0, "mm")
+    if data.internal is not None:
+        yield from fouling_check(data.internal)
 
 
 def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
@@ -250,27 +239,27 @@ def corner_in_fillet(pair: GearPair, gear: int) -> CornerGap | None:
 
 
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
-    pair, form = data.pair, data.pair.form_radius[gear]
+    pair, form, own, mate = data.pair, data.pair.form_radius[gear], data.called(gear), data.called(1 - gear)
     if form is None and pair.interference_margin[1 - gear] > 0.0:
         return
     found, more_shift = fillet_measured(pair, data.path, gear), "raise its profile shift, "
     if form is None or found.beyond:
         base = abs(pair.base_radius[gear])
-        text = f"contact at the root of gear {gear + 1} would lie beyond its base circle ({base:.6g} mm)"
+        text = f"contact at the root of {own} would lie beyond its base circle ({base:.6g} mm)"
     else:
         used = abs(data.path.used_root_radius[gear])
-        text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
+        text = f"contact at the root of {own} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
         if not found.bad and (corner := corner_in_fillet(pair, gear)):
             found, more_shift = found._replace(margin=corner.gap, bad=True), ""
             text = (
-                f"the corner of the tip of gear {2 - gear} cuts {-corner.gap:.4g} mm into the root fillet of gear "
-                f"{gear + 1}, at {corner.place:.7g} mm, outside the path of contact"
+                f"the corner of the tip of {mate} cuts {-corner.gap:.4g} mm into the root fillet of {own}, "
+                f"at {corner.place:.7g} mm, outside the path of contact"
             )
     status: Status = "pass"
     if found.bad:
         status = "fail" if found.judged else "warn"
         of_tool = "residual_undercut" if pair.teeth[gear] > 0 and pair.tool(gear).residual_undercut else "rounding"
-        text += f": {more_shift}shorten the tips of gear {2 - gear}, or take a tool with a smaller {of_tool}"
+        text += f": {more_shift}shorten the tips of {mate}, or take a tool with a smaller {of_tool}"
     yield FILLET.check(status, text, found.margin, found.limit, "mm")
 
 

@@ -1,11 +1,14 @@
-"""Names of what the drawing of a gear pair needs: quantities with their places, and checks."""
+"""Names of what the drawing of a gear pair needs: quantities with their places, checks, and gears in findings."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 from gearlink.core.parts.gears.codes import AT_LIMITS
 
+Roles: TypeAlias = tuple[str, str]
+"""What findings call the gears of a pair."""
+GEARS: Roles = ("gear 1", "gear 2")
 PLACES = {
     "transverse_pressure_angle": "pair.transverse_pressure_angle",
     "base_helix_angle": "pair.base_helix_angle",

@@ -18,7 +18,6 @@ from gearlink.core.parts.gears.tooth.teeth import rim_radius
 from gearlink.core.studies.clearance.reach import Reach
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
 LEAST_SHAFT_MODULES = 2.0
@@ -175,9 +174,9 @@ class Layout:
         return min((pair.gap for pair in self.gear_pairs), default=None)
 
 
-def ring_gear(axis: str, mesh: GearPair | InternalMesh, mates: str = "", rim: float | None = None) -> Gear:
+def ring_gear(axis: str, mesh: GearPair, mates: str = "", rim: float | None = None) -> Gear:
     """The ring gear of an internal mesh, on its axis, with the outer radius that the file gives [mm]."""
-    outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(mesh, "rim", None) if rim is None else rim)
+    outer = rim_radius(mesh.root_radius[1], mesh.module, rim)
     return Gear("the ring gear", axis, outer, abs(mesh.tip_radius[1]), mates)
 
 

@@ -162,10 +162,10 @@ def test_a_ring_lies_between_its_teeth_and_its_rim(designs: Path) -> None:
     teeth = math.pi * (mesh.reference_radius[1] ** 2 - mesh.tip_radius[1] ** 2)
     assert middle - teeth < section_area(ring) < middle + teeth
     nodes = np.abs(ring.lines[0].nodes)
-    assert nodes.min() == pytest.approx(mesh.tip_radius[1], rel=1e-12)
-    assert nodes.max() == pytest.approx(mesh.root_radius[1], rel=1e-12)
+    assert nodes.min() == pytest.approx(-mesh.tip_radius[1], rel=1e-12)
+    assert nodes.max() == pytest.approx(-mesh.root_radius[1], rel=1e-12)
     # On the reference circle tooth and space are equally wide.
-    half = math.pi / (2 * mesh.teeth[1])
+    half = math.pi / (2 * -mesh.teeth[1])
     flank = next(s for s in ring.part.stretches if s.name == "involute")
     at = math.sqrt((mesh.reference_radius[1] / mesh.base_radius[1]) ** 2 - 1.0)
     assert np.angle(flank.points(np.array([-at]))[0, 0]) == pytest.approx(half, rel=1e-12)

@@ -20,7 +20,6 @@ from gearlink.cli.views.scenes import three_gear_four_bar
 from gearlink.cli.views.scenes.geared_five_bar import build
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.parts.gears.outline.mesh_phase import signed_pair
 
 
 def test_extremes_of_a_slider_are_those_of_the_analysis() -> None:
@@ -46,7 +45,7 @@ def test_gears_of_a_five_bar_have_the_names_of_the_mechanism(name: str, keys: di
     made = design(name, **keys)
     keyed = {"1": "input", "4": "output", "idler": "idler", "2": "planet", "5": "sun"}
     for mesh, names in zip(made.meshes.values(), _gears(made), strict=True):
-        for gear, teeth in zip(names, signed_pair(mesh).teeth, strict=True):
+        for gear, teeth in zip(names, mesh.teeth, strict=True):
             assert abs(teeth) == getattr(made.spec.gears, keyed[gear])
 
 

@@ -11,11 +11,10 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec import GearLimits
 from gearlink.core.parts.gears.checks import gear_check
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
 
 ANGLE = math.radians(20.0)
 WIDEST = math.pi / (4.0 * math.tan(ANGLE))
@@ -73,10 +72,9 @@ def test_sliding_without_measure_is_never_passed_in_silence() -> None:
 
 @pytest.mark.parametrize("pinion", [34, 62, 200])
 def test_one_tooth_of_difference_is_a_finding(pinion: int) -> None:
-    mesh = InternalMesh(1.0, (pinion, pinion + 1))
-    assert mesh.tip_circle_margin == -1.0
-    with pytest.raises(NoSolution, match="encloses"):
-        _ = mesh.tip_fouling_margin
+    internal = InternalInterference(GearPair.from_shift(1.0, (pinion, -pinion - 1)))
+    assert internal.tip_circles_apart == -1.0
+    assert internal.tip_fouling_margin is None
     gears = {"module": 1, "planet": pinion, "ring": pinion + 1}
     links = {"coupler": 1.2, "rocker": 1.5, "frame": 1.6}
     made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
@@ -94,11 +92,10 @@ def test_two_teeth_of_difference_touch(module: float, pinion: int) -> None:
 
     Where they touch, both crossing angles are half a turn; a margin of rounding opens them by its root, 1e-6 at most.
     """
-    mesh = InternalMesh(module, (pinion, pinion + 2))
-    assert mesh.tip_circle_margin == pytest.approx(0.0, abs=1e-15 * module * pinion)
-    if mesh.tip_circle_margin < 0.0:
-        with pytest.raises(NoSolution, match="encloses"):
-            _ = mesh.tip_fouling_margin
+    mesh = InternalInterference(GearPair.from_shift(module, (pinion, -pinion - 2)))
+    assert mesh.tip_circles_apart == pytest.approx(0.0, abs=1e-15 * module * pinion)
+    if mesh.tip_circles_apart < 0.0:
+        assert mesh.tip_fouling_margin is None
         return
     z_1, z_2, base = pinion, pinion + 2, math.cos(ANGLE)
     inv_1, inv_2, inv = (math.tan(a) - a for a in (math.acos(z_1 * base / z_2), math.acos(z_2 * base / z_1), ANGLE))
@@ -122,8 +119,11 @@ def test_ring_without_an_involute_keeps_the_kinematics(ring: int, angle: float, 
 
 @pytest.mark.parametrize("angle", [1e-300, 1e-12, 1e-7, 8e-7])
 def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
-    with pytest.raises(NoSolution, match="take a larger pressure angle"):
-        _ = InternalMesh(1.6, (25, 75), math.radians(angle)).contact_ratio
+    gears = {"module": 1.6, "planet": 25, "ring": 75, "pressure_angle": math.degrees(math.radians(angle))}
+    links = {"coupler": 130, "rocker": 135, "frame": 132}
+    made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
+    (check,) = made.check("involute-interference")
+    assert (check.status, "take a larger pressure angle" in check.message) == ("fail", True)
 
 
 @pytest.mark.parametrize(

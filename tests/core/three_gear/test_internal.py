@@ -344,7 +344,7 @@ def test_drawn_teeth_roll_in_mesh() -> None:
         np.testing.assert_allclose(turned, sweep, rtol=0.0, atol=1e-11)
     line = np.angle(parts["3"].place - parts["1"].place)
     teeth = ring_crank.meshes["crank_idler"].teeth
-    off = ring_turn(teeth, line, parts["3"].turn) - parts["1"].turn
+    off = ring_turn((teeth[0], -teeth[1]), line, parts["3"].turn) - parts["1"].turn
     pitch = math.tau / teeth[1]
     np.testing.assert_allclose(np.abs(np.exp(1j * math.tau * off / pitch) - 1.0), 0.0, rtol=0.0, atol=1e-9)
 

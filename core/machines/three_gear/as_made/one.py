@@ -23,7 +23,6 @@ from gearlink.core.parts.linkages.standstills import BackStep
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.pair import GearPair
-    from gearlink.core.parts.gears.train.meshed import AnyMesh
 
 _TURN = 2.0 * math.pi
 
@@ -63,7 +62,7 @@ class TolerancedDrive(ThreeGearFourBar):
         return linkage
 
     @cached_property
-    def meshes(self) -> dict[str, AnyMesh]:
+    def meshes(self) -> dict[str, GearPair]:
         """The teeth as they were cut, at the centre distances as made."""
         if self.own_teeth:
             return dict(self._own_pairs)
@@ -121,6 +120,4 @@ def at_distance(mesh: Any, off: float) -> Any:
     if off == 0.0:
         return mesh
     distance = abs(mesh.center_distance) + off
-    if hasattr(mesh, "ring_tip_margin"):  # without shifts, at its reference distance
-        return replace(mesh, distance=distance)
     return replace(mesh, given_shift=mesh.profile_shift, given_distance=distance, tip=mesh.tip_alteration)

@@ -215,6 +215,11 @@ class GearPair(PitchPair):
     def _tip_rise(self) -> Pair:
         return self._tip_rise_of(0), self._tip_rise_of(1)
 
+    @property
+    def ring_tip_margin(self) -> float:
+        """How far the tips of a ring stay outside its base circle [mm]; negative where they have no involute."""
+        return self.base_radius[1] - self.tip_radius[1]
+
     @cached_property
     def tip_pressure_angle(self) -> Pair:
         """Transverse pressure angle alpha_a on the tip circle [rad]: cos(alpha_a) = r_b/r_a."""

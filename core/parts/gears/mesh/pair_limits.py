@@ -55,7 +55,8 @@ def _require_teeth(pair: GearPair) -> None:
         raise NoSolution(
             f"a ring of {-second} teeth does not take a gear of {first}: it needs more teeth", key="teeth[1]"
         )
-    unusual = second < 0 or pair.helix_angle != 0.0 or any(pair.tools)
+    own_ring = second < 0 and pair.given_shift != (0.0, 0.0)
+    unusual = own_ring or pair.helix_angle != 0.0 or any(pair.tools)
     if unusual and min(first, abs(second)) < 3:
         place = 0 if first < 3 else 1
         raise NoSolution(f"a gear of {pair.teeth[place]} teeth: it needs at least 3", key=f"teeth[{place}]")
@@ -123,15 +124,22 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
             f"tip radius {tip:.6g} mm of gear {gear + 1} lies below its base radius {base:.6g} mm: "
             f"no involute is left; raise its profile shift or the addendum by at least {missing:.3g} modules"
         )
-    height = pair.addendum + pair.profile_shift[gear] + pair.tip_alteration[gear]
-    lost = 2.0 * math.sin(pair.transverse_pressure_angle / 2.0) ** 2 / (2.0 * math.cos(pair.helix_angle))
-    most = height / lost if lost > 0.0 else math.inf
-    enough = f"give it at least {math.ceil(most)} teeth or " if most <= _MOST_TEETH else ""
+    teeth = least_ring(pair)
+    enough = "" if teeth is None else f"give it at least {teeth} teeth or "
     return NoSolution(
         f"tip radius {tip:.6g} mm of the ring lies inside its base radius {base:.6g} mm, where there is no involute: "
         f"{enough}lower its profile shift or its addendum by at least {missing:.3g} modules",
         key="teeth[1]",
     )
+
+
+def least_ring(pair: GearPair) -> int | None:
+    """Teeth from which on the tips of a ring lie on its involutes, |z_2| (1 - cos(alpha_t)) >= 2 cos(beta) h_a2;
+    None where they are too many to be made.
+    """
+    height = pair.addendum + pair.profile_shift[1] + pair.tip_alteration[1]
+    lost = math.sin(pair.transverse_pressure_angle / 2.0) ** 2 / math.cos(pair.helix_angle)
+    return math.ceil(height / lost) if height <= _MOST_TEETH * lost else None
 
 
 def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:

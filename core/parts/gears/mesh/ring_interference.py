@@ -56,7 +56,7 @@ class InternalInterference:
     def _heron(self) -> float:
         """16 squared areas of the triangle of both axes and the crossing of the tip circles; negative: none."""
         (tip1, tip2), a = self._tips, -self.pair.center_distance
-        return (tip1 + tip2 + a) * (tip1 + tip2 - a) * (a + tip1 - tip2) * (a - tip1 + tip2)
+        return (tip1 + tip2 + a) * (tip1 + tip2 - a) * (a + tip1 - tip2) * self.tip_circles_apart
 
     @cached_property
     def tip_fouling_angle(self) -> float | None:

@@ -8,8 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
-from gearlink.core.parts.gears.mesh.pair import GearPair
 
 
 def driven_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Reals:
@@ -59,13 +57,3 @@ def ring_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLik
     z1, z2 = teeth
     psi, first = np.asarray(line_of_centres, dtype=float), np.asarray(turn, dtype=float)
     return np.asarray(psi + z1 * (first - psi) / z2)
-
-
-def signed_pair(mesh: GearPair | InternalMesh) -> GearPair:
-    """A mesh as a gear pair whose ring, where it has one, has negative teeth.
-
-    Example
-        >>> signed_pair(InternalMesh(2.0, (48, 62))).center_distance
-        -14.0
-    """
-    return mesh if isinstance(mesh, GearPair) else mesh.signed

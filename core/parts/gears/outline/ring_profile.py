@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute
@@ -55,7 +54,7 @@ class RingProfile:
     helical: bool = False
 
     @classmethod
-    def of(cls, mesh: GearPair | InternalMesh) -> RingProfile:
+    def of(cls, mesh: GearPair) -> RingProfile:
         """The ring of a pair.
 
         Raises
@@ -66,10 +65,6 @@ class RingProfile:
         )
         known: dict[str, Any] = {"reference": reference, "base": base, "tip": tip, "root": root}
         roll = math.tan(mesh.tip_pressure_angle[1])
-        if isinstance(mesh, InternalMesh):
-            z = mesh.teeth[1]
-            half = math.pi / (2.0 * z) - involute(mesh.pressure_angle)
-            return cls(teeth=z, shift=0.0, at_base=half, tip_roll=roll, **known)
         z, shift = -mesh.teeth[1], mesh.profile_shift[1]
         half = (math.pi / 2.0 + 2.0 * shift * math.tan(mesh.pressure_angle)) / z
         return cls(

@@ -14,9 +14,10 @@ from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key, in_section
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities
+from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.codes import AT_LIMITS
-from gearlink.core.parts.gears.drawing_names import DERIVED, RATING, lacking
+from gearlink.core.parts.gears.drawing_names import DERIVED, GEARS, RATING, Roles, lacking
+from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.names import TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.parts.gears.train.single_mesh import (
     MESH_CHECKS,
@@ -28,11 +29,7 @@ from gearlink.core.parts.gears.train.single_mesh import (
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.data import GearData
-    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
-    from gearlink.core.parts.gears.mesh.pair import GearPair
     from gearlink.core.parts.gears.train.meshes import Train
-
-    AnyMesh = GearPair | InternalMesh
 
 QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
 _OF_MESHES, _OF_PAIRS = frozenset(QUANTITIES), frozenset(MESH_QUANTITIES)
@@ -108,12 +105,12 @@ class Meshed(GearQuantities, Design):
         return bool(self.spec.gears.own_teeth or any(self._distances))
 
     @cached_property
-    def meshes(self) -> dict[str, AnyMesh]:
+    def meshes(self) -> dict[str, GearPair]:
         """The meshes by name; a ring is the second gear of its pair."""
         if self.own_teeth:
             return dict(self._own_pairs)
         with at_key("gears"):
-            return {name: self._standard(name, i) for i, name in enumerate(self.mesh_names)}
+            return {name: self._standard(i) for i, name in enumerate(self.mesh_names)}
 
     @cached_property
     def _own_pairs(self) -> dict[str, GearPair]:
@@ -130,19 +127,13 @@ class Meshed(GearQuantities, Design):
                 )
         return found
 
-    def _standard(self, name: str, place: int) -> AnyMesh:
+    def _standard(self, place: int) -> GearPair:
         gears, (one, other) = self.spec.gears, self.signed_teeth[place : place + 2]
-        alpha = math.radians(gears.pressure_angle)
-        if min(one, other) > 0:
-            from gearlink.core.parts.gears.mesh.pair import GearPair
-
-            return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
-        from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
-
-        return InternalMesh(gears.module, (max(one, other), -min(one, other)), alpha, rim=self.rim_of(name))
+        teeth = (other, one) if one < 0 else (one, other)
+        return GearPair.from_shift(gears.module, teeth, pressure_angle=math.radians(gears.pressure_angle))
 
     @property
-    def mesh(self) -> AnyMesh:
+    def mesh(self) -> GearPair:
         """The mesh of a design with one."""
         return self.meshes[""]
 
@@ -156,7 +147,10 @@ class Meshed(GearQuantities, Design):
         train, pairs = self.teeth_train, self._own_pairs  # whose refusals name the section already
         with in_section("gears"):
             found = zip(self.mesh_names, train.places, pairs.values(), strict=True)
-            return {name: train.data(place, pair, self.rim_of(name)) for name, place, pair in found}
+            return {
+                name: replace(train.data(place, pair, self.rim_of(name)), roles=self._roles(name))
+                for name, place, pair in found
+            }
 
     def widths_of(self, name: str = "") -> tuple[float, float] | None:
         """Face widths of the gears of a mesh [mm], a ring's second; None where the file has none."""
@@ -202,18 +196,25 @@ class Meshed(GearQuantities, Design):
         """Whether a ring stands before its mate: the first gear of its mesh, the second of its pair."""
         return mesh in self._rings_first
 
+    def _roles(self, mesh: str) -> Roles:
+        """The gears of a pair as the file's lists number them."""
+        return (GEARS[1], GEARS[0]) if self._swapped(mesh) else GEARS
+
     @cached_property
     def _rings_first(self) -> frozenset[str]:
         return frozenset(name for name, teeth in zip(self.mesh_names, self.signed_teeth, strict=False) if teeth < 0)
 
     def _of_mesh(self, name: str, quantity: str) -> Any:
+        if quantity in GEAR_QUANTITIES and self.own_teeth:
+            return gear_quantity(self.meshes[name], quantity)
+        if quantity in _OF_PAIRS and not self.own_teeth:
+            return mesh_quantity(self.meshes[name], quantity)
+        return self.mesh_data[name].quantity(quantity) if self._has_involutes(name) else None
+
+    def _has_involutes(self, name: str) -> bool:
+        """Whether the tips of a standard ring reach its involutes; where not, a check fails and says so."""
         mesh = self.meshes[name]
-        found = mesh_quantity(mesh, quantity) if quantity in _OF_PAIRS else None
-        if found is not None or not _has_involutes(mesh):
-            return found
-        if quantity not in GEAR_QUANTITIES:
-            return self.mesh_data[name].quantity(quantity)
-        return None if mesh is self._own_pairs[name] else mesh_quantity(self._own_pairs[name], quantity)
+        return self.own_teeth or not mesh.internal or mesh.ring_tip_margin >= 0.0
 
     @property
     def output_play(self) -> tuple[float, float] | None:
@@ -270,30 +271,20 @@ class Meshed(GearQuantities, Design):
         from gearlink.core.parts.gears.train.drawing import judgement
 
         with at_key("gears"):
-            known = {mesh: data for mesh, data in self.mesh_data.items() if _has_involutes(self.meshes[mesh])}
+            known = {mesh: data for mesh, data in self.mesh_data.items() if self._has_involutes(mesh)}
             found = judgement(name, known, self.spec)
-        return [self._in_order(check, mesh) for mesh, checks in found.items() for check in checks]
+        return [check for checks in found.values() for check in checks]
 
     def check_mesh(self, name: str, mesh: str) -> list[Check]:
         """The findings of one of MESH_CHECKS on one mesh."""
-        return [self._in_order(check, mesh) for check in self._mesh_check(name, mesh)]
-
-    def _in_order(self, check: Check, mesh: str) -> Check:
-        """A finding whose gears 1 and 2 are those of the file's lists."""
-        if not self._swapped(mesh):
-            return check
-        words = check.message.replace("gear 1", "gear \0").replace("gear 2", "gear 1").replace("gear \0", "gear 2")
-        return replace(check, message=words)
-
-    def _mesh_check(self, name: str, label: str) -> list[Check]:
-        mesh, limits, shifts = self.meshes[label], self.spec.limits, self.spec.gears.profile_shift is not None
+        pair, limits, shifts = self.meshes[mesh], self.spec.limits, self.spec.gears.profile_shift is not None
         if name == RING_TIPS and self.own_teeth:
             return []  # judged by the check that knows the tool
-        if self.own_teeth and (self.spec.gears.helix_angle or self._own_pairs[label].internal):
+        if self.own_teeth and (self.spec.gears.helix_angle or pair.internal):
             from gearlink.core.parts.gears.drawing_checks import pair_check
 
-            return pair_check(name, self.mesh_data[label], limits, mesh=label, shifts=shifts)
-        return mesh_checks(name, mesh, limits, label, shifts)
+            return pair_check(name, self.mesh_data[mesh], limits, mesh=mesh, shifts=shifts)
+        return mesh_checks(name, pair, limits, mesh, shifts, self._roles(mesh))
 
     def _judged(self, name: str) -> bool:
         """Whether the file gives what a check of the drawing or of the strength needs."""
@@ -305,8 +296,3 @@ class Meshed(GearQuantities, Design):
             "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
         }.get(name, (gears.load,))
         return any(each is not None for each in needed)
-
-
-def _has_involutes(mesh: AnyMesh) -> bool:
-    """Whether the tips of a ring reach its involutes; where not, a check fails and says so."""
-    return not hasattr(mesh, "ring_tip_margin") or mesh.ring_tip_margin >= 0.0

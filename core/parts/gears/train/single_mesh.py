@@ -6,96 +6,87 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check, Rule, Status
+from gearlink.core.base.report import Check
 from gearlink.core.parts.gears.checks import (
     FILLET_NOISE,
     GEAR_CHECKS,
     GEAR_QUANTITIES,
-    contact_check,
+    fouling_check,
     gear_check,
     gear_quantity,
 )
-from gearlink.core.parts.gears.codes import FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
+from gearlink.core.parts.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
+from gearlink.core.parts.gears.drawing_names import GEARS, Roles
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.tooth.teeth import min_shift_no_undercut
+from gearlink.core.parts.gears.mesh.pair_limits import least_ring
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
 
-INTERNAL_QUANTITIES = (
-    "center_distance",
-    "contact_ratio",
-    "reference_radius",
-    "base_radius",
-    "tip_radius",
-    "root_radius",
-    "tip_pressure_angle",
-    "tip_fouling_margin",
-)
 MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
-_OF_RING_TIPS = ("contact_ratio", "tip_pressure_angle", "tip_fouling_margin")
 RING_TIPS = FILLET.checks[1]
 MESH_CHECKS = (*GEAR_CHECKS, TIP_FOULING.name, RING_TIPS)
+_WITHOUT_INVOLUTES = ("center_distance", "reference_radius", "base_radius", "tip_radius", "root_radius")
+"""What a ring whose tips lie inside its base circle still has."""
+_OF_PLANET: Roles = ("the planet", "the ring gear")
 
 
-def mesh_quantity(mesh: GearPair | InternalMesh, name: str) -> Any:
-    """A quantity of a mesh, or None where this kind of mesh has none, or its teeth have none (a check fails there)."""
-    if isinstance(mesh, GearPair):
-        return gear_quantity(mesh, name) if name in GEAR_QUANTITIES else None
-    if name in _OF_RING_TIPS and mesh.ring_tip_margin < 0.0:
+def mesh_quantity(mesh: GearPair, name: str) -> Any:
+    """A quantity of standard teeth, or None where this kind of mesh has none, or its teeth have none (a check fails
+    there).
+    """
+    if mesh.internal and mesh.ring_tip_margin < 0.0 and name not in _WITHOUT_INVOLUTES:
         return None
-    if name == "tip_fouling_margin" and mesh.tip_circle_margin < 0.0:
-        return None
-    return getattr(mesh, name) if name in INTERNAL_QUANTITIES else None
+    if name in GEAR_QUANTITIES:
+        return gear_quantity(mesh, name)
+    return _interference(mesh).tip_fouling_margin if name == "tip_fouling_margin" and mesh.internal else None
+
+
+def _interference(mesh: GearPair) -> InternalInterference:
+    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+
+    return InternalInterference(mesh)
 
 
 def mesh_checks(
-    name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "", shifts: bool = False
+    name: str, mesh: GearPair, limits: Any, label: str = "", shifts: bool = False, roles: Roles = GEARS
 ) -> list[Check]:
-    """The findings of one of MESH_CHECKS on a mesh, which goes by a label where a design has several.
+    """The findings of one of MESH_CHECKS on standard teeth in mesh, which go by a label where a design has several.
 
     Source
         ISO 21771 for the quantities
     """
-    if not isinstance(mesh, GearPair):
-        found = _internal_check(name, mesh, limits)
-        return [
-            replace(check, message=f"{label.replace('_', '-')} mesh: {check.message}") if label else check
-            for check in found
-        ]
-    return [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts))
+    if not mesh.internal:
+        return (
+            [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts, roles))
+        )
+    before = f"{label.replace('_', '-')} mesh: " if label else ""
+    return [replace(check, message=before + check.message) for check in _in_ring(name, mesh, limits)]
 
 
-def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Check]:
-    """The findings of one of MESH_CHECKS on an internal mesh, whose root clearance is the standard's."""
-    if name == "undercut":
-        least = min_shift_no_undercut(mesh.teeth[0], mesh.pressure_angle, mesh.addendum)
-        subject, remedy = "the room of the planet's root before undercut, -x_min,", "take more planet teeth"
-        yield UNDERCUT.below(0.0 - least, 0.0 - limits.undercut, 0.0, "1", subject, remedy)
-    elif name == "involute-interference":
-        what, where = "the tips of the ring gear", "the planet's root inside its base circle"
-        remedy = "give both more teeth of a smaller module, or the planet alone more"
-        if mesh.ring_tip_margin < 0.0:
-            where, remedy = "its base circle, where it has no involute", mesh.least_ring
-            yield _margin(INTERFERENCE, mesh.ring_tip_margin, what, where, remedy)
-        else:
-            yield _margin(INTERFERENCE, mesh.interference_margin, what, where, remedy)
-    elif name == "tip-fouling":
-        what, remedy = "the tips of planet and ring gear", "give the ring gear more teeth, or the planet fewer"
-        if mesh.tip_circle_margin < 0.0:
-            yield _margin(TIP_FOULING, mesh.tip_circle_margin, what, "each other all round", remedy)
-        elif mesh.ring_tip_margin >= 0.0:
-            yield _margin(TIP_FOULING, mesh.tip_fouling_margin, what, "each other", remedy)
-    elif name == "contact-ratio" and mesh.ring_tip_margin >= 0.0:
-        remedy = "take more teeth of a smaller module"
-        yield contact_check(mesh.contact_ratio, limits, "the contact ratio", remedy)
-    elif name == TIP_THICKNESS.name and mesh.ring_tip_margin >= 0.0:
-        yield from gear_check(name, mesh.signed, limits)
-    elif name == RING_TIPS and mesh.ring_tip_margin >= 0.0 and mesh.interference_margin > 0.0:
+def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
+    """The findings on a planet in its ring, whose root clearance and tooth form are the standard's."""
+    involutes, internal = mesh.ring_tip_margin >= 0.0, _interference(mesh)
+    if name == TIP_FOULING.name and (involutes or internal.tip_circles_apart < 0.0):
+        yield from fouling_check(internal, _OF_PLANET)
+    elif name == INTERFERENCE.name and not involutes:
+        yield _without_involutes(mesh)
+    elif name == INTERFERENCE.name:  # the planet's tips do not come near the ring's base circle
+        yield list(gear_check(name, mesh, limits, roles=_OF_PLANET))[1]
+    elif name == UNDERCUT.name or (name in (CONTACT_RATIO.name, TIP_THICKNESS.name) and involutes):
+        yield from gear_check(name, mesh, limits, roles=_OF_PLANET)
+    elif name == RING_TIPS and involutes and internal.involute_margin > 0.0:
         yield from _ring_tips_on_fillet(mesh)
 
 
-def _ring_tips_on_fillet(mesh: InternalMesh) -> Iterator[Check]:
+def _without_involutes(mesh: GearPair) -> Check:
+    teeth, margin = least_ring(mesh), mesh.ring_tip_margin
+    remedy = "take a larger pressure angle" if teeth is None else f"it needs at least {teeth} teeth"
+    text = f"the tips of the ring gear cut {-margin:.4g} mm into its base circle, where it has no involute: {remedy}"
+    return INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+
+
+def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
     """GL207: tips of full height of a ring, which is hollow, reach deeper into a root than those of the tool's rack.
 
     Notes
@@ -103,7 +94,7 @@ def _ring_tips_on_fillet(mesh: InternalMesh) -> Iterator[Check]:
     """
     from gearlink.core.parts.gears.mesh.contact import PathOfContact
 
-    used, form = PathOfContact(mesh.signed).used_root_radius[0], mesh.signed.form_radius_of(0)
+    used, form = PathOfContact(mesh).used_root_radius[0], mesh.form_radius_of(0)
     if form is None:
         return
     margin, limit = used - form, -FILLET_NOISE * mesh.module
@@ -112,11 +103,3 @@ def _ring_tips_on_fillet(mesh: InternalMesh) -> Iterator[Check]:
     if margin < limit:
         text += ": shorten the tips of the ring gear, or shift the profiles"
     yield FILLET.check("warn" if margin < limit else "pass", text, margin, limit, "mm", name=RING_TIPS)
-
-
-def _margin(rule: Rule, margin: float, what: str, where: str, remedy: str) -> Check:
-    status: Status = "fail" if margin < 0.0 else "pass"
-    text = f"{what} keep {margin:.4g} mm from cutting into {where}"
-    if status == "fail":
-        text = f"{what} cut {-margin:.4g} mm into {where}: {remedy}"
-    return rule.check(status, text, margin, 0.0, "mm")

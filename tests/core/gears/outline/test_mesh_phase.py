@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
@@ -68,11 +67,11 @@ def test_external_teeth_touch_and_do_not_cross(place: float) -> None:
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("place", [0.0, 0.31, 0.77, 5.2])
 def test_teeth_in_a_ring_touch_and_do_not_cross(place: float) -> None:
-    mesh = InternalMesh(2.0, (25, 75))
+    mesh = GearPair.from_shift(2.0, (25, -75))
     pair = GearPair.from_shift(2.0, (25, 25))
     psi = 0.4 * place
     turn = float(ring_turn((25, 75), psi, place))
-    planet = mesh.center_distance * np.exp(1j * psi) + outline(ToothProfile.of(pair, 0), 2.0 * _CHORD) * np.exp(
+    planet = -mesh.center_distance * np.exp(1j * psi) + outline(ToothProfile.of(pair, 0), 2.0 * _CHORD) * np.exp(
         1j * place
     )
     ring = RingProfile.of(mesh).outline(40)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks
 
 LIMITS = KINDS["gear-pair"].spec_model().model_validate(
@@ -22,7 +22,7 @@ LIMITS = KINDS["gear-pair"].spec_model().model_validate(
 
 
 def found(name, planet, ring, degrees=20.0, module=1.0):
-    return mesh_checks(name, InternalMesh(module, (planet, ring), math.radians(degrees)), LIMITS)
+    return mesh_checks(name, GearPair.from_shift(module, (planet, -ring), pressure_angle=math.radians(degrees)), LIMITS)
 
 
 def some():
@@ -41,7 +41,7 @@ def some():
 def test_thickness_and_fillet_are_those_of_the_pair(planet, ring, degrees, module):
     """The pair fails what the machine, whose file says nothing of its tools, is warned of."""
     keys = {"module": module, "teeth": [planet, -ring], "pressure_angle": degrees, "profile_shift": [0, 0]}
-    mesh = InternalMesh(module, (planet, ring), math.radians(degrees))
+    mesh = GearPair.from_shift(module, (planet, -ring), pressure_angle=math.radians(degrees))
     if mesh.ring_tip_margin < 0.0:
         assert not found("tip-thickness", planet, ring, degrees, module)
         assert not found("ring-tips", planet, ring, degrees, module)
@@ -51,7 +51,7 @@ def test_thickness_and_fillet_are_those_of_the_pair(planet, ring, degrees, modul
     assert [(each.status, each.value) for each in own] == [(each.status, each.value) for each in theirs]
     (told, *_), (interference, *_) = (
         pair.check("fillet-interference"),
-        found("involute-interference", *mesh.teeth, degrees),
+        found("involute-interference", planet, ring, degrees),
     )
     own = found("ring-tips", planet, ring, degrees, module)
     if interference.status == "fail":
@@ -65,7 +65,7 @@ def test_a_pointed_planet_fails_in_every_machine():
     two = {"kind": "two-gear-four-bar", "gears": {"module": 2, "planet": 9, "ring": 40, "pressure_angle": 30},
            "links": {"coupler": 90, "rocker": 100, "frame": 100}}  # fmt: skip
     checks = [check for check in factory.design(two).check("tip-thickness") if check.status == "fail"]
-    assert ["gear 1" in check.message for check in checks] == [True]
+    assert ["the planet" in check.message for check in checks] == [True]
     assert checks[0].value < 0.25
 
 
