@@ -234,7 +234,7 @@ def test_teeth_in_a_ring_do_not_cross(name: str) -> None:
     design = design_of(DESIGNS / f"{name}.yaml")
     scene = build(design, np.array([0.0, 0.137, 0.511, 0.873]))
     ring, planet = gears(scene)
-    assert (planet.repeats, ring.repeats) == design.mesh.teeth
+    assert (planet.repeats, -ring.repeats) == design.mesh.teeth
     for i in range(4):
         assert depth(placed(planet, i), placed(ring, i), inside=False) < 0.03 * design.mesh.module
 
