@@ -82,8 +82,8 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     """The output about its dwell, counted from its place at the start of it."""
     import numpy as np
 
+    from gearlink.core.machines.three_gear.mechanism import OUTPUT
     from gearlink.core.machines.three_gear.motion import output_angle
-    from gearlink.core.machines.three_gear.sweep import output_motion
 
     dwell = _dwell(design)
     assert dwell is not None, "drawn only where the output stands still"
@@ -95,7 +95,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
         low, high = min(low, window.start - room), max(high, window.start + window.width + room)
     degrees = np.linspace(low, high, 401)
     at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
-    output = output_motion(design.linkage, design.train, np.radians(degrees)).output_angle - at_start
+    output = OUTPUT.rates(design.moving, np.radians(degrees), 0)[0] - at_start
     style.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]")
     panels.small_ticks(axes)
     panels.heading(axes, "Dwell, magnified")

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.design import GearedFiveBar
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
+_PINS = (("input", "A"), ("coupler", "B"), ("coupler", "C"), ("output", "D"), ("output", "E"))
+
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
@@ -43,16 +45,15 @@ def build(design: GearedFiveBar, fraction: Reals) -> Scene:
 def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
     bar, offset = design.path_bar, design.offset
     phi, whole = bar.period * fraction, bar.period * loop(361)
-    ends = [bar.ends(angle) for angle in phi.tolist()]
-    b, d = (np.array(pins) for pins in zip(*ends, strict=True))
-    c = np.array([close_dyad(*pins, bar.coupler, bar.follower, bar.assembly) for pins in ends])
-    m, path = (np.array([bar.point(angle, offset) for angle in angles.tolist()]) for angles in (phi, whole))
-    a, e = track(0.0, fraction), track(bar.frame, fraction)
+    links = design.moving.at(phi, 0).links
+    coupler = links["coupler"]
+    a, b, c, d, e = (links[link].at(pin).value for link, pin in _PINS)
+    m, path = coupler.at("M").value, design.moving.at(whole, 0).links["coupler"].at("M").value
     apart = bool(abs(offset - bar.coupler) > 1e-9)
     plate = Body(
         outline=np.array([0.0, bar.coupler, offset, 0.0]),
         place=b,
-        turn=np.unwrap(np.angle(c - b)),
+        turn=coupler.turn.value,
         color=BLACK,
         width=0.5,
         fill=pale(BLACK, 0.25),
@@ -128,14 +129,13 @@ def _input_angles(design: GearedFiveBar, fraction: Reals) -> Reals:
 
 
 def _function_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
-    bar, phi = design.function_bar, _input_angles(design, fraction)
-    c, d = (np.array([pin(angle) for angle in phi.tolist()]) for pin in (bar.joint, bar.end))
-    a, e = track(0.0, fraction), track(bar.frame, fraction)
-    b = bar.input * np.exp(1j * phi)
+    phi = _input_angles(design, fraction)
+    links = design.moving.at(phi, 0).links
+    a, b, c, d, e = (links[link].at(pin).value for link, pin in _PINS)
     whole = np.linspace(*design.input_range, 361)
-    output = np.array(bar.output_angles(whole.tolist()))
+    output = np.array(design.function_bar.output_angles(whole.tolist()))
     # The curve tells the turn, the mechanism the angle itself.
-    raw = np.angle(d - bar.frame)
+    raw = np.angle(d - e)
     now = raw + TURN * np.round((np.interp(phi, whole, output) - raw) / TURN)
     return Scene(
         parts=(*_function_gears(design, phi, a, b), Chain(joints=(a, b, c, d, e))),

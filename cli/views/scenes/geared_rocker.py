@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 def build(design: GearedRocker, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; a hand on the output shows its swing."""
     phi = TURN * fraction
-    at, output = Joints.of(design.linkage, phi), _turn(design, phi)
-    wound = coupler_windings(design.linkage)
+    at, output = Joints.of(design.moving, phi), _turn(design, phi)
+    wound = coupler_windings(design.moving)
     reach = design.mesh.tip_radius[1]
     start, whole = _turn(design, np.zeros(1))[0], _turn(design, whole_turn())
     tip = np.array([0.0, 1.7 * reach * 1j])
     hand = Body(outline=tip, place=at.d, turn=output - start, color=ORANGE, width=5.0, name="hand on the output")
-    rocker = Joints.of(design.linkage, whole_turn()).rocker
+    rocker = Joints.of(design.moving, whole_turn()).rocker
     return Scene(
         parts=(
             *gear(design.mesh, 1, at.d, output, wound, ORANGE, "5", "gear 5, output"),
@@ -49,5 +49,5 @@ def build(design: GearedRocker, fraction: Reals) -> Scene:
 
 
 def _turn(design: GearedRocker, phi: Reals) -> Reals:
-    at, teeth = Joints.of(design.linkage, phi), design.mesh.teeth
+    at, teeth = Joints.of(design.moving, phi), design.mesh.teeth
     return driven_turn((teeth[0], teeth[1]), at.rocker + math.pi, at.coupler)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,10 +19,10 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     letters,
     loop,
-    track,
 )
-from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.motion import Motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,16 +37,17 @@ class Joints:
     rocker: Reals
 
     @classmethod
-    def of(cls, linkage: FourBar, crank_angle: Reals) -> Joints:
-        """The joints at crank angles [rad]."""
-        state = fourbar_sweep.solve(linkage, crank_angle)
+    def of(cls, motion: Motion, q: Reals) -> Joints:
+        """The joints of the links crank, coupler and rocker at inputs [rad]."""
+        links = motion.at(q, 0).links
+        coupler, rocker = links["coupler"], links["rocker"]
         return cls(
-            track(0.0, crank_angle),
-            linkage.crank * np.exp(1j * crank_angle),
-            linkage.frame + linkage.rocker * np.exp(1j * state.rocker_angle),
-            track(linkage.frame, crank_angle),
-            state.coupler_angle,
-            state.rocker_angle,
+            links["crank"].origin.value,
+            coupler.origin.value,
+            rocker.at("C").value,
+            rocker.origin.value,
+            coupler.turn.value,
+            rocker.turn.value,
         )
 
     def chain(self) -> Chain:
@@ -57,9 +59,9 @@ class Joints:
         return letters("AD", A=self.a, B=self.b, C=self.c, D=self.d)
 
 
-def coupler_windings(linkage: FourBar) -> float:
-    """Turns of coupler and rocker in a turn of the crank: 1 in a drag link, else 0."""
-    coupler = fourbar_sweep.solve(linkage, np.array([0.0, TURN])).coupler_angle
+def coupler_windings(motion: Motion) -> float:
+    """Revolutions of coupler and rocker in one of the crank: 1 in a drag link, else 0."""
+    coupler = motion.at(np.array([0.0, TURN]), 0).links["coupler"].turn.value
     return float(round((coupler[1] - coupler[0]) / TURN))
 
 

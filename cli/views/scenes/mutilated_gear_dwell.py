@@ -40,7 +40,7 @@ def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
     moved, axis = _driven(design, turns), track(0.0, fraction)
     bars, toward = design.linkage, 1.0 if design.linkage is None else 1j
     center = track(-toward * design.mesh.center_distance, fraction)
-    at = None if bars is None else Joints.of(bars, moved + (design.start_crank_angle or 0.0))
+    at = None if bars is None else Joints.of(design.moving, TURN * turns)
     return Scene(
         parts=(*_gears(design, turns, center, toward), *([] if at is None else [at.chain()])),
         marks=(Mark(center, pivot=True), *((Mark(axis, pivot=True),) if at is None else at.marks())),

@@ -20,9 +20,8 @@ from gearlink.cli.views.scenes.scene import (
     fixed_circle,
     letters,
     loop,
-    track,
 )
-from gearlink.core.parts.linkages.slider_crank.sweep import slider
+from gearlink.core.machines.slider_crank.mechanism import DEPTH
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
@@ -32,10 +31,10 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     part, psi = design.slider_crank, TURN * fraction
     crank, rod, offset = part.crank_length, part.rod, part.offset
-    depth = slider(psi, crank, rod, offset, 1)
-    whole = slider(TURN * loop(721), crank, rod, offset)[0]
-    d, e = track(0.0, fraction), crank * np.exp(1j * psi)
-    f = -offset - 1j * depth[0]
+    depth = DEPTH.rates(design.moving, psi, 1)
+    whole = DEPTH.rates(design.moving, TURN * loop(721), 0)[0]
+    links = design.moving.at(psi, 1).links
+    d, e, f = (links[name].origin.value for name in ("crank", "rod", "slider"))
     ways = np.array([whole.min() - 0.15 * rod, whole.max() + 0.15 * rod])
     dead = [-offset - 1j * place + 0.11 * rod * np.array([-1.0, 1.0]) for place in (whole.min(), whole.max())]
     return Scene(

@@ -11,7 +11,7 @@ from gearlink.cli.views.scenes.colors import BLUE, DWELL, GREEN, ORANGE, STEP
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.views.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
-from gearlink.core.machines.three_gear.sweep import output_motion
+from gearlink.core.machines.three_gear.mechanism import OUTPUT
 from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     linkage, phi = design.linkage, TURN * fraction
-    at = Joints.of(linkage, phi)
+    at = Joints.of(design.moving, phi)
     first, second = design.meshes.values()
     idler = _idler_turn(design, at.coupler, phi)
     output = _output_turn(design, at.rocker, idler)
     share = design.crank_teeth / design.idler_teeth
-    idler_turns = coupler_windings(linkage) * (1.0 + share) - share
-    now, whole = (output_motion(linkage, design.train, angles) for angles in (phi, whole_turn()))
-    swept = np.degrees(now.output_angle)
+    idler_turns = coupler_windings(design.moving) * (1.0 + share) - share
+    (now, rate), (whole, _) = (OUTPUT.rates(design.moving, angles, 1) for angles in (phi, whole_turn()))
+    swept = np.degrees(now)
     ring = design.crank_teeth < 0
     crank_gear = gear(first, int(ring), at.b, phi, 1.0, BLUE, "1", f"gear 1, crank {_kind(design.crank_teeth)}")
     return Scene(
@@ -52,9 +52,9 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
         ),
         marks=at.marks(),
         chart=over_crank(
-            phi, (Curve("output", ORANGE, np.degrees(whole.output_angle), swept),), "output angle [deg]", _bands(design)
+            phi, (Curve("output", ORANGE, np.degrees(whole), swept),), "output angle [deg]", _bands(design)
         ),
-        readouts=(crank_readout(phi), Readout("output", "°", swept), Readout("speed ratio", "", now.speed_ratio)),
+        readouts=(crank_readout(phi), Readout("output", "°", swept), Readout("speed ratio", "", rate)),
     )
 
 

@@ -11,6 +11,7 @@ from gearlink.cli.views.scenes.colors import BLUE, ORANGE, STEP
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.views.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
+from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
 from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -20,13 +21,13 @@ if TYPE_CHECKING:
 def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     phi = TURN * fraction
-    at = Joints.of(design.linkage, phi)
+    at = Joints.of(design.moving, phi)
     name = "gear 5, ring gear" if design.internal else "gear 5, sun"
-    planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.linkage), BLUE, "2", "gear 2, planet on BC")
+    planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.moving), BLUE, "2", "gear 2, planet on BC")
     rim = design.outer_rim()
     output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name, rim)
-    swept = np.degrees(_output(design, phi))
-    curve = Curve("output", ORANGE, np.degrees(_output(design, whole_turn())), swept)
+    swept, whole = (np.degrees(OUTPUT.rates(design.moving, angles, 0)[0]) for angles in (phi, whole_turn()))
+    curve = Curve("output", ORANGE, whole, swept)
     return Scene(
         parts=(*output, *planet, fixed_circle(0j, design.crank_length), at.chain()),
         marks=at.marks(),
@@ -37,13 +38,9 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
 
 def output_turn(design: TwoGearFourBar, phi: Reals) -> Reals:
     """Direction of the output gear's first space, or of a tooth of the ring [rad]."""
-    coupler = Joints.of(design.linkage, phi).coupler
+    coupler = Joints.of(design.moving, phi).coupler
     teeth = design.planet_teeth, design.output_teeth
     return ring_turn(teeth, phi, coupler) if design.internal else driven_turn(teeth, phi + math.pi, coupler)
-
-
-def _output(design: TwoGearFourBar, phi: Reals) -> Reals:
-    return np.asarray(output_turn(design, phi) - output_turn(design, np.zeros(1))[0])
 
 
 def _bands(design: TwoGearFourBar) -> tuple[Band, ...]:

@@ -32,6 +32,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cams.outline import AnyCam
@@ -82,12 +83,11 @@ class Cycle:
 
     def _back(self, at: Reals) -> Reals:
         """k where the cam that swings back stands as it did in the stroke."""
-        from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-
         drive = self.design.motion.drive
+        bars = four_bar_motion(drive.linkage)
         k = np.linspace(0.0, 1.0, 20001)
-        forth = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + k * drive.crank_span).rocker_angle
-        here = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + TURN * at).rocker_angle
+        forth = Joints.of(bars, drive.crank_angles[0] + k * drive.crank_span).rocker
+        here = Joints.of(bars, drive.crank_angles[0] + TURN * at).rocker
         rising = forth[-1] > forth[0]
         return np.asarray(np.interp(here if rising else -here, forth if rising else -forth, k))
 
@@ -205,24 +205,21 @@ def _roller(cycle: Cycle, arm: float) -> list[Part]:
 
 def _cam_on_rocker(cycle: Cycle) -> Reals:
     """Turn of a cam on the rocker of a crank-rocker, 0 at the middle of the crank's stroke [rad]."""
-    joints = _drive_joints(cycle)
-    middle = float(
-        Joints.of(
-            cycle.design.motion.drive.linkage, np.array([0.5 * sum(cycle.design.motion.drive.crank_angles)])
-        ).rocker[0]
-    )
+    joints, drive = _drive_joints(cycle), cycle.design.motion.drive
+    middle = float(Joints.of(four_bar_motion(drive.linkage), np.array([0.5 * sum(drive.crank_angles)])).rocker[0])
     return -_rising(cycle) * (joints.rocker - middle)
 
 
 def _rising(cycle: Cycle) -> float:
     """+1 where the rocker of the drive turns counter-clockwise in the stroke, else -1."""
-    ends = Joints.of(cycle.design.motion.drive.linkage, np.array(cycle.design.motion.drive.crank_angles)).rocker
+    drive = cycle.design.motion.drive
+    ends = Joints.of(four_bar_motion(drive.linkage), np.array(drive.crank_angles)).rocker
     return 1.0 if ends[1] > ends[0] else -1.0
 
 
 def _drive_joints(cycle: Cycle) -> Joints:
     drive = cycle.design.motion.drive
-    return Joints.of(drive.linkage, drive.crank_angles[0] + TURN * cycle.fraction)
+    return Joints.of(four_bar_motion(drive.linkage), drive.crank_angles[0] + TURN * cycle.fraction)
 
 
 def _crank_rocker(cycle: Cycle) -> tuple[Points, ...]:

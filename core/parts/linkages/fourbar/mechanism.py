@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.dynamics import Mass
 from gearlink.core.mechanism.joints import Pin
-from gearlink.core.mechanism.links import FRAME, Link
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
@@ -55,6 +57,16 @@ def four_bar_pins(links: Mapping[str, Link]) -> list[Pin]:
         Pin("C", "coupler", "rocker", links["rocker"].at("C").value),
         Pin("D", FRAME, "rocker", links["rocker"].origin.value),
     ]
+
+
+def four_bar_motion(linkage: FourBar) -> Motion:
+    """A four-bar by itself over its crank angle, A at 0 and D on +x."""
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        links = four_bar(linkage, phi, order)
+        return Mechanism(links, four_bar_pins(links), "crank")
+
+    return Motion(make, Input("crank_angle"), (Output("Rocker CD", turned("rocker")),))
 
 
 def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0) -> dict[str, complex]:
