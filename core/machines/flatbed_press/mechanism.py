@@ -85,11 +85,6 @@ def _section(design: FlatbedPress) -> Section:
     return found
 
 
-def bed_rods(design: FlatbedPress, phi: Reals, order: int) -> dict[str, Link]:
-    """The links from gear 2 to the carriage."""
-    return _Press(design).rods(phi, order)
-
-
 def follower_lift(mechanism: Mechanism) -> Travel:
     """Lift of the follower over the angle of the cams, with two derivatives by it [mm], where links were computed."""
     found: Travel = mechanism.once("lift", _no_cam)

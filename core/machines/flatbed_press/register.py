@@ -17,15 +17,12 @@ import numpy as np
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
-from gearlink.core.machines.flatbed_press.mechanism import bed_rods
+from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.machines.flatbed_press.register_lift import RackLift
 from gearlink.core.mechanism.dual import Shift
-from gearlink.core.mechanism.joints import Coupling, Guide, Pin
-from gearlink.core.mechanism.links import FRAME, Link, Mechanism
-from gearlink.core.mechanism.rates import fixed, from_start, mixed, steady
+from gearlink.core.mechanism.joints import Coupling, Mesh, Rack
+from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.parts.linkages.fourbar import position
-from gearlink.core.parts.linkages.fourbar.mechanism import turns
 from gearlink.core.parts.linkages.standstills import zeros_over_turn
 from gearlink.core.studies.register.design import RegisterDesign, no_such_place
 from gearlink.core.studies.tolerance.budget import Contribution
@@ -34,10 +31,12 @@ from gearlink.core.studies.tolerance.sources import Parts
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.studies.register.gains import Off, Output
     from gearlink.core.studies.register.movable import Errors
 
 _CHAINS = {"bed": ("gear2", "BC", "CDE"), "cylinder": ("gear1", "HM", "MN")}
+_LINKS = ("gear2", "BC", "CDE", "EF", "carriage", "gear1", "HM", "MN", "cylinder")
 _RADIUS = "cylinder.radius"
 MESHES = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
 _PINS = ("A", "B", "C", "D", "E", "F", "G", "H", "M", "N")
@@ -79,17 +78,19 @@ class PressRegister(RegisterDesign):
         found = {
             "bed.stroke": (Shift("CDE", ("E",), crank),),
             "bed.rod": (Shift("EF", ("F",)),),
-            "bed.offset": (Shift("frame", ("guide",), -1.0),),
+            "bed.offset": (Shift("frame", ("guide_carriage",), -1.0),),
             "bed.crank_offset_angle": (Shift("CDE", ("E",), -degree, turned=True),),
             "cylinder.initial_crank_angle": (Shift("gear1", ("H",), degree, turned=True),),
         }
-        for chain, (crank_pin, coupler_pin) in (("bed", "BC"), ("cylinder", "HM")):
+        section = self.spec.loads
+        side = 1.0 if section is None else float(section.bed_side)
+        for chain, (crank_pin, coupler_pin), along in (("bed", "BC", 1.0), ("cylinder", "HM", side)):
             crank_link, coupler, rocker = _CHAINS[chain]
             found |= {
                 f"{chain}.double_crank.crank": (Shift(crank_link, (crank_pin,)),),
                 f"{chain}.double_crank.coupler": (Shift(coupler, (coupler_pin,)),),
                 f"{chain}.double_crank.rocker": (Shift(rocker, (coupler_pin,)),),
-                f"{chain}.double_crank.frame": (Shift(crank_link, (crank_pin,), -1.0, "frame"),),
+                f"{chain}.double_crank.frame": (Shift(crank_link, (crank_pin,), -along, "frame"),),
             }
         return found
 
@@ -106,16 +107,29 @@ class PressRegister(RegisterDesign):
         return -cylinder.travel(input_angle).value / cylinder.radius if key == _RADIUS else None
 
     def mechanism(self, input_angle: Reals) -> Mechanism:
-        """Both chains, from the input gears to the carriage of the pinion and to the cylinder."""
-        links, connections = self._bed_chain(input_angle)
-        driven, joints = self._cylinder_chain(input_angle)
-        gears = Coupling("mesh_12", "gear2", "gear1", links["gear2"].origin.value, -1.0)
-        return Mechanism(links | driven, [*connections, *joints, gears], "gear2")
+        """Both chains, from the input gears to the carriage of the pinion and to the cylinder; meshes as ratios."""
+        whole = self._bare.make(input_angle, 1, 1)
+        links = {name: link for name, link in whole.links.items() if name in _LINKS}
+        joints: list[Connection] = [
+            each for each in whole.connections if not isinstance(each, (Mesh, Rack)) and each.second in links
+        ]
+        gear2, rocker = links["gear2"].origin.value, links["MN"].origin.value
+        joints += [
+            Coupling("mesh_12", "gear2", "gear1", gear2, -1.0),
+            Coupling("mesh_34", "MN", "cylinder", rocker, -self.design.cylinder.gear_ratio),
+        ]
+        return Mechanism(links, joints, "gear2")
+
+    @cached_property
+    def _bare(self) -> Motion:
+        """The motion of the press without its cam."""
+        return bare(self.design).moving
 
     def output(self, input_angle: Reals) -> Output:
         """Delta of the bed as it rolls on the carriage, the cylinder's surface and the rack, which CDE lifts."""
         lift, radius = self._lift, self.design.motion.cylinder.radius
-        start, slope = self._rods(input_angle.ravel(), 0)["CDE"].turn.value.reshape(input_angle.shape), lift.slope
+        cde, slope = self._bare.at(input_angle.ravel(), 1).links["CDE"], lift.slope
+        start = cde.turn.value.reshape(input_angle.shape)
 
         def output(mechanism: Mechanism, parts: Off = None) -> Sequence[Reals]:
             bed, cam, cylinder = mechanism.links["carriage"].origin, mechanism.links["CDE"], mechanism.links["cylinder"]
@@ -129,46 +143,6 @@ class PressRegister(RegisterDesign):
     @cached_property
     def _lift(self) -> RackLift:
         return RackLift(self.design)
-
-    def _rods(self, phi: Reals, order: int) -> dict[str, Link]:
-        return bed_rods(self.design, phi, order)
-
-    def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
-        """Gear 2 to the carriage."""
-        links = self._rods(phi, 1)
-        f = links["carriage"].origin.value
-        return links, [
-            Pin("A", FRAME, "gear2", links["gear2"].origin.value),
-            Pin("B", "gear2", "BC", links["BC"].origin.value),
-            Pin("C", "BC", "CDE", links["CDE"].at(self.design.bed.linkage.rocker).value),
-            Pin("D", FRAME, "CDE", links["CDE"].origin.value),
-            Pin("E", "CDE", "EF", links["EF"].origin.value),
-            Pin("F", "EF", "carriage", f),
-            Guide("guide", FRAME, "carriage", f, -1j),
-        ]
-
-    def _cylinder_chain(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
-        """Gear 1 to the cylinder, in the frame of its own: G at 0, N on +x."""
-        chain = self.design.cylinder
-        four = chain.linkage
-        coupler, rocker = turns(four, chain.initial_angle - phi, 1, velocity=-1.0)
-        gear1 = Link(fixed(0j, phi, order=1), steady(phi, -1.0, chain.initial_angle, order=1))
-        n = fixed(four.frame, phi, order=1)
-        start = position.solve(four, chain.initial_angle).rocker_angle
-        links = {
-            "gear1": gear1,
-            "HM": Link(gear1.at(four.crank), coupler),
-            "MN": Link(n, rocker),
-            "cylinder": Link(n, mixed((-chain.gear_ratio, from_start(rocker, start)))),
-        }
-        return links, [
-            Pin("G", FRAME, "gear1", gear1.origin.value),
-            Pin("H", "gear1", "HM", links["HM"].origin.value),
-            Pin("M", "HM", "MN", links["MN"].at(four.rocker).value),
-            Pin("N", FRAME, "MN", n.value),
-            Pin("cylinder", FRAME, "cylinder", n.value),
-            Coupling("mesh_34", "MN", "cylinder", n.value, -chain.gear_ratio),
-        ]
 
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
         """Every source of the file, the cam's own error, and the meshes whose backlash is given."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
+from gearlink.core.machines.swing_gripper.mechanism import without_cams
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.mechanism.joints import Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -21,9 +22,9 @@ from gearlink.core.studies.tolerance.budget import Contribution
 from gearlink.core.studies.tolerance.sources import Parts
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.linkage import GripperMotion
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.mechanism.joints import Connection
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.studies.register.gains import Off, Output
     from gearlink.core.studies.register.movable import Errors
 
@@ -98,40 +99,32 @@ class GripperRegister(RegisterDesign):
         moved = any(one.key in ("pins.A", "bearings.A") or one.key.startswith(_ROLLING) for one in self.sources)
         return self.section.cam_error is not None or (moved and self.spec.cam is not None)
 
-    def _motion(self, input_angle: Reals, order: int) -> GripperMotion:
-        return self.design.linkage.motion(np.degrees(input_angle), order)
-
     def mechanism(self, input_angle: Reals) -> Mechanism:
         """The linkage in the machine's frame, on its cam where that counts."""
-        motion, lengths, pivots = self._motion(input_angle, 1), self.spec.links, self.spec.pivots
-        a, e = (fixed(complex(*point), input_angle, order=1) for point in (pivots.input, pivots.output))
-        rocker = Link(a, Turn(motion.input_angle, motion.input_velocity))
-        coupler = Link(rocker.at(lengths.input), Turn(motion.coupler_angle, motion.coupler_velocity))
-        output = Link(e, Turn(motion.output_angle, motion.output_velocity))
-        links = {"input": rocker, "coupler": coupler, "output": output}
-        joints: list[Connection] = [
-            Pin("A", FRAME, "input", a.value),
-            Pin("C", "input", "coupler", coupler.origin.value),
-            Pin("D", "coupler", "output", output.at(lengths.output).value),
-            Pin("E", FRAME, "output", e.value),
-        ]
+        bare = self._bare.make(input_angle, 1, 1)
         if not self._rolls:
-            return Mechanism(links, joints, "input")
+            return bare
         cam, roller = self.design.cams.main_cam, self.design.cams.section.roller
         axis = fixed(self.design.cam_center, input_angle, order=1)
-        links["cam"] = Link(axis, steady(input_angle, cam.sense, order=1))
-        at = rocker.at(cmath.rect(roller.arm, math.radians(roller.angle))).value
+        links = {**bare.links, "cam": Link(axis, steady(input_angle, cam.sense, order=1))}
+        at = links["input"].at(cmath.rect(roller.arm, math.radians(roller.angle))).value
         bend = cam.curvature(input_angle)
-        joints += [
+        joints: list[Connection] = [
+            *bare.connections,
             Pin("O", FRAME, "cam", axis.value),
             Contact("main", "cam", "input", at, cam.normals(input_angle), curvature=bend),
         ]
         return Mechanism(links, joints, "cam", float(cam.sense))
 
+    @cached_property
+    def _bare(self) -> Motion:
+        """The motion of the linkage alone."""
+        return without_cams(self.design)
+
     def output(self, input_angle: Reals) -> Output:
         """The place of the tip along the direction in which it should move."""
         arm = cmath.rect(self.spec.arm.length, math.radians(self.spec.arm.direction - self.spec.output_direction))
-        turned = self._motion(input_angle.ravel(), 0).output_angle.reshape(input_angle.shape)
+        turned = self._bare.at(input_angle.ravel(), 0).links["output"].turn.value.reshape(input_angle.shape)
         along = 1j * np.exp(1j * turned) * arm / abs(arm)
 
         def output(mechanism: Mechanism, parts: Off = None) -> Sequence[Reals]:

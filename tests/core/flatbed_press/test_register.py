@@ -201,3 +201,19 @@ def test_samples_of_the_chain_are_the_budget() -> None:
     more = {"backlash": {"mesh_12": 0.02, "rack_upper": 0.01}, "cam_error": 0.01}
     made, by_samples = press(sizes, **more), press(sizes, method="mc", **more)
     assert by_samples.band == pytest.approx(made.band, rel=0.03)
+
+
+def test_the_side_on_which_the_bed_lies_changes_no_gain() -> None:
+    sources = {
+        f"{chain}.double_crank.{link}": {"plus_minus": 0.02}
+        for chain in ("bed", "cylinder")
+        for link in ("crank", "coupler", "rocker", "frame")
+    }
+    sources |= {"bed.offset": {"plus_minus": 0.02}, "bed.crank_offset_angle": {"plus_minus": 0.01}}
+    phi = np.radians([50.0, 110.0, 200.0])
+    one, other = (
+        factory.design("ty460", command="register", tolerance={"sources": sources}, loads={"bed_side": side})
+        for side in (1, -1)
+    )
+    for here, there in zip(one.contributions(phi, 1), other.contributions(phi, 1), strict=True):
+        assert here.gain == pytest.approx(there.gain, rel=1e-10, abs=1e-12), here.source
