@@ -12,13 +12,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
 from gearlink.core.parts.linkages.standstills import zeros_over_turn
+
+Number = TypeVar("Number")
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +150,7 @@ def output_speed(linkage: FourBar, train: GearTrain, crank_angle: float) -> floa
     Source
         thesis (4-24)
     """
-    return train.ratio + _blend(train, *rates_of(linkage.reading, crank_angle, 1))
+    return train.ratio + blend(train, *rates_of(linkage.reading, crank_angle, 1))
 
 
 def output_acceleration(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
@@ -168,7 +170,7 @@ def output_acceleration(linkage: FourBar, train: GearTrain, crank_angle: float) 
     Source
         thesis (4-25)
     """
-    return _blend(train, *rates_of(linkage.reading, crank_angle, 2))
+    return blend(train, *rates_of(linkage.reading, crank_angle, 2))
 
 
 def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
@@ -188,7 +190,7 @@ def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float
     Source
         thesis (4-25), differentiated
     """
-    return _blend(train, *rates_of(linkage.reading, crank_angle, 3))
+    return blend(train, *rates_of(linkage.reading, crank_angle, 3))
 
 
 def mean_ratio(linkage: FourBar, train: GearTrain) -> float:
@@ -299,8 +301,10 @@ def tip_radius(teeth: float, module: float, addendum: float = 1.0) -> float:
     return module * (0.5 * teeth + addendum)
 
 
-def _blend(train: GearTrain, coupler: float, rocker: float) -> float:
-    return train.coupler_share * coupler + train.rocker_share * rocker
+def blend(train: Any, coupler: Number, rocker: Number) -> Number:
+    """What coupler and rocker add to the output, of numbers or of arrays."""
+    found: Number = train.coupler_share * coupler + train.rocker_share * rocker
+    return found
 
 
 def _extremes(f: Callable[[float], float], slope: Callable[[float], float]) -> Extremes:

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import angle_of_poles, pole_lengths, touching
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -113,30 +115,16 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
 def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
     """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
     r1, r3, r5, e = given
-    b, outer = r1 + r3, r3 + r5
-    s = b + outer
-    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * outer))
-    share *= share
+    u, v = pole_lengths(r1, r3, r5, ARRAYS)
+    share = (r1 / (u + v)) ** 2
+    s = r1 + 2.0 * r3 + r5
     e_lo = share * s
-    exists: Mask = e_lo < e
-    share *= -2.0
-    share *= np.maximum(0.0, r1 - r5)
-    share += r1
-    exists &= e < share
-    span = (r1 - e_lo) * (r1 + e_lo)
-    x, sine = (r1 - e) * (r1 + e), (e - e_lo) * (e + e_lo)
-    for square in (x, sine):
-        square /= span
-        np.sqrt(square, out=square)
-    reach, rise = (s - e_lo) * x, r5 * sine
-    e_lo *= x
-    sine *= r1
-    np.subtract(np.arctan2(rise, reach), np.arctan2(sine, -e_lo), out=angle)
-    np.add(angle, 2.0 * math.pi, out=angle, where=angle < 0.0)
-    reach *= reach
-    rise *= rise
-    reach += rise
-    np.sqrt(reach, out=frame)
+    exists: Mask = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
+    found = touching(r1, r3, r5, e, e_lo, ARRAYS)
+    x = found.cos_beta
+    turned = angle_of_poles(r1, r5, s * x, e_lo * x, found.sin_beta, ARRAYS)
+    np.add(turned, 2.0 * math.pi, out=turned, where=turned < 0.0)
+    frame[:], angle[:] = found.frame, turned
     if not exists.all():
         frame[~exists] = angle[~exists] = math.nan
     return exists

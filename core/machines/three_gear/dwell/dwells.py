@@ -8,11 +8,13 @@ searched for; `gearlink.core.machines.three_gear.dwell.momentary_dwell` has the 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
     Tangency,
     crank_angle,
+    pole_lengths,
     tangency,
     tangency_range,
     wrap,
@@ -25,6 +27,7 @@ from gearlink.core.machines.three_gear.motion import (
     output_jerk,
     output_speed,
 )
+from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.checks import check_linkage
@@ -85,7 +88,8 @@ def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
         return momentary
     if linkage.frame <= limit.frame:
         return []
-    return sorted(_two_standstills(linkage, limit, r1, r3, r5))
+    poles = standing(linkage.crank, linkage.frame, limit.frame, (r1, r3, r5))
+    return sorted(crank_angle(r1, r5, *each, linkage.assembly) for each in poles)
 
 
 def motion(positions: list[float]) -> str:
@@ -207,26 +211,29 @@ def _momentary(linkage: FourBar, train: GearTrain, limit: Tangency, r1: float, r
     return [wrap(phi - output_acceleration(linkage, train, phi) / output_jerk(linkage, train, phi))]
 
 
-def _two_standstills(linkage: FourBar, limit: Tangency, r1: float, r3: float, r5: float) -> tuple[float, float]:
-    """Crank angles of both roots of the quadratic, the frame being longer than that of the momentary dwell."""
-    a, d = linkage.crank, linkage.frame
-    s = r1 + 2.0 * r3 + r5
-    b = r1 + r3
-    u, v = math.sqrt(b * (b + r5)), math.sqrt(r3 * (r3 + r5))
+def standing(
+    a: Any, d: Any, limit: Any, radii: tuple[Any, Any, Any], fn: Elementary = SCALARS
+) -> tuple[tuple[Any, Any, Any], ...]:
+    """Pole triangles of both roots of the quadratic: S cos(beta), AF's part along the pole line, sin(beta).
+
+    Parameters
+        a, d : float or array [mm] - crank, and frame; longer than `limit`, that of the momentary dwell
+        radii : r1, r3, r5 [mm]
+    """
+    r1, r3, r5 = radii
+    s, (u, v) = r1 + 2.0 * r3 + r5, pole_lengths(r1, r3, r5, fn)
     h = (a - r1) * (a + r1)
-    factor = ((u + v) if a < r1 else s * r1 / (u + v)) / r1
-    delta = (d - limit.frame) * (d + limit.frame)
-    four_huv = 4.0 * abs(h) * u * v
-    mean = 2.0 * (u * u + v * v) * delta + four_huv * factor * factor
-    root = 2.0 * s * math.sqrt(delta * (r1 * r1 * delta + four_huv))
+    factor = fn.where(a < r1, u + v, s * r1 / (u + v)) / r1
+    delta = (d - limit) * (d + limit)
+    p, four_huv = 2.0 * (u * u + v * v), 4.0 * abs(h) * u * v
+    mean = p * delta + four_huv * factor * factor
+    root = 2.0 * s * fn.sqrt(delta * (r1 * r1 * delta + four_huv))
     g = h * factor * factor - delta
-    p = 2.0 * (u * u + v * v)
-    places = []
+    found = []
     for x2 in ((mean + root) / (4.0 * u * v) ** 2, g * g / (mean + root)):
-        x = math.sqrt(x2)
-        w = (p * x2 + g) / (2.0 * s * x)
-        places.append(crank_angle(r1, r5, s * x, w, math.sqrt(1.0 - x2), linkage.assembly))
-    return places[0], places[1]
+        x = fn.sqrt(x2)
+        found.append((s * x, (p * x2 + g) / (2.0 * s * x), fn.sqrt(1.0 - x2)))
+    return tuple(found)
 
 
 def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:

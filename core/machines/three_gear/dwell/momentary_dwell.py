@@ -14,9 +14,10 @@ r1 (crank-rocker), the lower ones for a longer one (drag link).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
@@ -123,6 +124,12 @@ def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     return e_lo, r1 * (r1 / e_lo)
 
 
+def pole_lengths(r1: Any, r3: Any, r5: Any, fn: Elementary = SCALARS) -> tuple[Any, Any]:
+    """U = sqrt(b (b + r5)) and V = sqrt(r3 c), of numbers or of arrays."""
+    b = r1 + r3
+    return fn.sqrt(b * (b + r5)), fn.sqrt(r3 * (r3 + r5))
+
+
 def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     """Crank lengths between which a crank-rocker with a momentary dwell exists.
 
@@ -183,12 +190,15 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
             f"a crank of {e:.9g} mm never stops the output, whatever the frame: it must lie between {e_lo:.9g} and "
             f"{e_hi:.9g} mm; choose it between them or change the gears"
         )
-    e_t = e_lo if e < r1 else e_hi
+    return touching(r1, r3, r5, e, e_lo if e < r1 else e_hi)
+
+
+def touching(r1: Any, r3: Any, r5: Any, e: Any, e_t: Any, fn: Elementary = SCALARS) -> Tangency:
+    """`tangency` whose e_t is known, of numbers or of arrays."""
     span = (r1 - e_t) * (r1 + e_t)
-    cos_beta = math.sqrt((r1 - e) * (r1 + e) / span)
-    sin_beta = math.sqrt((e - e_t) * (e + e_t) / span)
-    frame = math.hypot((r1 + 2.0 * r3 + r5 - e_t) * cos_beta, r5 * sin_beta)
-    return Tangency(frame, cos_beta, sin_beta, e_t)
+    cos_beta, sin_beta = fn.sqrt((r1 - e) * (r1 + e) / span), fn.sqrt((e - e_t) * (e + e_t) / span)
+    along, beside = (r1 + 2.0 * r3 + r5 - e_t) * cos_beta, r5 * sin_beta
+    return Tangency(fn.sqrt(along * along + beside * beside), cos_beta, sin_beta, e_t)
 
 
 def momentary_frame_length(r1: float, r3: float, r5: float, eccentricity: float) -> float:
@@ -258,8 +268,12 @@ def crank_angle(r1: float, r5: float, reach: float, w: float, sin_beta: float, a
     Source
         own derivation: direction of AB less direction of AD, pole line as x axis
     """
-    phi = math.atan2(-r1 * sin_beta, -w) - math.atan2(-r5 * sin_beta, reach - w)
-    return wrap(assembly * phi)
+    return wrap(assembly * angle_of_poles(r1, r5, reach, w, sin_beta))
+
+
+def angle_of_poles(r1: Any, r5: Any, reach: Any, w: Any, sin_beta: Any, fn: Elementary = SCALARS) -> Any:
+    """`crank_angle` in the assembly 1 and within any turn, of numbers or of arrays."""
+    return fn.atan2(-r1 * sin_beta, -w) - fn.atan2(-r5 * sin_beta, reach - w)
 
 
 def wrap(angle: float) -> float:
@@ -278,8 +292,9 @@ def _pole_sum(r1: float, r3: float, r5: float) -> float:
     for name, radius in (("r1", r1), ("r3", r3), ("r5", r5)):
         if not 0.0 < radius < math.inf:
             raise NoSolution(f"the reference radius {name} is {radius:g} mm; it must be positive and finite")
-    b = r1 + r3
-    return math.sqrt(b * (b + r5)) + math.sqrt(r3 * (r3 + r5))
+    u, v = pole_lengths(r1, r3, r5)
+    found: float = u + v
+    return found
 
 
 def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:

@@ -26,6 +26,7 @@ from gearlink.core.parts.linkages.codes import (
     SHAFT_CLEARANCE,
     TRANSMISSION_ANGLE,
 )
+from gearlink.core.parts.linkages.fourbar.loop import make_reading
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
@@ -240,8 +241,14 @@ class Batch:
         """The linkages with their gears."""
         crank, frame = self.links
         shares = (self.z1 / self.z5, -(self.z1 + self.z3) / self.z5, (self.z3 + self.z5) / self.z5)
-        assembly = np.full(self.count, float(self.spec.assembly))
-        return Drives(crank, self.coupler, self.rocker, frame, assembly, *shares)
+        loop: tuple[Any, Any, Any, Any, Any] = (
+            crank,
+            self.coupler,
+            self.rocker,
+            frame,
+            np.full(self.count, float(self.spec.assembly)),
+        )
+        return Drives(*make_reading(*loop, total=sum), *shares)
 
     @cached_property
     def seeks_band(self) -> bool:

@@ -11,25 +11,38 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearlink.core.machines.three_gear.dwell.dwells import standing
+from gearlink.core.machines.three_gear.dwell.momentary_dwell import angle_of_poles, pole_lengths, touching
+from gearlink.core.machines.three_gear.motion import blend
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import newton_roots
 from gearlink.core.parts.linkages.fourbar.lengths import least_transmission_angle
+from gearlink.core.parts.linkages.fourbar.loop import rates, triangle
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40
 
 
 class Drives(NamedTuple):
-    """Linkages [mm] with their gears: a, b, c, d, assembly, I = z1/z5, shares of coupler and rocker in the output."""
+    """Linkages [mm] with their gears, arrays: the fields of a `Reading`, I = z1/z5, shares of coupler and rocker."""
 
-    a: Reals
-    b: Reals
-    c: Reals
-    d: Reals
-    s: Reals
-    ratio: Reals
-    coupler_share: Reals
-    rocker_share: Reals
+    a: Any
+    b: Any
+    c: Any
+    d: Any
+    s: Any
+    n_0: Any
+    n_pi: Any
+    p_0: Any
+    p_pi: Any
+    q_0: Any
+    q_pi: Any
+    e: Any
+    f: Any
+    ratio: Any
+    coupler_share: Any
+    rocker_share: Any
 
     def part(self, places: Any) -> Drives:
         """Some of the designs."""
@@ -42,49 +55,30 @@ def turns(links: Drives) -> tuple[Mask, Mask, Mask]:
     Source
         Grashof's rule, as `FourBar.kind`
     """
-    lengths = np.sort(np.array([links.a, links.b, links.c, links.d]), axis=0)
+    lengths = np.sort(np.array(links[:4]), axis=0)
     margin = (lengths[1] - lengths[0]) + (lengths[2] - lengths[3])
     near = np.abs(margin) <= 1e-9 * lengths[3]
     good = margin > 0.0
     return good & (links.a == lengths[0]), good & (links.d == lengths[0]), near
 
 
-def _loop(phi: Reals, links: Drives) -> tuple[Any, ...]:
-    """sin and cos of phi, squares of the half angle's, n^2, R and z of `linkages.fourbar.loop`."""
-    a, b, c, d = links[:4]
-    half_sin, half_cos = np.sin(0.5 * phi), np.cos(0.5 * phi)
-    ss, cc = half_sin * half_sin, half_cos * half_cos
-    n2 = (d - a) ** 2 * cc + (d + a) ** 2 * ss
-    p = (a + b + c - d) * (b + c + d - a) * cc + (b + c - a - d) * (a + b + c + d) * ss
-    q = (c + d - a - b) * (b + d - a - c) * cc + (a + c + d - b) * (a + b + d - c) * ss
-    return 2.0 * half_sin * half_cos, cc - ss, ss, cc, n2, np.sqrt(p * q), 0.5 * (p - q)
+def _triangle(phi: Reals, links: Drives) -> Any:
+    """sin(phi), squares of the half angle's cosine and sine, n^2, R and (P - Q)/2 of `linkages.fourbar.loop`."""
+    *found, p, q = triangle(links, np.sin(0.5 * phi), np.cos(0.5 * phi))
+    return *found, np.sqrt(p * q), 0.5 * (p - q)
 
 
 def speed(phi: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
     """Speed ratio of the output and its first two derivatives with respect to the crank angle."""
-    a, b, c, d, s = links[:5]
-    sin, cos, ss, cc, n2, r, z = _loop(phi, links)
-    e, f, ad, m = (b - c) * (b + c), 0.5 * (a - d) * (a + d), a * d, 1.0 / n2
-    half = ad * sin
-    h = 0.5 + 0.5 * e * m
-    g_1 = 2.0 * s * half / r
-    nu_1 = a * ((a - d) * cc + (a + d) * ss) * m
-    c_1 = nu_1 + g_1 * h
-    u_1 = half * m * m
-    g_2 = s * (2.0 * ad * cos - g_1 * g_1 * z) / r
-    c_2 = g_2 * h - u_1 * (2.0 * f + e * g_1)
-    u_2 = (ad * cos - 4.0 * half * half * m) * m * m
-    g_3 = g_1 * (g_1 * g_1 - 1.0) - 3.0 * g_1 * g_2 * s * z / r
-    c_3 = g_3 * h - 2.0 * e * g_2 * u_1 - u_2 * (2.0 * f + e * g_1)
-    p, q = links.coupler_share, links.rocker_share
-    return links.ratio + p * (c_1 - g_1) + q * c_1, p * (c_2 - g_2) + q * c_2, p * (c_3 - g_3) + q * c_3
+    b_1, c_1, b_2, c_2, b_3, c_3 = rates(links, _triangle(phi, links), 3)
+    return links.ratio + blend(links, b_1, c_1), blend(links, b_2, c_2), blend(links, b_3, c_3)
 
 
 def output_angle(phi: Reals, links: Drives) -> Reals:
     """Angle of the output [rad], continuous in the crank angle; its zero is any."""
-    a, b, c, d, s = links[:5]
-    sin, _, ss, cc, n2, r, _ = _loop(phi, links)
-    e = (b - c) * (b + c)
+    a, d, s = links.a, links.d, links.s
+    sin, cc, ss, n2, r, _ = _triangle(phi, links)
+    e = links.e
     drag = a > d
     nu = np.where(
         drag,
@@ -130,33 +124,15 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
     """
     r1, r3, r5 = radii
     a, d = links.a, links.d
-    b, outer, total = r1 + r3, r3 + r5, r1 + 2.0 * r3 + r5
-    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * outer))
-    e_lo = share * share * (b + outer)
+    total, poles = r1 + 2.0 * r3 + r5, sum(pole_lengths(*radii, ARRAYS))
+    e_lo = r1 * r1 * total / poles**2
     e_hi = r1 * (r1 / e_lo)
-    e_t = np.where(a < r1, e_lo, e_hi)
-    span = (r1 - e_t) * (r1 + e_t)
-    cos_beta, sin_beta = np.sqrt((r1 - a) * (r1 + a) / span), np.sqrt((a - e_t) * (a + e_t) / span)
-    frame = np.hypot((total - e_t) * cos_beta, r5 * sin_beta)
+    frame = touching(r1, r3, r5, a, np.where(a < r1, e_lo, e_hi), ARRAYS).frame
     reached = (e_lo < a) & (a < e_hi)
     near = reached & (np.abs(d - frame) <= 1e-5 * frame)
     near |= np.minimum(np.abs(a - e_lo), np.abs(a - e_hi)) <= 1e-9 * a
-    u, v = np.sqrt(b * (b + r5)), np.sqrt(r3 * outer)
-    h = (a - r1) * (a + r1)
-    factor = np.where(a < r1, u + v, total * r1 / (u + v)) / r1
-    delta = (d - frame) * (d + frame)
-    four = 4.0 * np.abs(h) * u * v
-    p = 2.0 * (u * u + v * v)
-    mean = p * delta + four * factor * factor
-    root = 2.0 * total * np.sqrt(delta * (r1 * r1 * delta + four))
-    g = h * factor * factor - delta
-    places = []
-    for x2 in ((mean + root) / (4.0 * u * v) ** 2, g * g / (mean + root)):
-        x = np.sqrt(x2)
-        w = (p * x2 + g) / (2.0 * total * x)
-        sine = np.sqrt(1.0 - x2)
-        phi = np.arctan2(-r1 * sine, -w) - np.arctan2(-r5 * sine, total * x - w)
-        places.append(wrapped(links.s * phi))
+    found = standing(a, d, frame, radii, ARRAYS)
+    places = [wrapped(links.s * angle_of_poles(r1, r5, *each, ARRAYS)) for each in found]
     exists = reached & (d > frame)
     return np.where(exists, np.minimum(*places), np.nan), np.where(exists, np.maximum(*places), np.nan), near
 

@@ -13,9 +13,15 @@ crank turns fully, so a dead centre on the line of the frame, and a change point
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 from gearlink.core.base.errors import NoSolution
+
+Triangle: TypeAlias = tuple[float, float, float, float, float, float]
+
+
+_BY_ANGLE = (1.0, 0.0, 0.0)
 
 
 class Reading(NamedTuple):
@@ -40,9 +46,10 @@ class Reading(NamedTuple):
     f: float
 
 
-def make_reading(a: float, b: float, c: float, d: float, s: int) -> Reading:
-    """Constants from the lengths; every factor is a correctly rounded sum."""
-    total = math.fsum
+def make_reading(
+    a: float, b: float, c: float, d: float, s: int, total: Callable[[tuple[float, ...]], float] = math.fsum
+) -> Reading:
+    """Constants from the lengths; every factor is a correctly rounded sum (of arrays, by `sum`, a plain one)."""
     return Reading(
         *(a, b, c, d, s),
         n_0=(d - a) ** 2,
@@ -64,20 +71,19 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     if not (0 <= order <= 3):
         raise ValueError(f"order is {order}; the rates go from 0 to 3")
     s, e = reading.s, reading.e
-    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
+    sin_phi, cc, ss, n2, r, z = found = _triangle(reading, phi, order)
     winding, nu = _to_far_pivot(reading, phi, sin_phi, cc, ss)
     b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
     result = [winding + b, winding + c, math.atan2(r, z)]
     if order > 0:
-        result += _rates(reading, sin_phi, (cc, ss), n2, r, z, order, motion)
+        result += _in_motion(rates(reading, found, order), motion)
     return result
 
 
 def rates_of(reading: Reading, phi: float, order: int) -> tuple[float, float]:
     """Rates of coupler and rocker of that order by the driving angle: those of `solve_loop`, to the last bit, without
     its angles."""
-    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
-    *_, coupler, rocker = _rates(reading, sin_phi, (cc, ss), n2, r, z, order, (1.0, 0.0, 0.0))
+    *_, coupler, rocker = rates(reading, _triangle(reading, phi, order), order)
     return coupler, rocker
 
 
@@ -95,20 +101,25 @@ def rocker_rate(reading: Reading, phi: float) -> float:
     return _rocker_rate(reading, sin_phi, cc, ss, n2, r)
 
 
-def _triangle(reading: Reading, phi: float, order: int) -> tuple[float, float, float, float, float, float]:
-    """sin(phi), the squares of cosine and sine of phi/2, n^2, R and (P - Q)/2."""
+def _triangle(reading: Reading, phi: float, order: int) -> Triangle:
+    """`triangle`, or the refusal of an angle at which there is none, or no rate."""
     if not math.isfinite(phi):
         raise NoSolution(refusal(reading, phi, math.nan, math.nan))
-    _, _, _, _, _, n_0, n_pi, p_0, p_pi, q_0, q_pi, _, _ = reading
-    sin_half, cos_half = math.sin(0.5 * phi), math.cos(0.5 * phi)
-    ss, cc = sin_half * sin_half, cos_half * cos_half
-    n2 = n_0 * cc + n_pi * ss
-    p = p_0 * cc + p_pi * ss
-    q = q_0 * cc + q_pi * ss
+    sin_phi, cc, ss, n2, p, q = triangle(reading, math.sin(0.5 * phi), math.cos(0.5 * phi))
     pq = p * q
     if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
         raise NoSolution(refusal(reading, phi, p, q))
-    return 2.0 * sin_half * cos_half, cc, ss, n2, math.sqrt(pq), 0.5 * (p - q)
+    return sin_phi, cc, ss, n2, math.sqrt(pq), 0.5 * (p - q)
+
+
+def triangle(reading: Any, sin_half: Any, cos_half: Any) -> Any:
+    """sin(phi), the squares of cosine and sine of phi/2, n^2, P and Q; of numbers, or of arrays."""
+    n_0, n_pi, p_0, p_pi, q_0, q_pi = reading[5:11]
+    ss, cc = sin_half * sin_half, cos_half * cos_half
+    return (
+        *(2.0 * sin_half * cos_half, cc, ss),
+        *(n_0 * cc + n_pi * ss, p_0 * cc + p_pi * ss, q_0 * cc + q_pi * ss),
+    )
 
 
 def _to_far_pivot(reading: Reading, phi: float, sin_phi: float, cc: float, ss: float) -> tuple[float, float]:
@@ -123,54 +134,62 @@ def _to_far_pivot(reading: Reading, phi: float, sin_phi: float, cc: float, ss: f
 
 
 def _rocker_rate(reading: Reading, sin_phi: float, cc: float, ss: float, n2: float, r: float) -> float:
-    """nu' + g' h, as in `_rates`."""
+    """nu' + g' h, as in `rates`."""
     a, d, m = reading.a, reading.d, 1.0 / n2
     return a * ((a - d) * cc + (a + d) * ss) * m + 2.0 * reading.s * (a * d * sin_phi) / r * (0.5 + 0.5 * reading.e * m)
 
 
-def _rates(
-    reading: Reading,
-    sin_phi: float,
-    squares: tuple[float, float],
-    n2: float,
-    r: float,
-    z: float,
-    order: int,
-    motion: tuple[float, float, float],
-) -> list[float]:
+def rates(reading: Any, found: Any, order: int) -> tuple[Any, ...]:
     """Pairs (coupler, rocker) of rates from coupler' = nu' - g' (1 - h) and rocker' = nu' + g' h.
 
     g = s gamma is the rocker's lead on the coupler: g' = 2 s a d sin(phi)/R; h = 1/2 + e/(2 n^2);
     nu' = a [(a - d) cos^2(phi/2) + (a + d) sin^2(phi/2)]/n^2, which is 1/2 + f/n^2 but keeps the digits of a short
     crank. The higher rates differentiate these three.
+
+    Parameters
+        reading : Reading - of numbers, or of arrays
+        found : sin(phi), cos^2 and sin^2 of phi/2, n^2, R = sqrt(P Q), (P - Q)/2
+        order : int - 1 to 3
+    Returns
+        rates : (coupler', rocker', coupler'', ...) - by the driving angle
     """
-    velocity, acceleration, jerk = motion
     a, d, s, e, f = reading.a, reading.d, reading.s, reading.e, reading.f
-    ad, m, (cc, ss) = a * d, 1.0 / n2, squares
-    cos_phi = cc - ss
+    sin_phi, cc, ss, n2, r, z = found
+    ad, m = a * d, 1.0 / n2
     half_n1 = ad * sin_phi
     h = 0.5 + 0.5 * e * m
     g_1 = 2.0 * s * half_n1 / r
     nu_1 = a * ((a - d) * cc + (a + d) * ss) * m
     b_1, c_1 = nu_1 - g_1 * (0.5 - 0.5 * e * m), nu_1 + g_1 * h
-    rates = [velocity * b_1, velocity * c_1]
     if order == 1:
-        return rates
-    u_1 = half_n1 * m * m
+        return b_1, c_1
+    u_1, cos_phi = half_n1 * m * m, cc - ss
     g_2 = s * (2.0 * ad * cos_phi - g_1 * g_1 * z) / r
     c_2 = g_2 * h - u_1 * (2.0 * f + e * g_1)
-    b_2 = c_2 - g_2
-    v2 = velocity * velocity
-    rates += (v2 * b_2 + acceleration * b_1, v2 * c_2 + acceleration * c_1)
     if order == 2:
-        return rates
+        return b_1, c_1, c_2 - g_2, c_2
     u_2 = (ad * cos_phi - 4.0 * half_n1 * half_n1 * m) * m * m
     g_3 = g_1 * (g_1 * g_1 - 1.0) - 3.0 * g_1 * g_2 * s * z / r
     c_3 = g_3 * h - 2.0 * e * g_2 * u_1 - u_2 * (2.0 * f + e * g_1)
-    b_3 = c_3 - g_3
-    v3, va = v2 * velocity, 3.0 * velocity * acceleration
-    rates += (v3 * b_3 + va * b_2 + jerk * b_1, v3 * c_3 + va * c_2 + jerk * c_1)
-    return rates
+    return b_1, c_1, c_2 - g_2, c_2, c_3 - g_3, c_3
+
+
+def _in_motion(found: tuple[float, ...], motion: tuple[float, float, float]) -> Sequence[float]:
+    """Rates by time, the driving link turning with velocity, acceleration and jerk."""
+    if motion == _BY_ANGLE:
+        return found
+    velocity, acceleration, jerk = motion
+    b_1, c_1, *more = found
+    result = [velocity * b_1, velocity * c_1]
+    if not more:
+        return result
+    b_2, c_2, *more = more
+    v2 = velocity * velocity
+    result += (v2 * b_2 + acceleration * b_1, v2 * c_2 + acceleration * c_1)
+    if more:
+        (b_3, c_3), v3, va = more, v2 * velocity, 3.0 * velocity * acceleration
+        result += (v3 * b_3 + va * b_2 + jerk * b_1, v3 * c_3 + va * c_2 + jerk * c_1)
+    return result
 
 
 def closing_range(reading: Reading) -> tuple[float, float]:
