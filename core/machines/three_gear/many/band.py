@@ -1,7 +1,8 @@
 """The longest dwell within a tolerance for arrays of three-gear four-bars, as `linkages.band_dwell` has it for one.
 
 Inside the band both ends are found together, by Newton's method in two unknowns; where one end binds, and where the
-back-step is wider than the band, by roots inside brackets. Each design rests by itself.
+back-step is wider than the band, by roots inside brackets. Each design rests by itself. The one has brackets inside a
+bracket, whose steps multiply; the search therefore stands here again.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Motion of three-gear four-bars of any teeth for arrays of designs: speeds, their extremes, standstills, back-step.
 
-The equations are those of `linkages.fourbar.loop`, `motion` and `dwells` for arrays of linkages. Roots freeze each
-design that rests, as in `many.symmetric`.
+The formulas are those of `linkages.fourbar.loop`, `motion`, `momentary_dwell` and `dwells`, which take arrays. Searches
+stand here: Newton's, where each design that rests is frozen, as in `many.symmetric`.
 """
 
 from __future__ import annotations

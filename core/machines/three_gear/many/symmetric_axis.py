@@ -17,8 +17,11 @@ from gearlink.core.machines.three_gear.codes import ACHIEVED, BACK_STEP
 from gearlink.core.machines.three_gear.many import symmetric as many
 from gearlink.core.machines.three_gear.many.batch import Batch
 from gearlink.core.machines.three_gear.many.general import wrapped
+from gearlink.core.machines.three_gear.symmetric import family
+from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle_limit, window_limit
 from gearlink.core.machines.three_gear.synthesis.dwell_task import MARGIN
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.parts.linkages.checks import EDGE, WINDOW_FIT
 from gearlink.core.parts.linkages.codes import DWELL_EDGE
 from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
@@ -53,9 +56,14 @@ class Symmetric(Batch):
         return np.asarray(self.z1 != self.z5)
 
     @cached_property
+    def i3(self) -> Reals:
+        """Ratio of idler and output gear."""
+        return -self.z3 / self.z5
+
+    @cached_property
     def n(self) -> Reals:
         """1 - i3."""
-        return 1.0 + self.z3 / self.z5
+        return 1.0 - self.i3
 
     @cached_property
     def reason(self) -> Any:
@@ -65,19 +73,19 @@ class Symmetric(Batch):
     @cached_property
     def frame_ratio(self) -> Reals:
         """d."""
-        return many.frame_ratio(self.n, self.h)
+        found: Reals = family.frame_ratio(self.i3, self.h, ARRAYS)
+        return found
 
     @cached_property
     def links(self) -> tuple[Reals, Reals]:
         """From the frame ratio (thesis (4-10))."""
-        crank = self.coupler / np.sqrt(0.5 * (1.0 + self.frame_ratio * self.frame_ratio))
+        crank = family.crank_length(self.frame_ratio, self.coupler, ARRAYS)
         return crank, self.frame_ratio * crank
 
     @cached_property
     def speeds(self) -> tuple[Reals, Reals]:
         """In closed form (thesis (4-13))."""
-        swing = 2.0 * self.n * self.frame_ratio / (self.frame_ratio * self.frame_ratio + 1.0)
-        return 1.0 + swing, 1.0 - swing
+        return family.speed_ratio_limits(self.i3, self.frame_ratio)
 
     @cached_property
     def places_of_speeds(self) -> tuple[Reals, Reals]:
@@ -141,7 +149,7 @@ class Dwells(Symmetric):
     @cached_property
     def possible(self) -> Mask:
         """Below the limit of the gears."""
-        return many.in_range(self._asked, 0.0, 2.0 * math.pi * self.n / (self.n + 1.0))
+        return many.in_range(self._asked, 0.0, dwell_angle_limit(self.i3))
 
     @cached_property
     def h(self) -> Reals:
@@ -210,7 +218,7 @@ class Windows(Symmetric):
     def possible(self) -> Mask:
         """Windows and tolerances that the gears reach."""
         if self._by_window:
-            return many.in_range(self._window, 0.0, many.window_limit(self.n))
+            return many.in_range(self._window, 0.0, window_limit(self.i3))
         most = np.minimum(math.pi, 0.5 * (self.z3 / self.z5) * math.pi)
         return many.in_range(self.given_tolerance, 0.0, most) & (self._back_step_sought > 0.0)
 
@@ -324,5 +332,5 @@ class Speeds(Symmetric):
     @cached_property
     def frame_ratio(self) -> Reals:
         """From the band."""
-        d = many.frame_ratio_for_speeds(self.n, self.key("speed.min"), self.key("speed.max"))
+        d = family.frame_ratio_between(self.i3, self.key("speed.min"), self.key("speed.max"), ARRAYS)
         return np.where(self.exists, d, np.nan)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
@@ -158,8 +159,8 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     return h + y
 
 
-def dwell_angle_limit(i3: float) -> float:
-    """Upper limit of the dwell angle phi13, approached as phi12 -> pi and the frame ratio -> 1.
+def dwell_angle_limit(i3: Any) -> Any:
+    """Upper limit of the dwell angle phi13, approached as phi12 -> pi and the frame ratio -> 1; of one i3 < 0 or many.
 
     phi13 < 2 pi (1 - i3)/(2 - i3)
 
@@ -167,7 +168,6 @@ def dwell_angle_limit(i3: float) -> float:
         >>> round(math.degrees(dwell_angle_limit(-1.0)), 9)
         240.0
     """
-    check_ratio(i3)
     return 2.0 * math.pi * (1.0 - i3) / (2.0 - i3)
 
 
@@ -190,7 +190,8 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     Source
         own derivation: thesis (4-16) set to zero
     """
-    limit = dwell_angle_limit(i3)
+    check_ratio(i3)
+    limit: float = dwell_angle_limit(i3)
     if not 0.0 < dwell_angle < limit:
         raise NoSolution(
             f"the dwell angle {_deg(dwell_angle)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and "
@@ -205,8 +206,8 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     return 2.0 * h
 
 
-def window_limit(i3: float) -> float:
-    """Upper limit of the crank angle that the equal-ripple dwell of given gears can reach, with any tolerance.
+def window_limit(i3: Any) -> Any:
+    """Upper limit of the crank angle of an equal-ripple dwell, whatever the tolerance; of one i3 or many.
 
     Phi < 4 pi n/(n + 1) - pi,   n = 1 - i3
 
@@ -214,7 +215,6 @@ def window_limit(i3: float) -> float:
         >>> round(math.degrees(window_limit(-1.8)), 9)
         350.526315789
     """
-    check_ratio(i3)
     return math.pi * (3.0 * (1.0 - i3) - 1.0) / (2.0 - i3)
 
 
@@ -240,7 +240,8 @@ def crank_angle_for_window(i3: float, window: float) -> float:
         own derivation: by the oddness of the motion about 270 deg the output spans the band from phi(2) on one side
         to phi(1) on the other
     """
-    limit = window_limit(i3)
+    check_ratio(i3)
+    limit: float = window_limit(i3)
     if not 0.0 < window < limit:
         raise NoSolution(
             f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and below "

@@ -13,17 +13,18 @@ Angles of back-step and dwell stand in `gearlink.core.machines.three_gear.symmet
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 
 class SpeedLimits(NamedTuple):
     """Greatest and least output speed per input speed."""
 
-    greatest: float
-    least: float
+    greatest: Any
+    least: Any
 
 
 def frame_ratio_for_back_step(i3: float, back_step_crank_angle: float) -> float:
@@ -48,8 +49,14 @@ def frame_ratio_for_back_step(i3: float, back_step_crank_angle: float) -> float:
     """
     check_ratio(i3)
     check_back_step_crank_angle(back_step_crank_angle)
-    sc = math.sqrt(i3 * (i3 - 2.0)) * math.cos(0.5 * back_step_crank_angle)
-    return sc + math.hypot(sc, 1.0)
+    found: float = frame_ratio(i3, 0.5 * back_step_crank_angle)
+    return found
+
+
+def frame_ratio(i3: Any, h: Any, fn: Elementary = SCALARS) -> Any:
+    """d of a back-step over 2 h, as `frame_ratio_for_back_step`, of numbers or of arrays."""
+    sc = fn.sqrt(i3 * (i3 - 2.0)) * fn.cos(h)
+    return sc + fn.hypot(sc, 1.0)
 
 
 def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: float) -> float:
@@ -78,19 +85,25 @@ def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: fl
             f"no speed band from {low:.9g} to {high:.9g} rev/min: the output of this synthesis turns one way, so the "
             "lower speed must not be below 0 and the upper one must be above it"
         )
+    found: float = frame_ratio_between(i3, low, high)
+    return found
+
+
+def frame_ratio_between(i3: Any, low: Any, high: Any, fn: Elementary = SCALARS) -> Any:
+    """d of a speed band, as `frame_ratio_for_speed_band`, of numbers or of arrays."""
     q = (1.0 - i3) * ((high + low) / (high - low))
-    return q + math.sqrt((q - 1.0) * (q + 1.0))
+    return q + fn.sqrt((q - 1.0) * (q + 1.0))
 
 
-def speed_ratio_limits(i3: float, frame_ratio: float) -> SpeedLimits:
+def speed_ratio_limits(i3: Any, frame_ratio: Any) -> SpeedLimits:
     """Greatest and least speed ratio of the output, taken at the crank angles 90 and 270 deg.
 
     W_max, W_min = 1 +- 2 (1 - i3) d/(d^2 + 1)
 
+    Parameters
+        i3, frame_ratio : float or array - i3 < 0, d > 1
     Returns
         W_max, W_min : SpeedLimits
-    Raises
-        NoSolution - for i3 >= 0 or d <= 1
     Example
         >>> [round(w, 12) for w in speed_ratio_limits(-1.05, 8.07617907041421)]
         [1.5, 0.5]
@@ -98,8 +111,6 @@ def speed_ratio_limits(i3: float, frame_ratio: float) -> SpeedLimits:
     Source
         thesis (4-13)
     """
-    check_ratio(i3)
-    _check_frame_ratio(frame_ratio)
     swing = 2.0 * (1.0 - i3) * frame_ratio / (frame_ratio * frame_ratio + 1.0)
     return SpeedLimits(1.0 + swing, 1.0 - swing)
 
@@ -145,8 +156,13 @@ def symmetric_linkage(frame_ratio: float, center_distance: float, assembly: int 
         thesis (4-10)
     """
     _check_frame_ratio(frame_ratio)
-    crank = center_distance / math.sqrt(0.5 * (1.0 + frame_ratio * frame_ratio))
+    crank = crank_length(frame_ratio, center_distance)
     return FourBar(crank, center_distance, center_distance, frame_ratio * crank, assembly)
+
+
+def crank_length(d: Any, center_distance: Any, fn: Elementary = SCALARS) -> Any:
+    """a of `symmetric_linkage`, of numbers or of arrays."""
+    return center_distance / fn.sqrt(0.5 * (1.0 + d * d))
 
 
 def check_ratio(i3: float) -> None:
