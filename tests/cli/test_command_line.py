@@ -458,16 +458,16 @@ class TestBatch:
     ) -> None:
         for name in ("a", "b"):
             (tmp_path / f"{name}.yaml").write_text(CRANK)
-        from gearlink.cli.batch import pool as one_file
+        from gearlink.cli.batch import pool
 
-        original = one_file.build
+        original = pool.build
 
         def sometimes(loaded: Any, kind: Any, command: str, spec: Any, *rest: Any, **options: Any) -> Any:
             if spec.name == "a":
                 raise ZeroDivisionError("planted")
             return original(loaded, kind, command, spec, *rest, **options)
 
-        monkeypatch.setattr(one_file, "build", sometimes)
+        monkeypatch.setattr(pool, "build", sometimes)
         ended = gearlink("batch", tmp_path, "--format", "json")
         assert ended.status == ExitCode.FAULT
         assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]

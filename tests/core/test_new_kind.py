@@ -106,6 +106,25 @@ def test_sheet_film_report_and_picture(run: Any, tmp_path: Path) -> None:
     assert {".png", ".html"} <= made
 
 
+def test_film_runs_on_the_pins(run: Any) -> None:
+    """The film's bar from A over B to C, at the fractions of a revolution that it is asked for."""
+    from gearlink.cli.views.scenes.of_motion import build
+    from gearlink.cli.views.scenes.scene import Chain
+    from gearlink.core.push_rod.design import PushRod
+
+    design = PushRod(RECORD.spec_model().model_validate({"kind": "push-rod", "crank": 40, "rod": 150}))
+    fraction = np.array([0.0, 0.1, 0.37, 0.8])
+    scene, crank = build(design, fraction), 40.0 * np.exp(2j * np.pi * fraction)
+    end = crank.real + np.sqrt(150.0**2 - crank.imag**2)
+    bars = [part.joints for part in scene.parts if isinstance(part, Chain)]
+    assert any(np.allclose(bar, [0.0 * crank, crank], rtol=0.0, atol=1e-12) for bar in bars)
+    assert any(np.allclose(bar, [crank, end], rtol=0.0, atol=1e-12) for bar in bars)
+    assert {mark.text for mark in scene.marks} >= {"A", "B", "C"}
+    (curve,) = scene.chart.curves
+    assert curve.now == pytest.approx(end, rel=1e-13)
+    assert run("analyze", "push-rod.yaml")
+
+
 def test_register(run: Any) -> None:
     found = json.loads(run("register", "push-rod.yaml", "--at", "0", "--format", "json"))
     rows = found["tables"]["budget"]["rows"]

@@ -412,7 +412,7 @@ def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, m
 
 def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Designs know their parts and these the design: 0.3 MB of each file of wide swings stayed."""
-    from gearlink.cli.batch import pool as one_file
+    from gearlink.cli.batch import pool
 
     asked: list[int] = []
 
@@ -420,8 +420,8 @@ def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pyte
         if phase == "start" and found["generation"] == 2:
             asked.append(1)
 
-    monkeypatch.setattr(one_file, "_files", itertools.count(1))
-    monkeypatch.setattr(one_file, "_AT_A_TIME", 2)
+    monkeypatch.setattr(pool, "_files", itertools.count(1))
+    monkeypatch.setattr(pool, "_AT_A_TIME", 2)
     gc.disable()
     gc.callbacks.append(collected)
     try:

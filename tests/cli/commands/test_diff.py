@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from conftest import ROOT
 
-from gearlink.cli.commands import diff as result_file
+from gearlink.cli.commands import diff
 from gearlink.cli.commands.diff_page import show_difference
 from gearlink.cli.commands.difference import Change, Difference, relative_change, same
 from gearlink.cli.options import Options
@@ -361,7 +361,7 @@ def test_infinities(gearlink: Any, two: Any, old: str, new: str, status: int) ->
     ids=["10^400", "10^5000", "depth 100000", "depth 500", "depth 20", "1 MiB"],
 )
 def test_what_no_result_holds(gearlink: Any, two: Any, monkeypatch: pytest.MonkeyPatch, value: str, word: str) -> None:
-    monkeypatch.setattr(result_file, "LARGEST", 1 << 20)  # 64 of them take half a second
+    monkeypatch.setattr(diff, "LARGEST", 1 << 20)  # 64 of them take half a second
     ended = gearlink("diff", *two(RESULT % value, RESULT % "1", ".json"))
     assert ended.status == 2
     assert "GL117" in ended.err

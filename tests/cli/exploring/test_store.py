@@ -128,9 +128,9 @@ def test_what_a_killed_run_leaves_on_the_disk_is_continued(
     """Its files as they stand while a chunk is computed, which is all that is left of a process that is killed then."""
     store, killed = tmp_path / "s.sqlite", tmp_path / "killed.sqlite"
     ran: list[int] = []
-    from gearlink.cli.exploring import run as computing
+    from gearlink.cli.exploring import run
 
-    real = computing.computed
+    real = run.computed
 
     def computed(text: str, number: int) -> Any:
         if ran == [0, 1]:
@@ -139,7 +139,7 @@ def test_what_a_killed_run_leaves_on_the_disk_is_continued(
         ran.append(number)
         return real(text, number)
 
-    monkeypatch.setattr(computing, "computed", computed)
+    monkeypatch.setattr(run, "computed", computed)
     alone = json_of(gearlink, study, "--jobs", 1, "--store", store)
     whole = list(ran)
     assert whole == [*range(len(whole))]
@@ -157,10 +157,10 @@ def test_finished_chunks_are_not_computed_again(
         connection.execute("DELETE FROM chunk WHERE id = 3")
     connection.close()
     ran: list[int] = []
-    from gearlink.cli.exploring import run as computing
+    from gearlink.cli.exploring import run
 
-    real = computing.computed
-    monkeypatch.setattr(computing, "computed", lambda text, number: ran.append(number) or real(text, number))
+    real = run.computed
+    monkeypatch.setattr(run, "computed", lambda text, number: ran.append(number) or real(text, number))
     assert json_of(gearlink, study, "--jobs", 1, "--store", store, "--resume") == alone
     assert ran == [3]
 
@@ -240,10 +240,10 @@ PARENT = os.getpid()
 def test_a_worker_that_dies_is_replaced_and_the_culprit_named(
     gearlink: Any, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gearlink.cli.exploring import run as computing
+    from gearlink.cli.exploring import run
 
-    monkeypatch.setattr(computing, "computed", dies)
-    monkeypatch.setattr(computing, "_survives", lambda _, first, last: not first <= 150 < last)
+    monkeypatch.setattr(run, "computed", dies)
+    monkeypatch.setattr(run, "_survives", lambda _, first, last: not first <= 150 < last)
     ended = gearlink("explore", study, "--jobs", 2)
     assert ended.status == 3
     assert "design 150 ends the process" in ended.err

@@ -22,7 +22,7 @@ from factory import design
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from gearlink.cli.commands import watch as server
+from gearlink.cli.commands import watch
 from gearlink.cli.commands.watch import Board, _make, run_watch, served
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
@@ -114,8 +114,8 @@ def test_names_of_this_machine(lines: list[str], status: int) -> None:
 
 def test_so_many_readers_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     """Those who ask for nothing are let go after a while, and their places are free again."""
-    monkeypatch.setattr(server, "_MOST_READERS", 3)
-    monkeypatch.setattr(server, "_PATIENCE", 0.3)
+    monkeypatch.setattr(watch, "_MOST_READERS", 3)
+    monkeypatch.setattr(watch, "_PATIENCE", 0.3)
     with served(Board(), lambda: "shell", 0) as address, ExitStack() as block:
         place = urllib.parse.urlsplit(address)
         for _ in range(3):
