@@ -287,6 +287,15 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:six_bar",
         ),
         Kind(
+            "planar-mechanism",
+            "any planar mechanism: links, pins, slides, slots, gears and racks, one or more drives",
+            "machines.planar",
+            "spec:PlanarSpec",
+            {"analyze": "design:PlanarMechanism", "tolerance": ""},
+            motion="mechanism:motion",
+            worked="planar_watt",
+        ),
+        Kind(
             "hypocycloid-dwell",
             "slider that dwells on an arc of a hypocycloid",
             "machines.dwell_gears",

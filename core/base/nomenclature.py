@@ -10,6 +10,7 @@ from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.gear_terms import GEAR_PAIR
 from gearlink.core.base.linkage_terms import GEAR_LINKAGE, REAL_SPEED, SLIDER
 from gearlink.core.base.motion_terms import MOTION_EXTREMES
+from gearlink.core.base.planar_terms import PLANAR
 from gearlink.core.base.term import Term as Term
 
 _SLIDER_CRANK = {
@@ -331,6 +332,7 @@ TERMS: dict[str, Term] = {
     **_HYPOCYCLOID,
     **_FIVE_BAR,
     **MOTION_EXTREMES,
+    **PLANAR,
     **_STUDY,
     **_TOLERANCE,
     **_REGISTER,

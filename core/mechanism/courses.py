@@ -93,7 +93,7 @@ def all_rates(names: Mapping[str, Course]) -> list[Shown]:
 
 
 def columns_of(motion: Motion, q: Reals, shown: Iterable[Shown]) -> dict[str, tuple[Any, str]]:
-    """Columns of a table: angles in deg, lengths in mm, derivatives per rad of the input."""
+    """Columns of a table: angles in deg, lengths in mm, derivatives per rad or mm of the input."""
     found: dict[str, tuple[Any, str]] = {}
     known: dict[Course, list[Reals]] = {}
     wanted = list(shown)
@@ -102,14 +102,27 @@ def columns_of(motion: Motion, q: Reals, shown: Iterable[Shown]) -> dict[str, tu
         if each.course not in known:
             known[each.course] = each.course.rates(motion, q, highest)
         rate = known[each.course][each.order]
-        angle = each.course.unit == "rad"
-        if angle and each.order == 0:
+        if each.course.unit == "rad" and each.order == 0:
             found[each.column] = np.degrees(rate), "deg"
-        elif angle or each.course.unit == "1":
-            found[each.column] = rate, "1"
         else:
-            found[each.column] = rate, each.course.unit + ("", "/rad", "/rad^2", "/rad^3")[each.order]
+            found[each.column] = rate, unit_of(each.course.unit, each.order, motion.input.unit)
     return found
+
+
+def unit_of(unit: str, order: int, per: str = "rad") -> str:
+    """Unit of a derivative of what is in rad, mm or 1, by an input in rad or mm.
+
+    Example
+        >>> unit_of("rad", 2), unit_of("mm", 2), unit_of("rad", 2, "mm"), unit_of("mm", 2, "mm")
+        ('1', 'mm/rad^2', 'rad/mm^2', '1/mm')
+    """
+    if per == "rad":
+        return "1" if unit in ("rad", "1") else unit + ("", "/rad", "/rad^2", "/rad^3")[order]
+    power = order - 1 if unit == "mm" else order
+    top = "1" if unit in ("mm", "1") else unit
+    if order == 0:
+        return unit
+    return top if power == 0 else f"{top}/mm{'' if power == 1 else f'^{power}'}"
 
 
 def motion_table(

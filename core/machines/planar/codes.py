@@ -1,0 +1,30 @@
+"""The rules that the checks of a planar mechanism judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.base.report import Rule
+
+CLOSURE = Rule(
+    "GL305",
+    "joints that do not close",
+    "Over the rows of the period or range the two bodies of a joint are apart by more than rounding.",
+    "Everything else is computed from these positions.",
+    "Move the range away from a dead centre; where none is near, report the file.",
+    "greatest gap of a pin or line over the rows; fails above 1e-9 of the largest length",
+    "own derivation",
+    ("closure",),
+    ("range", "start"),
+    side="<=",
+)
+ASSEMBLY = Rule(
+    "GL318",
+    "start far from what is found",
+    "The direction of a link at input 0 is more than 45 deg off the rough one of `start`.",
+    "The rough directions choose among the ways in which links can be put together: another one may be meant.",
+    "Give the direction that is found, or that of the assembly that is meant; look at the picture (--plot).",
+    "difference of directions; warns above 45 deg",
+    "own derivation",
+    ("assembly",),
+    ("start",),
+    side="<=",
+)

@@ -1,0 +1,308 @@
+"""A planar mechanism as a design: what its outputs do over the input, its tables and its checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.remedies.ways import Way
+from gearlink.core.base.report import Check, Quantity
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.planar import tables
+from gearlink.core.machines.planar.codes import ASSEMBLY, CLOSURE
+from gearlink.core.machines.planar.names import GENERAL, generic, meanings, words_of
+from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.studies.clearance.checks import collision_check, seat_checks, shaft_checks
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from gearlink.core.machines.planar.course import Course
+    from gearlink.core.machines.planar.extremes import Extreme, Pair
+    from gearlink.core.machines.planar.names import Meaning
+    from gearlink.core.machines.planar.spec import PlanarSpec
+    from gearlink.core.machines.planar.structure import Structure
+    from gearlink.core.studies.clearance.bodies import Layout
+
+_CLOSED = 1e-9
+_FAR_OFF = 45.0  # deg
+_ANYWAY = ("degrees_of_freedom", "period_turns")
+
+
+def _folded(angle: float) -> float:
+    """The acute angle between two lines."""
+    return min(abs(angle) % math.pi, math.pi - abs(angle) % math.pi)
+
+
+class OfFile:
+    """Names of quantities that follow the names of a file: of a class those that there may be, of a design its own."""
+
+    def __get__(self, design: Any, cls: Any) -> Callable[[], tuple[str, ...]]:
+        if design is not None:
+            return lambda: design.own_names
+        shown = (name for outline in cls.outlines.values() for name in outline.quantities)
+        names = tuple(dict.fromkeys(shown))
+        return lambda: names
+
+
+class PlanarMechanism(Design):
+    """Links, joints and drives of a file in motion."""
+
+    kind = "planar-mechanism"
+    spec: PlanarSpec
+    outlines = {
+        "analyze": Outline(
+            (*GENERAL, *generic()),
+            ("closure", "assembly", "transmission-angle", "gear-collision", "shaft-clearance", "shaft-seat"),
+            ("motion",),
+        )
+    }
+    extra_tables = ("links", "points", "slides", "poles")
+    quantity_names = OfFile()  # type: ignore[assignment]
+
+    @cached_property
+    def structure(self) -> Structure:
+        """Its bodies and joints."""
+        from gearlink.core.machines.planar.structure import Structure
+
+        return Structure(self.spec)
+
+    @cached_property
+    def course(self) -> Course:
+        """Its motion from the start on."""
+        from gearlink.core.machines.planar.course import Course
+
+        return Course(self.structure)
+
+    @property
+    def cost(self) -> float:
+        """A motion is followed over many places, and then searched."""
+        followed = self.course.walk.followed if "course" in self.__dict__ and "walk" in self.course.__dict__ else 50
+        return 2.0 * (followed + 20.0 * len(self.spec.links))
+
+    # Names
+
+    @cached_property
+    def meanings(self) -> dict[str, Meaning]:
+        """What the quantities of the outputs are."""
+        from gearlink.core.machines.planar.outputs import moved
+
+        per, timed = "mm" if self.spec.drive.slide else "rad", self.spec.input_speed is not None
+        return dict(
+            chain.from_iterable(
+                meanings(moved(self.structure, name), name, per, timed=timed) for name in self.spec.shown
+            )
+        )
+
+    @property
+    def own_names(self) -> tuple[str, ...]:
+        """The quantities of this design."""
+        return (*GENERAL, *self.meanings)
+
+    def outline(self, command: str) -> Outline:
+        """With the quantities of the file's outputs."""
+        return super().outline(command)._replace(quantities=self.own_names)
+
+    def decisive(self, _command: str) -> Iterable[str]:
+        """Where the motion is followed to its end, everything exists."""
+        return _ANYWAY
+
+    def raw(self, name: str) -> Any:
+        """Extremes stand under the names of the outputs."""
+        return super().raw(name) if name in GENERAL else self._of_output(self.meanings[name])
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Units of the outputs follow the input and what they are."""
+        meaning = self.meanings.get(name)
+        found = None if meaning is None else self.raw(name)
+        if meaning is None:
+            quantity = super().quantity(name)
+            slides = (
+                self.spec.drive.slide and quantity is not None and name in ("free_range", "min_transmission_angle_at")
+            )
+            if not slides or quantity is None:
+                return quantity
+            return Quantity(name, self.raw(name), "mm", quantity.symbol, quantity.words)
+        if found is None:
+            return None
+        return Quantity(name, math.degrees(found) if meaning.unit == "deg" else found, meaning.unit, "", words_of(name))
+
+    # General quantities
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Gruebler's degrees of freedom.
+
+        Raises
+            NoSolution - where there are not as many drives, or the mechanism does not close
+        """
+        _ = self.course.at_start.closed
+        return self.structure.freedoms
+
+    @property
+    def period_turns(self) -> int | None:
+        """Input turns until everything repeats; None over a range."""
+        return self.course.turns
+
+    @property
+    def grashof(self) -> list[str] | None:
+        """What the four-bars of the driven link on the frame are."""
+        from gearlink.core.machines.planar.grashof import loops
+
+        return loops(self.spec) or None
+
+    @property
+    def free_range(self) -> list[float | None] | None:
+        """Inputs between which there is no dead centre [rad or mm], with a range."""
+        found = None if self.spec.range is None else self.course.free_range
+        return None if found is None else list(found)
+
+    @cached_property
+    def closure_error(self) -> float:
+        """Greatest gap of a joint over the rows [mm]."""
+        from gearlink.core.machines.planar.closure import greatest_gap
+
+        return greatest_gap(self.course)
+
+    # Extremes
+
+    @cached_property
+    def extremes(self) -> dict[tuple[str, int], Pair]:
+        """Extremes of all outputs with their derivatives, and of the transmission angles."""
+        from gearlink.core.machines.planar.extremes import extremes
+
+        sought: dict[str, Any] = {}
+        for each in self.meanings.values():
+            if each.side in ("max", "min", "span") and not self._turns_through(each):
+                orders = sought.setdefault(each.output.name, (each.output.coefficient, []))[1]
+                if each.order not in orders:
+                    orders.append(each.order)
+        for i, dyad in enumerate(self.course.dyads):
+            sought[f"dyad {i}"] = dyad.angle, [0]
+        return extremes(self.course, sought)
+
+    def _turns_through(self, meaning: Meaning) -> bool:
+        """Whether it is the direction of a link that turns on and on."""
+        of_direction = meaning.output.sort == "link" and meaning.order == 0
+        return of_direction and self.period_turns is not None and bool(self.course.gains[meaning.output.body])
+
+    def _of_output(self, meaning: Meaning) -> float | None:
+        output, order = meaning.output, meaning.order
+        through = self._turns_through(meaning)
+        if meaning.side == "turns":
+            return float(round(self.course.gains[output.body] / (2.0 * math.pi))) if through else None
+        if through:
+            return None
+        if meaning.side == "path":
+            from gearlink.core.machines.planar.outputs import point_output
+            from gearlink.core.machines.planar.path import length
+
+            return length(self.course, *point_output(self.structure, output.name.removesuffix("_x")))
+        found = self.extremes[output.name, order]
+        if meaning.side == "span":
+            return found.max.value - found.min.value
+        extreme: Extreme = found.max if meaning.side.startswith("max") else found.min
+        if meaning.side.endswith("_at"):
+            return extreme.place
+        return extreme.value * (self.angular_speed or 0.0) ** order if meaning.timed else extreme.value
+
+    @property
+    def angular_speed(self) -> float | None:
+        """Speed of the input [rad/s or mm/s], where it is known."""
+        given = self.spec.input_speed
+        return None if given is None else given if self.spec.drive.slide else given * math.pi / 30.0
+
+    @cached_property
+    def _transmission(self) -> tuple[float, float] | None:
+        """Least transmission angle of the dyads and its input."""
+        found = [self.extremes[f"dyad {i}", 0] for i in range(len(self.course.dyads))]
+        angles = [(_folded(each.value), each.place) for pair in found for each in pair]
+        if not angles:
+            return None
+        least = min(angle for angle, _ in angles)
+        return least, min(place for angle, place in angles if angle <= least + 1e-10)
+
+    @property
+    def min_transmission_angle(self) -> float | None:
+        """Least transmission angle of all dyads over the period or range [rad]."""
+        return None if self._transmission is None else self._transmission[0]
+
+    @property
+    def min_transmission_angle_at(self) -> float | None:
+        """Its input [rad or mm]."""
+        return None if self._transmission is None else self._transmission[1]
+
+    # Tables
+
+    table_motion, table_links, table_points = tables.motion, tables.links, tables.points
+    table_slides, table_poles = tables.slides, tables.poles
+
+    # Checks
+
+    def check_closure(self) -> Check:
+        """GL305: joints that are closed at every row."""
+        largest = self.structure.largest
+        share = self.closure_error / largest
+        text = f"the joints close to {self.closure_error:.2g} mm over the rows"
+        if share > _CLOSED:
+            text += (
+                f", more than {_CLOSED:g} of the largest length {largest:.6g} mm: stay away from a dead centre (range)"
+            )
+        return CLOSURE.check("fail" if share > _CLOSED else "pass", text, self.closure_error, _CLOSED * largest, "mm")
+
+    def check_assembly(self) -> Iterator[Check]:
+        """GL318: rough start directions against those that were found."""
+        for name, error in self.course.at_start.rough_errors.items():
+            off = math.degrees(error)
+            if off <= _FAR_OFF:
+                continue
+            _, t = self.course.at_start.closed
+            found = math.degrees(float(t[self.structure.numbers[name]]))
+            text = (
+                f"{name} stands at {found:.6g} deg at the start, {off:.4g} deg off the {self.spec.start[name]:g} deg of "
+                f"start.{name}: another assembly may be meant"
+            )
+            yield ASSEMBLY.check("warn", text, off, _FAR_OFF, "deg")
+
+    def check_transmission_angle(self) -> Iterator[Check]:
+        """GL303: the least of all dyads."""
+        if self.min_transmission_angle is not None:
+            remedy = "change the lengths so that the two links that close a dyad come nearer to a right angle"
+            limit = self.spec.limits.transmission_angle
+            yield transmission_check(self.min_transmission_angle, limit, remedy, "the least transmission angle")
+
+    @cached_property
+    def layout(self) -> Layout | None:
+        """Gears and shafts; None without either."""
+        from gearlink.core.machines.planar.bodies import layout
+
+        return layout(self)
+
+    def check_gear_collision(self) -> Iterator[Check]:
+        """GL301: gears that do not mesh."""
+        for pair in () if self.layout is None else self.layout.gear_pairs:
+            why = f"their centres are {pair.distance:.6g} mm apart"
+            remedy = "take a smaller module or fewer teeth, or set the centres farther apart"
+            yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return iter(()) if self.layout is None else shaft_checks(self.layout)
+
+    def check_shaft_seat(self) -> Iterator[Check]:
+        """GL302."""
+        return iter(()) if self.layout is None else seat_checks(self.layout)
+
+    def ways_of(self, check: str) -> Iterable[Way]:
+        """Lengths of the bars, where the transmission angle is poor; shafts where they are in the way."""
+        from gearlink.core.base.remedies.ways import down, either
+
+        if check == "transmission-angle":
+            bars = [f"links.{name}[2]" for name, link in self.spec.links.items() if isinstance(link, list)]
+            return either(*bars) if bars else ()
+        if check == "shaft-clearance":
+            return tuple(down(f"shafts.{name}") for name in self.spec.shafts)
+        return ()

@@ -1,0 +1,200 @@
+"""Dyads of a planar mechanism: two unknowns that close one pin, their transmission angle and their other closing.
+
+Each unknown moves the closing pin, the direction of a link about its pivot or a place along a line; the transmission
+angle is the angle between these two motions, 0 to 90 deg. It vanishes in the dyad's dead centres alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlink.core.machines.planar.structure import LineJoint, PinJoint, Structure
+from gearlink.core.machines.planar.system import Jets, System, scaled
+from gearlink.core.mechanism.blocks import Block
+from gearlink.core.numerics.arrays import Points, Reals
+
+
+class Swing(NamedTuple):
+    """A closing point that turns about a pivot; both by body and place on it [size]."""
+
+    pivot: tuple[int, complex]
+    pin: tuple[int, complex]
+
+
+class Along(NamedTuple):
+    """A closing point that moves along a line of a body."""
+
+    body: int
+    direction: float
+
+
+@dataclass(frozen=True)
+class Dyad:
+    """Two unknowns that close a pin.
+
+    Fields
+        block : the part of the equations
+        bodies : numbers of its links
+        ways : how each unknown moves the closing pin
+        moved : bodies that each unknown carries, for the other closing
+    """
+
+    block: Block
+    bodies: tuple[int, ...]
+    ways: tuple[Swing | Along, Swing | Along]
+    moved: tuple[tuple[int, ...], tuple[int, ...]]
+
+    def motions(self, jets: Jets, k: int) -> tuple[Points, Points]:
+        """Coefficients of the two motions of the closing pin."""
+        one, other = (_motion(way, jets, k) for way in self.ways)
+        return one, other
+
+    def angle(self, jets: Jets, k: int) -> Reals:
+        """Taylor coefficients of the angle from the one motion to the other [rad], which never folds.
+
+        L = log z, k L_k = (k z_k - sum_(j=1..k-1) j L_j z_(k-j))/z_0
+        """
+        pairs = [self.motions(jets, j) for j in range(k + 1)]
+        z = [sum(np.conj(pairs[j][0]) * pairs[i - j][1] for j in range(i + 1)) for i in range(k + 1)]
+        if k == 0:
+            return np.asarray(np.angle(z[0]))
+        logs = [np.zeros_like(z[0])]
+        for i in range(1, k + 1):
+            logs.append((i * z[i] - sum(j * logs[j] * z[i - j] for j in range(1, i))) / (i * z[0]))
+        return np.asarray(logs[k].imag)
+
+    def transmission(self, jets: Jets) -> Reals:
+        """The transmission angle [rad]."""
+        one, other = self.motions(jets, 0)
+        across, along = (np.conj(one) * other).imag, (np.conj(one) * other).real
+        return np.asarray(np.arctan2(np.abs(across), np.abs(along)))
+
+
+def _motion(way: Swing | Along, jets: Jets, k: int) -> Points:
+    if isinstance(way, Swing):
+        return np.asarray(1j * (jets.point(*way.pin, k) - jets.point(*way.pivot, k)))
+    return np.asarray(np.exp(1j * way.direction) * jets.e[k][:, way.body])
+
+
+def dyads(structure: Structure, system: System) -> list[Dyad]:
+    """The dyads among the parts of the equations of a mechanism."""
+    joints = _joints(structure)
+    found = []
+    for block in system.blocks:
+        bodies = {column // 3 + 1 for column in block.columns}
+        own = [each for each in system.blocks if {column // 3 + 1 for column in each.columns} & bodies]
+        rows = {row for each in own for row in each.rows}
+        if any({column // 3 + 1 for column in each.columns} - bodies for each in own):
+            continue
+        if any(2 in (column % 3 for column in each.columns) for each in own if each != block):
+            continue  # its directions were known before
+        made = _dyad(block, bodies, [joints.get(row) for row in sorted(rows)], structure)
+        if made is not None:
+            found.append(made)
+    return found
+
+
+def _joints(structure: Structure) -> dict[int, PinJoint | LineJoint]:
+    """By equation the joint that it is of; those of drives and meshes are left out."""
+    each: list[PinJoint | LineJoint] = [pin for pin in structure.pins for _ in range(2)]
+    each += [slide for slide in structure.slides.values() for _ in range(2)]
+    each += structure.slots.values()
+    return dict(enumerate(each))
+
+
+def _ends(joint: PinJoint | LineJoint) -> tuple[int, int]:
+    return (joint.first, joint.second) if isinstance(joint, PinJoint) else (joint.line.body, joint.line.other)
+
+
+def _dyad(
+    block: Block, bodies: set[int], joints: list[PinJoint | LineJoint | None], structure: Structure
+) -> Dyad | None:
+    if None in joints or len(joints) != 3 * len(bodies):
+        return None
+    distinct = list(dict.fromkeys(joint for joint in joints if joint is not None))
+    slots = [each for each in distinct if isinstance(each, LineJoint) and each.lean is None]
+    if len(bodies) == 1 and len(distinct) == 2 and len(slots) == 1:
+        (body,), (held,) = bodies, (each for each in distinct if each not in slots)
+        line = scaled(slots[0].line, structure.size)
+        along = Along(line.body, line.direction)
+        swing = _held_way(held, body, (line.other, line.point), structure.size)
+        return Dyad(block, (body,), (swing, along), ((body,), ()))
+    if len(bodies) == 2 and len(distinct) == 3 and not slots:
+        return _of_two(block, tuple(sorted(bodies)), distinct, structure.size)
+    return None
+
+
+def _held_way(joint: PinJoint | LineJoint, body: int, pin: tuple[int, complex], size: float) -> Swing | Along:
+    """How a body that a joint leaves one freedom moves a point."""
+    if isinstance(joint, PinJoint):
+        place = joint.at_first if joint.first == body else joint.at_second
+        return Swing((body, place / size), pin)
+    return Along(joint.line.body, joint.line.direction)
+
+
+def _of_two(block: Block, bodies: tuple[int, ...], joints: list[PinJoint | LineJoint], size: float) -> Dyad | None:
+    one, other = bodies
+    inner = [each for each in joints if {*_ends(each)} == {one, other}]
+    outer = {body: [each for each in joints if body in _ends(each) and each not in inner] for body in bodies}
+    if len(inner) != 1 or any(len(each) != 1 for each in outer.values()):
+        return None
+    (joint,), (first,), (second,) = inner, outer[one], outer[other]
+    if isinstance(joint, PinJoint):
+        pins = {joint.first: joint.at_first / size, joint.second: joint.at_second / size}
+        ways = _held_way(first, one, (one, pins[one]), size), _held_way(second, other, (other, pins[other]), size)
+        return Dyad(block, bodies, ways, ((one,), (other,)))
+    along = Along(joint.line.body, joint.line.direction)
+    if isinstance(first, LineJoint) and isinstance(second, PinJoint):
+        one, other, first, second = other, one, second, first
+    if not isinstance(first, PinJoint):
+        return None
+    if isinstance(second, PinJoint):
+        far = (other, (second.at_first if second.first == other else second.at_second) / size)
+        return Dyad(block, bodies, (_held_way(first, one, far, size), along), ((one, other), (other,)))
+    return Dyad(block, bodies, (along, Along(second.line.body, second.line.direction)), ((one,), (other,)))
+
+
+def mirrored(dyad: Dyad, x: Points, t: Reals) -> None:
+    """Move the bodies of a dyad about to its other closing, in place; Newton's steps do the rest.
+
+    Where one unknown swings, the closing pin is mirrored at the line from its pivot to that of the other, or across
+    the foot of the pivot on the other's line.
+    """
+    jets = Jets([x[None].copy()], [t[None].copy()])
+    one, other = dyad.ways
+    if isinstance(one, Along):
+        one, other = other, one
+    if not isinstance(one, Swing):
+        return  # two lines cross once
+    pivot, pin = (complex(jets.point(*each, 0)[0]) for each in (one.pivot, one.pin))
+    arm = pin - pivot
+    if isinstance(other, Swing):
+        base = complex(jets.point(*other.pivot, 0)[0])
+        line = base - pivot
+        image = pivot + np.conj(arm / line) * line if line else pin
+        turned = {one.pivot[0]: (pivot, (image - pivot) / arm), other.pivot[0]: (base, (image - base) / (pin - base))}
+        for body, (about, turn) in turned.items():
+            _turn(x, t, body, about, complex(turn))
+        return
+    along = complex(np.exp(1j * other.direction) * jets.e[0][0, other.body])
+    seen = arm / along
+    image = -np.conj(seen) * along
+    if other.body in dyad.bodies:  # the line turns with the link: the pin stays, the line comes from the other side
+        for body in dyad.bodies:
+            _turn(x, t, body, pivot, arm / image)
+        return
+    moved = image - arm
+    for body in dyad.bodies:
+        if body == one.pivot[0]:
+            _turn(x, t, body, pivot, image / arm)
+        else:
+            x[body] += moved
+
+
+def _turn(x: Points, t: Reals, body: int, about: complex, turn: complex) -> None:
+    unit = turn / abs(turn) if turn else 1.0
+    x[body] = about + (x[body] - about) * unit
+    t[body] += float(np.angle(unit))

@@ -1,0 +1,192 @@
+"""Greatest and least values of what a planar mechanism moves, and of its derivatives, over its period or range.
+
+Rows of a grid bracket the zeros of the next derivative; Newton's steps with that and the one after it find them, all
+places of all courses together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.machines.planar.course import Course
+from gearlink.core.machines.planar.system import Jets
+from gearlink.core.numerics.arrays import Reals
+
+Coefficient: TypeAlias = Callable[[Jets, int], Reals]
+_ROUNDS = 40
+_NOISE = 1e-11  # of the size of a course and its lower derivatives: what is below stands still
+_EQUAL = 1e-10
+_AT_END = 1e-9  # of the period
+
+
+class Extreme(NamedTuple):
+    """A value, per rad or mm of the input to its power, and the input where it first occurs [rad or mm]."""
+
+    value: float
+    place: float
+
+
+class Pair(NamedTuple):
+    """The greatest and the least value."""
+
+    max: Extreme
+    min: Extreme
+
+
+class _Sought(NamedTuple):
+    course: str
+    order: int
+    low: float
+    high: float
+    sign: float
+
+
+def extremes(course: Course, sought: Mapping[str, tuple[Coefficient, Sequence[int]]]) -> dict[tuple[str, int], Pair]:
+    """Extremes of courses and their derivatives.
+
+    Parameters
+        sought : name -> (Taylor coefficients, orders of the derivatives)
+    Returns
+        found : (name, order) -> Pair
+    """
+    highest = max((max(orders) for _, orders in sought.values()), default=0)
+    grid = course.grid
+    jets = course.jets(grid, highest + 1)
+    rows = {name: course.derivatives(of, jets, max(orders) + 1) for name, (of, orders) in sought.items()}
+    brackets = [
+        bracket
+        for name, (_, orders) in sought.items()
+        for order in orders
+        for bracket in _brackets(name, order, grid, rows[name])
+    ]
+    places, values = _refined(course, {name: of for name, (of, _) in sought.items()}, brackets, highest)
+    found = {}
+    for name, (_, orders) in sought.items():
+        for order in orders:
+            mine = [i for i, each in enumerate(brackets) if (each.course, each.order) == (name, order)]
+            found[name, order] = _pair(course, grid, rows[name], order, places[mine], values[mine])
+    return found
+
+
+def turning_points(course: Course, of: Coefficient, *, ahead: int) -> Reals:
+    """Where a number is least next to its neighbours.
+
+    Parameters
+        of : its Taylor coefficients; coefficient k needs those of the motion up to k + ahead
+    """
+    grid = course.grid
+    slope = course.derivatives(of, course.jets(grid, 1 + ahead), 1)[1]
+    steps = np.flatnonzero((slope[:-1] < 0.0) & (slope[1:] >= 0.0))
+    sought = [_Sought("", 0, float(grid[i]), float(grid[i + 1]), -1.0) for i in steps]
+    return _refined(course, {"": of}, sought, ahead)[0]
+
+
+def _size(rows: Sequence[Reals], order: int) -> float:
+    return max(float(np.abs(each).max()) for each in rows[1 if order else 0 : order + 1])
+
+
+def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals]) -> list[_Sought]:
+    """Steps of the grid in which the next derivative changes its sign next to the greatest and the least values."""
+    value, slope = rows[order], rows[order + 1]
+    size = _size(rows, order)
+    if float(np.ptp(value)) <= _NOISE * size:
+        return []
+    width = np.diff(grid)
+    changes = ((slope[:-1] > 0.0) != (slope[1:] > 0.0)) & (np.abs(slope[:-1]) + np.abs(slope[1:]) > 0.0)
+    room = width * np.maximum(np.abs(slope[:-1]), np.abs(slope[1:]))
+    found: list[_Sought] = []
+    for sign in (1.0, -1.0):
+        top = np.maximum(sign * value[:-1], sign * value[1:])
+        turns = (slope[:-1] > 0.0) if sign > 0.0 else (slope[:-1] <= 0.0)
+        near = top + room >= float(top.max()) - _EQUAL * size
+        found += (
+            _Sought(name, order, float(grid[i]), float(grid[i + 1]), sign)
+            for i in np.flatnonzero(changes & turns & near)
+        )
+    return found
+
+
+def _refined(
+    course: Course, of: Mapping[str, Coefficient], sought: Sequence[_Sought], highest: int
+) -> tuple[Reals, Reals]:
+    """Places of the extremes and values there, by Newton's steps kept inside their brackets."""
+    low, high = np.array([each.low for each in sought]), np.array([each.high for each in sought])
+    place = 0.5 * (low + high)
+    value, going = np.zeros(place.size), np.arange(place.size)
+    for _ in range(_ROUNDS):
+        if not going.size:
+            break
+        here = [sought[i] for i in going]
+        first, second = _pick(course, of, here, place[going], highest)
+        rising = np.array([each.sign for each in here]) * first > 0.0  # the extreme lies farther on
+        low[going] = np.where(rising, place[going], low[going])
+        high[going] = np.where(rising, high[going], place[going])
+        with np.errstate(all="ignore"):
+            step = -first / second
+        inside = np.isfinite(step) & (place[going] + step >= low[going]) & (place[going] + step <= high[going])
+        middle = 0.5 * (low[going] + high[going])
+        new = np.where(inside, place[going] + step, middle)
+        moved = np.abs(new - place[going])
+        place[going] = new
+        going = going[(moved > 1e-13 * np.maximum(1.0, np.abs(new))) & (first != 0.0)]
+    if len(sought):
+        value = _pick(course, of, sought, place, highest, values=True)[0]
+    return place, value
+
+
+def _pick(
+    course: Course,
+    of: Mapping[str, Coefficient],
+    sought: Sequence[_Sought],
+    q: Reals,
+    highest: int,
+    *,
+    values: bool = False,
+) -> tuple[Reals, Reals]:
+    """Of each course at its own place the next two derivatives, or the value."""
+    jets = course.jets(q, highest if values else highest + 2)
+    found = np.empty((2, q.size))
+    groups: dict[tuple[str, int], list[int]] = {}
+    for i, each in enumerate(sought):
+        groups.setdefault((each.course, each.order), []).append(i)
+    for (name, order), mine in groups.items():
+        derivatives = course.derivatives(of[name], jets, order if values else order + 2)
+        found[0, mine] = derivatives[order if values else order + 1][mine]
+        found[1, mine] = derivatives[-1][mine]
+    return found[0], found[1]
+
+
+def _pair(course: Course, grid: Reals, rows: Sequence[Reals], order: int, places: Reals, values: Reals) -> Pair:
+    size, value = _size(rows, order), rows[order]
+    period = None if course.turns is None else course.end
+    if float(np.ptp(value)) <= _NOISE * size:
+        still = 0.0 if float(np.abs(value).max()) <= _NOISE * size and order else float(value[0])
+        return Pair(Extreme(still, float(grid[0])), Extreme(still, float(grid[0])))
+    if period is None:
+        ends = np.array([grid[0], grid[-1]])
+        places, values = np.append(places, ends), np.append(values, value[[0, -1]])
+    best: list[Extreme] = []
+    for sign in (1.0, -1.0):
+        i = int(np.argmax(sign * value))
+        seen = Extreme(float(value[i]), float(grid[i]))
+        equal = _EQUAL * size
+        top = max(float(np.max(sign * values, initial=-np.inf)), -np.inf)
+        if not places.size or sign * seen.value > top + equal:  # of a row that no bracket holds
+            best.append(_inside(seen, period))
+            continue
+        first: NDArray[np.intp] = np.flatnonzero(sign * values >= top - equal)
+        candidates = [_inside(Extreme(float(values[k]), float(places[k])), period) for k in first]
+        best.append(min(candidates, key=lambda each: each.place))
+    return Pair(*best)
+
+
+def _inside(found: Extreme, period: float | None) -> Extreme:
+    """A place in [0, period), what rounding took below 0 at 0."""
+    if period is None:
+        return found
+    place = found.place % period
+    return found._replace(place=0.0 if period - place < _AT_END * period else place)

@@ -1,0 +1,142 @@
+"""The mechanism of a planar mechanism's file: its links, pins, guides, slots, gears and racks at any input."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.core.machines.planar.outputs import jets_of, moved
+from gearlink.core.machines.planar.structure import GearJoint, LineJoint, PinJoint, RackJoint
+from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Course, Input, Motion, Output
+from gearlink.core.mechanism.rates import Point, Turn
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from gearlink.core.machines.planar.course import Course as Followed
+    from gearlink.core.machines.planar.design import PlanarMechanism
+    from gearlink.core.machines.planar.dyads import Dyad
+    from gearlink.core.machines.planar.structure import Structure
+    from gearlink.core.machines.planar.system import Jets
+    from gearlink.core.numerics.arrays import Points, Reals
+
+
+def motion(design: PlanarMechanism) -> Motion:
+    """Links and joints over the input, which counts from the start position, over the period or range of the file.
+
+    Raises
+        NoSolution - where the mechanism does not close, jams or does not repeat
+    """
+    course, structure = design.course, design.structure
+    column = "input_position" if course.by_slide else "input_angle"
+    given = Input(column, "mm" if course.by_slide else "rad", course.start, course.end, course.turns)
+
+    def make(q: Reals, order: int, _side: int) -> Mechanism:
+        return mechanism(course, q, order)
+
+    outputs = []
+    for name in structure.spec.shown:
+        parts = moved(structure, name)
+        outputs += [Output(each.name.replace("_", " ") if len(parts) > 1 else name, each.course(structure.names))
+                    for each in parts]  # fmt: skip
+    return Motion(make, given, tuple(outputs))
+
+
+def mechanism(course: Followed, q: Reals, order: int) -> Mechanism:
+    """Links and joints at inputs [rad or mm]."""
+    structure = course.structure
+    jets, size = course.jets(q, order), structure.size
+    links = {}
+    for body, (name, points) in enumerate(structure.bodies.items()):
+        if body:
+            place = course.derivatives(lambda jets, k, body=body: jets.x[k][:, body] * size, jets, order)  # type: ignore[misc]
+            turn = course.derivatives(lambda jets, k, body=body: jets.t[k][:, body], jets, order)  # type: ignore[misc]
+            links[name] = Link(Point(*place), Turn(*turn), points)  # type: ignore[arg-type]
+    first = structure.drives[0]
+    drive = first.name if first.slide is None else structure.names[first.slide.line.other]
+    pivot = next((pin.at_first for pin in structure.pins if (pin.first, pin.second) == (0, first.body)), 0j)
+    travel = {
+        structure.names[slide.line.other]: cmath.exp(1j * slide.line.direction)
+        for slide in structure.slides.values()
+        if slide.line.body == 0
+    }
+    return Mechanism(links, _joints(structure, jets), drive, pivot=pivot, travel=travel)
+
+
+def _joints(structure: Structure, jets: Jets) -> list[Connection]:
+    places = _Places(structure, jets)
+    return [
+        *(places.pin(pin) for pin in structure.pins),
+        *(places.guide(slide) for slide in structure.slides.values()),
+        *(places.slot(slot) for slot in structure.slots.values()),
+        *(places.teeth(mesh) for mesh in structure.meshes.values()),
+    ]
+
+
+class _Places:
+    """Where joints are [mm]."""
+
+    def __init__(self, structure: Structure, jets: Jets) -> None:
+        self.structure, self.jets = structure, jets
+        self.names = (FRAME, *structure.names[1:])
+
+    def _at(self, body: int, place: complex) -> Points:
+        size = self.structure.size
+        return np.asarray(self.jets.point(body, place / size, 0) * size)
+
+    def _unit(self, body: int, angle: float) -> Points:
+        return np.asarray(cmath.exp(1j * angle) * self.jets.e[0][:, body])
+
+    def pin(self, pin: PinJoint) -> Pin:
+        return Pin(pin.name, self.names[pin.first], self.names[pin.second], self._at(pin.first, pin.at_first))
+
+    def guide(self, slide: LineJoint) -> Guide:
+        line = slide.line
+        along = self._unit(line.body, line.direction) if line.body else cmath.exp(1j * line.direction)
+        return Guide(slide.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), along)
+
+    def slot(self, slot: LineJoint) -> Contact:
+        line = slot.line
+        normal = 1j * self._unit(line.body, line.direction)
+        return Contact(
+            slot.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), normal
+        )
+
+    def teeth(self, mesh: GearJoint | RackJoint) -> Mesh | Rack:
+        if isinstance(mesh, RackJoint):
+            line, side = mesh.line, mesh.side
+            along = self._unit(line.body, line.direction) if line.body else cmath.exp(1j * line.direction)
+            return Rack(mesh.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point),
+                        along, 1j * side * along, mesh.radius, mesh.tangent)  # fmt: skip
+        one, other = (self._at(mesh.carrier, place) for place in mesh.at)
+        (r1, r2), (first, second) = mesh.radii, (mesh.first, mesh.second)
+        if mesh.internal and mesh.teeth[1] < 0:  # the ring counts as first
+            one, other, r1, r2, first, second = other, one, r2, r1, second, first
+        toward = (other - one) / abs(mesh.at[1] - mesh.at[0])
+        return Mesh(mesh.name, self.names[first], self.names[second], one, toward, abs(r1), abs(r2), mesh.tangent,
+                    mesh.internal, self.names[mesh.carrier])  # fmt: skip
+
+
+def transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
+    """The least transmission angle of all dyads."""
+
+    def of(links: Mechanism) -> Sequence[Reals]:
+        jets = jets_of(links, structure.names, structure.size)
+        return [np.min([dyad.transmission(jets) for dyad in dyads], axis=0)]
+
+    return Course("rad", of)
+
+
+def poles(links: Mechanism, name: str) -> Points:
+    """Instant centre of a link against the frame, x + i x'/t'; NaN where it does not turn."""
+    link = links.links[name]
+    rate = link.turn.first
+    turning = np.abs(rate) > 1e-12
+    with np.errstate(all="ignore"):
+        found = link.origin.value + 1j * link.origin.first / rate
+    return np.where(turning, found, complex(math.nan, math.nan))

@@ -1,0 +1,154 @@
+"""What a planar mechanism moves: links, places of slides and slots, points, as numbers over the input."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from gearlink.core.machines.planar.system import scaled
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.planar.extremes import Coefficient
+    from gearlink.core.machines.planar.structure import Line, Structure
+    from gearlink.core.machines.planar.system import Jets
+    from gearlink.core.mechanism.courses import Shown
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Course
+    from gearlink.core.numerics.arrays import Reals
+
+RATES = {
+    "angle": ("speed_ratio", "acceleration_ratio", "jerk_ratio"),
+    "position": ("velocity_ratio", "acceleration_ratio", "jerk_ratio"),
+}
+
+
+@dataclass(frozen=True)
+class Moved:
+    """One number that moves.
+
+    Fields
+        name : str - as tables and quantities begin with it: of a link `rocker`, of a point `P_x`
+        sort : what it is
+        value : str - name of its value; empty where the name says it
+        body : int
+        place : complex [mm] - of a point on its body
+        line : Line or None - along which a place is
+        size : float [mm] - unit of length of the system
+    """
+
+    name: str
+    sort: Literal["link", "line", "x", "y"]
+    body: int
+    size: float
+    place: complex = 0j
+    line: Line | None = None
+
+    @property
+    def unit(self) -> Literal["rad", "mm"]:
+        """Of the value."""
+        return "rad" if self.sort == "link" else "mm"
+
+    @property
+    def columns(self) -> tuple[str, str, str, str]:
+        """Columns of the value and its derivatives."""
+        if self.sort in ("x", "y"):
+            return (self.name, *(f"{self.name}_{rate}" for rate in RATES["position"]))  # type: ignore[return-value]
+        value = "angle" if self.sort == "link" else "position"
+        return (f"{self.name}_{value}", *(f"{self.name}_{rate}" for rate in RATES[value]))  # type: ignore[return-value]
+
+    @cached_property
+    def _line(self) -> Line:
+        assert self.line is not None
+        return scaled(self.line, self.size)
+
+    @property
+    def coefficient(self) -> Coefficient:
+        """Its Taylor coefficients [rad or mm]."""
+        if self.sort == "link":
+            return lambda jets, k: jets.t[k][:, self.body]
+        if self.sort == "line":
+            return lambda jets, k: jets.seen(self._line, k).real * self.size
+        arm = self.place / self.size
+        if self.sort == "x":
+            return lambda jets, k: jets.point(self.body, arm, k).real * self.size
+        return lambda jets, k: jets.point(self.body, arm, k).imag * self.size
+
+    def course(self, names: Sequence[str]) -> Course:
+        """The same of the links of the mechanism; `names` are those of the bodies."""
+        from gearlink.core.mechanism.courses import coordinate, turned
+
+        if self.sort == "link":
+            return turned(names[self.body])
+        if self.sort in ("x", "y"):
+            return coordinate(names[self.body], self.place, 1.0 if self.sort == "x" else 1j)
+        return _place_on(self._line, self.size, names)
+
+    def shown(self, names: Sequence[str], orders: int) -> Iterator[Shown]:
+        """Columns of a table up to an order."""
+        from gearlink.core.mechanism.courses import Shown
+
+        course = self.course(names)
+        for order in range(orders + 1):
+            column = self.columns[order]
+            yield Shown(column, course, order, column.removesuffix("_ratio") if order else "")
+
+
+def _place_on(line: Line, size: float, names: Sequence[str]) -> Course:
+    """The place along a line, from the derivatives of the two links."""
+    from gearlink.core.mechanism.motion import Course
+
+    def of(mechanism: Mechanism) -> Sequence[Reals]:
+        jets = jets_of(mechanism, (names[line.body], names[line.other]), size)
+        order = jets.order
+        near = line._replace(body=0, other=1)
+        return [jets.seen(near, k).real * (size * math.factorial(k)) for k in range(order + 1)]
+
+    return Course("mm", of)
+
+
+def jets_of(mechanism: Mechanism, names: Sequence[str], size: float) -> Jets:
+    """Taylor coefficients of some links of a mechanism, lengths in units of size."""
+    import numpy as np
+
+    from gearlink.core.machines.planar.system import Jets
+
+    links = [mechanism.link(name) for name in names]
+    order = min(link.turn.order for link in links if link is not None)
+    still = np.zeros(mechanism.rows)
+    x, t = [], []
+    for k in range(order + 1):
+        share = 1.0 / math.factorial(k)
+        x.append(np.stack([still + 0j if link is None else link.origin[k] * (share / size) for link in links], axis=1))
+        t.append(np.stack([still if link is None else link.turn[k] * share for link in links], axis=1))
+    return Jets(x, t)
+
+
+def link_output(structure: Structure, name: str) -> Moved:
+    """The direction of a link."""
+    return Moved(name, "link", structure.numbers[name], structure.size)
+
+
+def line_output(structure: Structure, name: str) -> Moved:
+    """The place of a slide or slot."""
+    joint = structure.slides.get(name) or structure.slots[name]
+    return Moved(name, "line", joint.line.other, structure.size, line=joint.line)
+
+
+def point_output(structure: Structure, name: str) -> tuple[Moved, Moved]:
+    """Both coordinates of a point; of a pin those on the first moving body that has it."""
+    body = next(body for body, points in structure.bodies.items() if name in points and body != "frame")
+    number, place = structure.numbers[body], structure.bodies[body][name]
+    x, y = (Moved(f"{name}_{axis}", axis, number, structure.size, place) for axis in ("x", "y"))  # type: ignore[arg-type]
+    return x, y
+
+
+def moved(structure: Structure, name: str) -> tuple[Moved, ...]:
+    """The numbers of an output of the file."""
+    if name in structure.numbers and name != "frame":
+        return (link_output(structure, name),)
+    if name in structure.slides or name in structure.slots:
+        return (line_output(structure, name),)
+    return point_output(structure, name)

@@ -1,0 +1,242 @@
+"""The design file of a planar mechanism: its links, what joins them, what drives it."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Deferred,
+    Entries,
+    Length,
+    LoadLimits,
+    PressureAngle,
+    SignedLength,
+    Spec,
+    TolerancedSpec,
+)
+
+FRAME = "frame"
+MOST_LINKS = 40
+_RESERVED = (FRAME, "input", "time")
+
+
+def _is_name(name: str) -> str:
+    if re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+        return name
+    message = f"{name!r} is no name here: a name begins with a letter and holds letters, digits and _ alone"
+    raise PydanticCustomError("GL108", "{message}", {"message": message})
+
+
+Name = Annotated[str, AfterValidator(_is_name)]
+Vector = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[100, 0]")]
+Direction = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"})]
+Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"})]
+Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
+Bar = Annotated[list[Name | Length], Field(min_length=3, max_length=3), Entries("[first point, second point, length]")]
+Points = Annotated[dict[Name, Vector], Field(min_length=1, max_length=100)]
+
+
+class Slide(Spec):
+    """A guide along which a link slides without turning against the body that has it."""
+
+    link: Name = Field(description="the link that slides")
+    on: Name = Field(FRAME, description="frame, or the link on which it slides")
+    through: Vector = Field(description="a point of the line, in coordinates of `on`")
+    direction: Direction = Field(description="direction of the line in coordinates of `on`")
+    point: Name | None = Field(None, description="point of the link that runs on the line; left out: its first")
+    angle: Direction = Field(0.0, description="what the link's x axis leads the direction by")
+
+
+class Slot(Spec):
+    """A slot of a body in which a pin of another one runs."""
+
+    point: Name = Field(description="the point that runs in the slot")
+    on: Name = Field(description="frame, or the link that has the slot")
+    through: Vector = Field(description="a point of the slot's line, in coordinates of `on`")
+    direction: Direction = Field(description="direction of the line in coordinates of `on`")
+
+
+class Teeth(Spec):
+    """Two gears in mesh, or a rack and a pinion."""
+
+    gears: Annotated[list[Name], Field(min_length=2, max_length=2), Entries("[link, link]")] | None = Field(
+        None, description="the links of the two gears; frame for one that is fixed"
+    )
+    rack: Name | None = Field(None, description="the link of a rack, or frame; in place of gears")
+    pinion: Name | None = Field(None, description="the link of the pinion that meets the rack")
+    at: Annotated[list[Name], Field(min_length=2, max_length=2), Entries("[point, point]")] | Name = Field(
+        description="the centres of the gears; the centre of the pinion"
+    )
+    teeth: Annotated[list[TeethOrRing], Field(min_length=2, max_length=2), Entries("[z1, z2]")] | TeethOrRing = Field(
+        description="teeth of the gears, negative for a ring; of the pinion"
+    )
+    module: Length | None = Field(None, description="module; left out: twice the centre distance over the teeth's sum")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+    carrier: Name | None = Field(
+        None, description="the body that holds both centres; left out: the first that has both points"
+    )
+    direction: Direction | None = Field(None, description="direction of the pitch line of the rack, in its coordinates")
+    side: Literal[1, -1] | None = Field(
+        None, description="1: the pinion stands to the left of the direction; -1: right"
+    )
+
+    @model_validator(mode="after")
+    def _one_sort(self) -> Teeth:
+        of_rack = {"rack": self.rack, "pinion": self.pinion, "direction": self.direction, "side": self.side}
+        if self.gears is not None:
+            if wrong := next((key for key, value in of_rack.items() if value is not None), ""):
+                _refuse(wrong, f"{wrong} goes with rack and pinion: leave it or gears out")
+            if not isinstance(self.at, list) or not isinstance(self.teeth, list):
+                _refuse("at" if not isinstance(self.at, list) else "teeth", "two gears need a list of two, [.., ..]")
+            if isinstance(self.teeth, list):
+                _require_gears(self.teeth)
+            return self
+        missing = next((key for key, value in (*of_rack.items(), ("module", self.module)) if value is None), "")
+        if missing:
+            words = "give gears: [link, link], or rack, pinion, at, direction, side, teeth and module"
+            raise PydanticCustomError(
+                "GL106", "{message}", {"key": "rack", "message": f"{missing} is missing: {words}"}
+            )
+        if isinstance(self.at, list) or isinstance(self.teeth, list):
+            _refuse("at" if isinstance(self.at, list) else "teeth", "a rack meets one pinion: give one, without a list")
+        if isinstance(self.teeth, int) and self.teeth < 1:
+            _refuse("teeth", "a pinion has 1 tooth or more")
+        if self.carrier is not None:
+            _refuse("carrier", "a rack needs no carrier: its slide holds it at its distance")
+        return self
+
+
+def _require_gears(teeth: list[int]) -> None:
+    if 0 in teeth:
+        _refuse(f"teeth[{teeth.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less: write its teeth")
+    if max(teeth) < 0:
+        _refuse("teeth", "two rings cannot mesh: make one of them an external gear")
+    if min(teeth) < 0 <= sum(teeth):
+        _refuse("teeth", "a ring gear needs more teeth than the gear in it: change one of the two")
+
+
+class Drive(Spec):
+    """What is driven: a link that turns, or a slide."""
+
+    link: Name | None = Field(None, description="the link that the input turns")
+    slide: Name | None = Field(None, description="the slide that the input moves, in place of link")
+    others: Annotated[dict[Name, Number], Field(max_length=40)] = Field(
+        {}, alias="with", description="further drives, links or slides by name, and how far they move per input"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Drive:
+        if (self.link is None) == (self.slide is None):
+            words = "give link or slide" if self.link is None else "give either link or slide: one input drives"
+            raise PydanticCustomError("GL106" if self.link is None else "GL111", words, {"key": "slide"})
+        return self
+
+    @property
+    def main(self) -> str:
+        """The link or slide that the input moves."""
+        return self.link or self.slide or ""
+
+
+class Range(Spec):
+    """Where the input swings or slides."""
+
+    start: Place = Field(0.0, description="first input, in deg or mm from the start position")
+    end: Place = Field(description="last input")
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Range:
+        if self.end <= self.start:
+            _refuse("end", "the range ends before it starts: give a greater end")
+        return self
+
+
+class PlanarLimits(LoadLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle of a dyad")
+    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh")
+    least_shaft: Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})] | None = Field(
+        None, description="least radius for a shaft where none is given; left out: one module"
+    )
+
+
+class PlanarSpec(TolerancedSpec):
+    """Links with points, joined by pins, slides, slots and teeth, that one or more drives move."""
+
+    kind: Literal["planar-mechanism"]
+    frame: Points = Field(description="points of the frame")
+    links: Annotated[dict[Name, Bar | Points], Field(min_length=1, max_length=MOST_LINKS)] = Field(
+        description="links by name: [P, Q, length], a bar whose x axis leads from P to Q; or points in coordinates of "
+        "the link. A point that several bodies have is a pin"
+    )
+    slides: Annotated[dict[Name, Slide], Field(max_length=MOST_LINKS)] = Field({}, description="slides by name")
+    slots: Annotated[dict[Name, Slot], Field(max_length=MOST_LINKS)] = Field({}, description="slots by name")
+    meshes: Annotated[dict[Name, Teeth], Field(max_length=MOST_LINKS)] = Field(
+        {}, description="gears in mesh, and racks, by name"
+    )
+    drive: Drive
+    start: Annotated[dict[Name, Place], Field(max_length=2 * MOST_LINKS)] = Field(
+        {},
+        description="directions of the links [deg] and places of slides [mm] at input 0: exact of what is driven or "
+        "tied by a mesh, rough of all others, where they choose the assembly",
+    )
+    range: Range | None = Field(None, description="inputs, where the input swings; left out: it turns")
+    outputs: Annotated[list[Name], Field(min_length=1, max_length=100)] | None = Field(
+        None, description="links, slides, slots and points that are looked at; left out: all other links, then slides"
+    )
+    input_speed: Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="speed of the input, of a slide in mm/s: with it real speeds and times are given"
+    )
+    limits: PlanarLimits = PlanarLimits.model_construct()
+    shafts: Annotated[dict[Name, Length], Field(max_length=100)] = Field(
+        {}, description="radii of shafts at points of the frame, by POINT_radius"
+    )
+    loads: Annotated[Any, Deferred("machines.planar.loads_spec:PlanarLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _wired(self) -> PlanarSpec:
+        from gearlink.core.machines.planar.wiring import faults
+
+        for code, key, message in faults(self):
+            raise PydanticCustomError(code, "{message}", {"key": key, "message": message})
+        return self
+
+    @property
+    def bodies(self) -> dict[str, dict[str, complex]]:
+        """Points of every body in its own coordinates [mm], the frame first."""
+        found = {FRAME: {name: complex(*place) for name, place in self.frame.items()}}
+        for name, link in self.links.items():
+            found[name] = (
+                {name: complex(*place) for name, place in link.items()}
+                if isinstance(link, dict)
+                else {str(link[0]): 0j, str(link[1]): complex(link[2])}
+            )
+        return found
+
+    @property
+    def slid(self) -> dict[str, str]:
+        """By link that slides, its slide."""
+        return {each.link: name for name, each in self.slides.items()}
+
+    @property
+    def shown(self) -> list[str]:
+        """The outputs: those of the file, or all links but the driven one and all slides."""
+        if self.outputs is not None:
+            return self.outputs
+        return [*(name for name in self.links if name != self.drive.main and name not in self.slid), *self.slides]
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))
+
+
+def _refuse(key: str, message: str) -> None:
+    raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})

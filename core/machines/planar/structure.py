@@ -1,0 +1,230 @@
+"""What a planar mechanism is made of: bodies with points, and the joints between them, from its file.
+
+Lengths in mm, angles in rad; the frame is body 0. A point that several bodies have is a pin: the first of them, frame
+first, then in the order of the file, holds it, and each other one has a pin of its own with that one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planar.wiring import FRAME, tied
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
+
+
+class PinJoint(NamedTuple):
+    """A pin: its name, its bodies by number, and its place in coordinates of each."""
+
+    name: str
+    first: int
+    second: int
+    at_first: complex
+    at_second: complex
+
+
+class Line(NamedTuple):
+    """A line of a body, and a point of another one that is seen from it.
+
+    z = e^(-i(t_a + g)) (P_b - x_a - w e^(i t_a)): its real part is the place along the line, the imaginary one across
+    """
+
+    body: int
+    through: complex
+    direction: float
+    other: int
+    point: complex
+
+
+class LineJoint(NamedTuple):
+    """A slot, or with `lean` a slide, whose link's x axis leads the line by that."""
+
+    name: str
+    line: Line
+    lean: float | None = None
+
+
+class GearJoint(NamedTuple):
+    """Two gears on a carrier; radii are signed, of an internal mesh that of the smaller gear is negative."""
+
+    name: str
+    first: int
+    second: int
+    carrier: int
+    at: tuple[complex, complex]
+    radii: tuple[float, float]
+    internal: bool
+    module: float
+    teeth: tuple[int, int]
+    tangent: float
+
+
+class RackJoint(NamedTuple):
+    """A rack, the line's body, and a pinion that stands on a side of its pitch line."""
+
+    name: str
+    line: Line
+    radius: float
+    side: int
+    module: float
+    tangent: float
+
+
+class Driven(NamedTuple):
+    """What a drive moves: a body that turns, or a slide; and how far per input [1]."""
+
+    name: str
+    body: int
+    slide: LineJoint | None
+    ratio: float
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Bodies and joints of a file.
+
+    Parameters
+        spec : PlanarSpec
+    """
+
+    spec: PlanarSpec
+
+    @cached_property
+    def bodies(self) -> dict[str, dict[str, complex]]:
+        """Points by body, the frame first."""
+        return self.spec.bodies
+
+    @cached_property
+    def numbers(self) -> dict[str, int]:
+        """Numbers of the bodies."""
+        return {name: number for number, name in enumerate(self.bodies)}
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bodies."""
+        return tuple(self.bodies)
+
+    @cached_property
+    def size(self) -> float:
+        """L, the greatest distance of a point of a moving link from its origin, or of the frame's from each other [mm]."""
+        links = [abs(place) for name, body in self.bodies.items() if name != FRAME for place in body.values()]
+        frame = [abs(one - other) for one in self.bodies[FRAME].values() for other in self.bodies[FRAME].values()]
+        return max(links) or max(frame) or 1.0
+
+    @cached_property
+    def largest(self) -> float:
+        """The largest distance of two points of one body, which closures are judged by [mm]."""
+        bodies = [[*body.values()] for body in self.bodies.values()]
+        found = max(abs(one - other) for places in bodies for one in places for other in places)
+        return found or self.size
+
+    @cached_property
+    def pins(self) -> tuple[PinJoint, ...]:
+        """The pins, by point in the order in which points first occur."""
+        found = []
+        for point in dict.fromkeys(point for body in self.bodies.values() for point in body):
+            first, *others = (name for name, body in self.bodies.items() if point in body)
+            for k, other in enumerate(others):
+                places = self.bodies[first][point], self.bodies[other][point]
+                name = point if k == 0 else f"{point}_{other}"
+                found.append(PinJoint(name, self.numbers[first], self.numbers[other], *places))
+        return tuple(found)
+
+    @cached_property
+    def slides(self) -> dict[str, LineJoint]:
+        """The slides."""
+        found = {}
+        for name, each in self.spec.slides.items():
+            points = self.bodies[each.link]
+            point = points[each.point] if each.point is not None else next(iter(points.values()))
+            line = Line(self.numbers[each.on], complex(*each.through), math.radians(each.direction),
+                        self.numbers[each.link], point)  # fmt: skip
+            found[name] = LineJoint(name, line, math.radians(each.angle))
+        return found
+
+    @cached_property
+    def slots(self) -> dict[str, LineJoint]:
+        """The slots; of a pin the first body that has its point and not the slot counts."""
+        found = {}
+        for name, each in self.spec.slots.items():
+            other = next(body for body, points in self.bodies.items() if each.point in points and body != each.on)
+            line = Line(self.numbers[each.on], complex(*each.through), math.radians(each.direction),
+                        self.numbers[other], self.bodies[other][each.point])  # fmt: skip
+            found[name] = LineJoint(name, line)
+        return found
+
+    @cached_property
+    def meshes(self) -> dict[str, GearJoint | RackJoint]:
+        """The meshes.
+
+        Raises
+            NoSolution - where the centres of gears are on no common body
+        """
+        return {
+            name: self._rack(name, each) if each.gears is None else self._gears(name, each)
+            for name, each in self.spec.meshes.items()
+        }
+
+    def _rack(self, name: str, each: Teeth) -> RackJoint:
+        assert each.rack and each.pinion and isinstance(each.at, str) and isinstance(each.teeth, int)
+        assert each.module is not None and each.side is not None and each.direction is not None
+        pinion = self.numbers[each.pinion]
+        line = Line(
+            self.numbers[each.rack], 0j, math.radians(each.direction), pinion, self.bodies[each.pinion][each.at]
+        )
+        tangent = math.tan(math.radians(each.pressure_angle))
+        return RackJoint(name, line, 0.5 * each.module * each.teeth, each.side, each.module, tangent)
+
+    def _gears(self, name: str, each: Teeth) -> GearJoint:
+        assert each.gears is not None and isinstance(each.teeth, list)
+        points = tuple(each.at)
+        carrier = each.carrier or next(body for body, own in self.bodies.items() if {*points} <= {*own})
+        one, other = (self.bodies[carrier][point] for point in points)
+        distance, (z1, z2) = abs(other - one), each.teeth
+        module = each.module or 2.0 * distance / abs(z1 + z2)
+        nominal, alpha = 0.5 * module * abs(z1 + z2), math.radians(each.pressure_angle)
+        cosine = nominal * math.cos(alpha) / distance  # of the working pressure angle: base circles stay
+        if cosine >= 1.0:
+            raise NoSolution(
+                f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {distance:.6g} mm, their base "
+                f"circles alone ask for more: take module {2.0 * distance / abs(z1 + z2):.6g} mm, or leave it out",
+                key=f"meshes.{name}.module",
+            )
+        tangent = math.sqrt(1.0 - cosine * cosine) / cosine
+        radii = distance * z1 / (z1 + z2), distance * z2 / (z1 + z2)
+        first, second = (self.numbers[gear] for gear in each.gears)
+        internal = min(z1, z2) < 0
+        return GearJoint(
+            name, first, second, self.numbers[carrier], (one, other), radii, internal, module, (z1, z2), tangent
+        )
+
+    @cached_property
+    def drives(self) -> tuple[Driven, ...]:
+        """The drives, the input's own first."""
+        given: Mapping[str, float] = {self.spec.drive.main: 1.0, **self.spec.drive.others}
+        return tuple(
+            Driven(name, 0 if name in self.slides else self.numbers[name], self.slides.get(name), ratio)
+            for name, ratio in given.items()
+        )
+
+    @cached_property
+    def tied(self) -> dict[str, str]:
+        """By mesh, the link or slide whose start it makes exact."""
+        return tied(self.spec)
+
+    @property
+    def freedoms(self) -> int:
+        """Gruebler's degrees of freedom, 3 n - 2 pins - 2 slides - slots - meshes."""
+        taken = 2 * len(self.pins) + 2 * len(self.slides) + len(self.slots) + len(self.meshes)
+        return 3 * (len(self.bodies) - 1) - taken
+
+    def start_of(self, name: str) -> float | None:
+        """Start value of a link [rad] or slide [mm]; None where the file has none."""
+        given = self.spec.start.get(name)
+        return given if given is None or name in self.slides else math.radians(given)

@@ -1,0 +1,353 @@
+"""The equations of a planar mechanism, their matrix, and their Taylor coefficients along a motion, row by row.
+
+Unknown are origin x_k and direction t_k of every link. All equations are of two sorts: pins, and rows that add up a
+coordinate along or across a line, a weighted sum of directions, a constant and a share of the input. Lengths are in
+units of `size`, so that directions and places weigh alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.machines.planar.structure import GearJoint, Line, LineJoint, RackJoint, Structure
+from gearlink.core.mechanism.blocks import Block, blocks
+from gearlink.core.numerics.arrays import Points, Reals
+
+_STRUCTURAL = 1e-12
+_SKEW = 0.7  # rad, by which lines are turned where the structure is looked at: those along an axis are no other
+
+
+class Row(NamedTuple):
+    """factor Re or Im(z) of a line + sum of directions by body - constant - rate q = 0."""
+
+    line: Line | None
+    across: bool = False
+    factor: float = 1.0
+    turns: Mapping[int, float] = {}
+    constant: float = 0.0
+    rate: float = 0.0
+
+
+@dataclass
+class Jets:
+    """Taylor coefficients of origins and directions over the input, by order; bodies in columns, the frame first.
+
+    Fields
+        x, t, e : lists of (N, bodies) arrays - origins, directions, e^(i t)
+    """
+
+    x: list[Points]
+    t: list[Reals]
+    e: list[Points] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        while len(self.e) < len(self.t):
+            self.e.append(_unit(self.t, self.e))
+
+    @property
+    def order(self) -> int:
+        """The highest order."""
+        return len(self.t) - 1
+
+    def point(self, body: int, place: complex, k: int) -> Points:
+        """Coefficient of a point of a body."""
+        return np.asarray(self.x[k][:, body] + place * self.e[k][:, body])
+
+    def seen(self, line: Line, k: int) -> Points:
+        """Coefficient of z of a line."""
+        turned = np.exp(-1j * line.direction)
+        found = np.zeros(self.t[0].shape[0], dtype=np.complex128)
+        for j in range(k + 1):
+            apart = self.point(line.other, line.point, k - j) - self.x[k - j][:, line.body]
+            found += np.conj(self.e[j][:, line.body]) * apart
+        return np.asarray(turned * (found - line.through if k == 0 else found))
+
+    def and_next(self, x: Points, t: Reals) -> Jets:
+        """With one more order."""
+        return Jets([*self.x, x], [*self.t, t], list(self.e))
+
+
+def _unit(t: Sequence[Reals], e: Sequence[Points]) -> Points:
+    """The next coefficient of e^(i t): k E_k = i sum_(j=1..k) j t_j E_(k-j)."""
+    k = len(e)
+    if k == 0:
+        return np.exp(1j * t[0])
+    return np.asarray(1j / k * sum(j * t[j] * e[k - j] for j in range(1, k + 1)))
+
+
+@dataclass(frozen=True)
+class System:
+    """Equations of a mechanism; pins first, two each, then the rows.
+
+    Parameters
+        bodies : int - the frame among them
+        pins : ((first, second, place on first, place on second), ...) in units of size
+        rows : Row, ...
+    """
+
+    bodies: int
+    pins: tuple[tuple[int, int, complex, complex], ...]
+    rows: tuple[Row, ...]
+
+    @property
+    def count(self) -> int:
+        """How many equations."""
+        return 2 * len(self.pins) + len(self.rows)
+
+    @property
+    def unknowns(self) -> int:
+        """How many unknowns: x, y, direction of each link."""
+        return 3 * (self.bodies - 1)
+
+    @cached_property
+    def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points]:
+        a, b, s, r = zip(*self.pins, strict=True) if self.pins else ((), (), (), ())
+        return np.array(a, int), np.array(b, int), np.array(s, complex), np.array(r, complex)
+
+    def values(self, jets: Jets, k: int, q: Reals) -> Reals:
+        """Coefficient k of all equations along a motion; (N, count).
+
+        Parameters
+            q : (N,) array - the input, of which coefficient 1 is 1
+        """
+        n, (a, b, s, r) = q.size, self._pins
+        found = np.empty((n, self.count))
+        x, e = jets.x[k], jets.e[k]
+        gaps = x[:, b] + r * e[:, b] - x[:, a] - s * e[:, a]
+        found[:, 0 : 2 * len(self.pins) : 2], found[:, 1 : 2 * len(self.pins) : 2] = gaps.real, gaps.imag
+        for i, row in enumerate(self.rows, 2 * len(self.pins)):
+            total = np.zeros(n)
+            if row.line is not None:
+                seen = jets.seen(row.line, k)
+                total += row.factor * (seen.imag if row.across else seen.real)
+            for body, share in row.turns.items():
+                total += share * jets.t[k][:, body]
+            if k == 0:
+                total -= row.constant + row.rate * q
+            elif k == 1:
+                total -= row.rate
+            found[:, i] = total
+        return found
+
+    def matrix(self, jets: Jets) -> Reals:
+        """Derivatives of the equations by the unknowns x_1, y_1, t_1, x_2, ...; (N, count, unknowns)."""
+        x, e = jets.x[0], jets.e[0]
+        n, (a, b, s, r) = x.shape[0], self._pins
+        found = np.zeros((n, self.count, 3 * self.bodies))
+        even = 2 * np.arange(len(self.pins))
+        for bodies, places, sign in ((a, s, -1.0), (b, r, 1.0)):
+            arms = sign * 1j * places * e[:, bodies]
+            found[:, even, 3 * bodies] = sign
+            found[:, even + 1, 3 * bodies + 1] = sign
+            found[:, even, 3 * bodies + 2] = arms.real
+            found[:, even + 1, 3 * bodies + 2] = arms.imag
+        for i, row in enumerate(self.rows, 2 * len(self.pins)):
+            if row.line is not None:
+                self._add_line(found[:, i], row, row.line, jets)
+            for body, share in row.turns.items():
+                found[:, i, 3 * body + 2] += share
+        return found[:, :, 3:]
+
+    @staticmethod
+    def _add_line(found: Reals, row: Row, line: Line, jets: Jets) -> None:
+        a, b, c = line.body, line.other, np.exp(-1j * line.direction) * np.conj(jets.e[0][:, line.body])
+        apart = jets.point(b, line.point, 0) - jets.x[0][:, a]
+        parts = (
+            (3 * b, c), (3 * b + 1, 1j * c), (3 * b + 2, 1j * c * line.point * jets.e[0][:, b]),
+            (3 * a, -c), (3 * a + 1, -1j * c), (3 * a + 2, -1j * c * apart),
+        )  # fmt: skip
+        for column, part in parts:
+            found[:, column] += row.factor * (part.imag if row.across else part.real)
+
+    @cached_property
+    def pattern(self) -> NDArray[np.bool_]:
+        """Where the matrix is not 0 by its structure; (count, unknowns)."""
+        rng = np.random.default_rng(1)
+        x = rng.normal(size=(3, self.bodies)) + 1j * rng.normal(size=(3, self.bodies))
+        t = rng.normal(size=(3, self.bodies))
+        x[:, 0], t[:, 0] = 0.0, 0.0
+        rows = (
+            row if row.line is None else row._replace(line=row.line._replace(direction=row.line.direction + _SKEW))
+            for row in self.rows
+        )
+        skew = System(self.bodies, self.pins, tuple(rows))
+        return np.asarray(np.abs(skew.matrix(Jets([x], [t]))).max(axis=0) > _STRUCTURAL)
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """The parts that can be solved one after the other; all in one where the structure alone is singular."""
+        return blocks(tuple(tuple(np.flatnonzero(column).tolist()) for column in self.pattern.T))
+
+    def solved(self, matrix: Reals) -> Solved:
+        """The matrix made ready to be solved."""
+        return Solved(matrix, self.blocks)
+
+    def step(self, jets: Jets, q: Reals) -> Reals:
+        """Newton's step; (N, unknowns)."""
+        return self.solved(self.matrix(jets)).solve(-self.values(jets, 0, q))
+
+    def onward(self, jets: Jets, q: Reals, order: int) -> Jets:
+        """Coefficients up to an order by J y_n = -F_n, F_n the coefficient of F with y_n = 0.
+
+        Raises
+            LinAlgError - where the matrix is singular
+        """
+        if order <= jets.order:
+            return jets
+        solved = self.solved(self.matrix(jets))
+        still_x, still_t = np.zeros_like(jets.x[0]), np.zeros_like(jets.t[0])
+        for k in range(jets.order + 1, order + 1):
+            rest = self.values(jets.and_next(still_x, still_t), k, q)
+            y = solved.solve(-rest)
+            jets = jets.and_next(*split(y))
+        return jets
+
+    # Bounds of the certified step
+
+    def bounds(self, jets: Jets) -> tuple[float, float, float, float]:
+        """K, K', M of the step, and the fastest that a point moves against a line of a moving body; one row."""
+        a, b, s, r = self._pins
+        first = np.abs(s), np.abs(r)
+        turn = np.abs(jets.t[1][0])
+        k = [first[0] + first[1], first[0] * turn[a] + first[1] * turn[b],
+             first[0] * turn[a] ** 2 + first[1] * turn[b] ** 2]  # fmt: skip
+        squares, fastest = [float(np.sum(each * each)) for each in k], 0.0
+        for row in self.rows:
+            if row.line is None:
+                continue
+            parts, moved = _line_bounds(row.line, jets)
+            fastest = max(fastest, moved)
+            squares = [total + part * part for total, part in zip(squares, parts, strict=True)]
+        return (*(total**0.5 for total in squares), fastest)  # type: ignore[return-value]
+
+
+def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
+    a, b, s = line.body, line.other, abs(line.point)
+    t_b = abs(float(jets.t[1][0, b]))
+    if a == 0:
+        return (s, s * t_b, s * t_b * t_b), 0.0
+    t_a = abs(float(jets.t[1][0, a]))
+    moved = abs(complex(jets.x[1][0, b] - jets.x[1][0, a]))
+    reach = abs(complex(jets.x[0][0, b] - jets.x[0][0, a])) + 1.0
+    against = abs(float(jets.t[1][0, b] - jets.t[1][0, a]))
+    root = 2.0**0.5
+    return (
+        reach + root + 2.0 * s,
+        (reach + root) * t_a + moved + root * s * against,
+        reach * t_a * t_a + 2.0 * t_a * moved + s * against * against,
+    ), moved
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A matrix (N, m, m), whose blocks are inverted once."""
+
+    matrix: Reals
+    blocks: tuple[Block, ...]
+
+    @cached_property
+    def _inverses(self) -> list[Reals]:
+        found = []
+        for block in self.blocks:
+            part = self.matrix[:, np.array(block.rows)[:, None], np.array(block.columns)]
+            found.append(1.0 / part if len(block.rows) == 1 else np.linalg.inv(part))
+        return found
+
+    def solve(self, right: Reals) -> Reals:
+        """x of matrix x = right, once corrected; (N, m)."""
+        with np.errstate(all="ignore"):
+            found = self._once(right)
+            return found + self._once(right - np.einsum("nij,nj->ni", self.matrix, found))
+
+    def _once(self, right: Reals) -> Reals:
+        found = np.zeros_like(right)
+        for block, inverse in zip(self.blocks, self._inverses, strict=True):
+            rows, columns = np.array(block.rows), np.array(block.columns)
+            rest = right[:, rows] - np.einsum("nij,nj->ni", self.matrix[:, rows], found)
+            found[:, columns] = np.einsum("nij,nj->ni", inverse, rest)
+        return found
+
+
+def split(y: Reals) -> tuple[Points, Reals]:
+    """Unknowns as origins and directions, the frame's before them."""
+    x = np.zeros((y.shape[0], y.shape[1] // 3 + 1), dtype=np.complex128)
+    t = np.zeros(x.shape)
+    x[:, 1:] = y[:, 0::3] + 1j * y[:, 1::3]
+    t[:, 1:] = y[:, 2::3]
+    return x, t
+
+
+def joined(x: Points, t: Reals) -> Reals:
+    """The unknowns of origins and directions."""
+    y = np.empty((x.shape[0], 3 * (x.shape[1] - 1)))
+    y[:, 0::3], y[:, 1::3], y[:, 2::3] = x[:, 1:].real, x[:, 1:].imag, t[:, 1:]
+    return y
+
+
+# Systems of a structure
+
+
+def scaled(line: Line, size: float) -> Line:
+    """A line in units of size."""
+    return line._replace(through=line.through / size, point=line.point / size)
+
+
+def joint_rows(structure: Structure, turns: Mapping[str, float]) -> list[Row]:
+    """Rows of slides and slots; `turns` are whole turns [rad] that the direction of a slide's link is apart."""
+    found = []
+    for slide in structure.slides.values():
+        line = scaled(slide.line, structure.size)
+        found.append(Row(line, across=True))
+        lean = slide.line.direction + (slide.lean or 0.0) + turns.get(slide.name, 0.0)
+        found.append(Row(None, turns=_weights((line.other, 1.0), (line.body, -1.0)), constant=lean))
+    found += (Row(scaled(slot.line, structure.size), across=True) for slot in structure.slots.values())
+    return found
+
+
+def mesh_row(mesh: GearJoint | RackJoint, size: float, constant: float = 0.0) -> Row:
+    """The row of a mesh."""
+    if isinstance(mesh, RackJoint):
+        line, radius = scaled(mesh.line, size), mesh.radius / size
+        turns = _weights((line.other, radius), (line.body, -radius))
+        return Row(line, factor=float(mesh.side), turns=turns, constant=constant)
+    one, other = (radius / size for radius in mesh.radii)
+    turns = _weights((mesh.first, one), (mesh.second, other), (mesh.carrier, -one - other))
+    return Row(None, turns=turns, constant=constant)
+
+
+def driven_row(body: int, slide: LineJoint | None, size: float, start: float, rate: float = 0.0) -> Row:
+    """The row of a drive: a direction, or a place of a slide, from its start [rad or size]."""
+    if slide is None:
+        return Row(None, turns={body: 1.0}, constant=start, rate=rate)
+    return Row(scaled(slide.line, size), constant=start, rate=rate)
+
+
+def _weights(*shares: tuple[int, float]) -> dict[int, float]:
+    """Shares by body; the frame does not turn."""
+    found: dict[int, float] = {}
+    for body, share in shares:
+        if body:
+            found[body] = found.get(body, 0.0) + share
+    return {body: share for body, share in found.items() if share}
+
+
+def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex], ...]:
+    """The pins in units of size."""
+    size = structure.size
+    return tuple((each.first, each.second, each.at_first / size, each.at_second / size) for each in structure.pins)
+
+
+def drive_rows(structure: Structure, starts: Mapping[str, float]) -> list[Row]:
+    """The rows of the drives from their starts [rad or size]; the input is in rad, of a slide in units of size."""
+    size, by_slide = structure.size, structure.drives[0].slide is not None
+    found = []
+    for each in structure.drives:
+        unit = 1.0 if (each.slide is not None) == by_slide else size if by_slide else 1.0 / size
+        found.append(driven_row(each.body, each.slide, size, starts[each.name], each.ratio * unit))
+    return found

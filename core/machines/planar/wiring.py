@@ -1,0 +1,231 @@
+"""What is wrong with the names and the wiring of a planar mechanism's file, before anything is computed."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.errors import named
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
+
+FRAME = "frame"
+RESERVED = (FRAME, "input", "time")
+Fault = tuple[str, str, str]
+
+
+def faults(spec: PlanarSpec) -> Iterator[Fault]:
+    """Code, key and words of what is wrong, the first of each sort that others rest on."""
+    yield from _names(spec)
+    yield from _bars(spec)
+    yield from _slides(spec)
+    for name, mesh in spec.meshes.items():
+        yield from _mesh(spec, f"meshes.{name}", mesh)
+    yield from _drives(spec)
+    yield from _starts(spec)
+    yield from _outputs(spec)
+    yield from _hanging(spec)
+
+
+def _names(spec: PlanarSpec) -> Iterator[Fault]:
+    seen: dict[str, str] = {}
+    for section in ("links", "slides", "slots", "meshes"):
+        for name in getattr(spec, section):
+            key = f"{section}.{name}"
+            if name in RESERVED:
+                yield "GL111", key, f"{name} has a meaning of its own: call it otherwise"
+            if name in seen:
+                yield (
+                    "GL111",
+                    key,
+                    f"{seen[name]} has this name already: links, slides, slots and meshes need their own",
+                )
+            seen[name] = key
+
+
+def _bars(spec: PlanarSpec) -> Iterator[Fault]:
+    for name, link in spec.links.items():
+        if isinstance(link, dict):
+            continue
+        first, second, length = link
+        for k, point in enumerate((first, second)):
+            if not isinstance(point, str):
+                yield "GL111", f"links.{name}[{k}]", "a bar is [first point, second point, length]: name its points"
+        if isinstance(length, str):
+            yield "GL111", f"links.{name}[2]", "a bar is [first point, second point, length]: give its length in mm"
+        if first == second:
+            yield "GL111", f"links.{name}[1]", "a bar leads from one point to another: name two"
+
+
+def _near(wrong: str, known: Iterable[str]) -> str:
+    names = list(known)
+    close = difflib.get_close_matches(wrong, names, 1)
+    if close:
+        return f"did you mean {close[0]}?"
+    return f"there are {', '.join(names[:12])}{' ...' if len(names) > 12 else ''}" if names else "there is none"
+
+
+def _body(spec: PlanarSpec, name: str, key: str) -> Iterator[Fault]:
+    if name != FRAME and name not in spec.links:
+        yield "GL111", key, f"no link is called {named(name)}: {_near(name, [FRAME, *spec.links])}"
+
+
+def _point(spec: PlanarSpec, point: str, body: str, key: str) -> Iterator[Fault]:
+    points = spec.bodies[body]
+    if point not in points:
+        yield "GL111", key, f"{body} has no point {named(point)}: {_near(point, points)}"
+
+
+def _slides(spec: PlanarSpec) -> Iterator[Fault]:
+    taken: dict[str, str] = {}
+    for name, slide in spec.slides.items():
+        key = f"slides.{name}"
+        if slide.link not in spec.links:
+            yield "GL111", f"{key}.link", f"no link is called {named(slide.link)}: {_near(slide.link, spec.links)}"
+        yield from _body(spec, slide.on, f"{key}.on")
+        if slide.on == slide.link:
+            yield "GL111", f"{key}.on", "a link cannot slide on itself: name the body that has the line"
+        if slide.point is not None:
+            yield from _point(spec, slide.point, slide.link, f"{key}.point")
+        if slide.link in taken:
+            words = (
+                f"{slide.link} runs on slide {taken[slide.link]} already: a second line is a slot for one of its points"
+            )
+            yield "GL111", f"{key}.link", words
+        taken[slide.link] = name
+    points = dict.fromkeys(point for body in spec.bodies.values() for point in body)
+    for name, slot in spec.slots.items():
+        key = f"slots.{name}"
+        yield from _body(spec, slot.on, f"{key}.on")
+        if slot.point not in points:
+            yield "GL111", f"{key}.point", f"no body has a point {named(slot.point)}: {_near(slot.point, points)}"
+        if not any(slot.point in body for other, body in spec.bodies.items() if other != slot.on):
+            words = f"{slot.point} stands on {slot.on} itself, which has the slot: name a point of another body"
+            yield "GL111", f"{key}.point", words
+
+
+def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
+    if mesh.gears is None:
+        yield from _body(spec, mesh.rack or "", f"{key}.rack")
+        if mesh.pinion not in spec.links:
+            yield (
+                "GL111",
+                f"{key}.pinion",
+                f"no link is called {named(mesh.pinion or '')}: {_near(mesh.pinion or '', spec.links)}",
+            )
+        yield from _point(spec, str(mesh.at), mesh.pinion or "", f"{key}.at")
+        if mesh.rack == mesh.pinion:
+            yield "GL111", f"{key}.pinion", "rack and pinion are one link: name two"
+        return
+    for k, (gear, point) in enumerate(zip(mesh.gears, mesh.at, strict=True)):
+        yield from _body(spec, gear, f"{key}.gears[{k}]")
+        yield from _point(spec, point, gear, f"{key}.at[{k}]")
+    if mesh.gears[0] == mesh.gears[1]:
+        yield "GL111", f"{key}.gears[1]", "both gears are one body: name two"
+    if mesh.at[0] == mesh.at[1]:
+        yield "GL111", f"{key}.at", "both gears have one centre, which leaves no distance for teeth: name two points"
+    if mesh.carrier is not None:
+        yield from _body(spec, mesh.carrier, f"{key}.carrier")
+        for point in mesh.at:
+            yield from _point(spec, point, mesh.carrier, f"{key}.carrier")
+    holder = mesh.carrier or next((name for name, body in spec.bodies.items() if {*mesh.at} <= {*body}), None)
+    if holder is None:
+        words = f"no body has both points {' and '.join(mesh.at)}, so nothing holds the gears at their distance"
+        yield "GL111", f"{key}.at", f"{words}: add a link between them"
+    elif spec.bodies[holder][mesh.at[0]] == spec.bodies[holder][mesh.at[1]]:
+        yield "GL111", f"{key}.at", "the centres of the gears are one place: move one of them"
+
+
+def _drives(spec: PlanarSpec) -> Iterator[Fault]:
+    drive = spec.drive
+    if drive.link is not None and drive.link not in spec.links:
+        yield "GL111", "drive.link", f"no link is called {named(drive.link)}: {_near(drive.link, spec.links)}"
+    if drive.slide is not None and drive.slide not in spec.slides:
+        yield "GL111", "drive.slide", f"no slide is called {named(drive.slide)}: {_near(drive.slide, spec.slides)}"
+    if drive.link in spec.slid:
+        yield "GL111", "drive.link", f"{drive.link} slides: give slide: {spec.slid[drive.link]} in place of link"
+    for name in drive.others:
+        key, known = f"drive.with.{name}", [*spec.links, *spec.slides]
+        if name not in known:
+            yield "GL111", key, f"no link or slide is called {named(name)}: {_near(name, known)}"
+        if name in spec.slid:
+            yield "GL111", key, f"{name} slides: name its slide {spec.slid[name]} in place of the link"
+        if name == drive.main:
+            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1: leave it out"
+    if drive.slide is not None and spec.range is None:
+        words = "a slide as drive needs a range: {start, end} (mm), since nothing repeats"
+        yield "GL106", "range", words
+
+
+def _starts(spec: PlanarSpec) -> Iterator[Fault]:
+    known = [*(name for name in spec.links if name not in spec.slid), *spec.slides]
+    for name in spec.start:
+        if name in spec.slid:
+            yield "GL111", f"start.{name}", f"{name} slides: give the place of {spec.slid[name]}, or leave it out"
+        if name not in known:
+            yield "GL111", f"start.{name}", f"no link or slide is called {named(name)}: {_near(name, known)}"
+    given = {spec.drive.main, *spec.drive.others, *tied(spec).values(), *spec.start, *spec.slid}
+    for name in spec.links:
+        if name not in given:
+            words = f"{name} has no start: give start.{name}, its rough direction at input 0 (deg)"
+            yield "GL106", f"start.{name}", words
+
+
+def tied(spec: PlanarSpec) -> dict[str, str]:
+    """By mesh, what its start value makes exact: the second link, or the first where that is taken; a slide's place
+    of a link that slides. A mesh of which both are taken is left out.
+    """
+    taken = {spec.drive.main, *spec.drive.others}
+    found = {}
+    for name, mesh in spec.meshes.items():
+        pair = [mesh.rack or "", mesh.pinion or ""] if mesh.gears is None else mesh.gears
+        for link in (pair[1], pair[0]):
+            own = spec.slid.get(link, link)
+            if own not in taken and own != FRAME:
+                found[name] = own
+                taken.add(own)
+                break
+    return found
+
+
+def _outputs(spec: PlanarSpec) -> Iterator[Fault]:
+    points = dict.fromkeys(point for link, body in spec.bodies.items() if link != FRAME for point in body)
+    known = [*spec.links, *spec.slides, *spec.slots, *points]
+    for k, name in enumerate(spec.outputs or ()):
+        if name not in known:
+            words = f"no link, slide, slot or point of a link is called {named(name)}: {_near(name, known)}"
+            yield "GL111", f"outputs[{k}]", words
+        if name in (spec.outputs or ())[:k]:
+            yield "GL111", f"outputs[{k}]", f"{name} stands here twice: leave one out"
+    for name in spec.shafts:
+        point, _, rest = name.rpartition("_")
+        if rest != "radius" or point not in spec.frame:
+            shafts = [f"{each}_radius" for each in spec.frame]
+            yield "GL111", f"shafts.{name}", f"a shaft stands at a point of the frame: {_near(name, shafts)}"
+
+
+def _hanging(spec: PlanarSpec) -> Iterator[Fault]:
+    """Links that no chain of joints leads to from the frame."""
+    near: dict[str, set[str]] = {name: set() for name in spec.bodies}
+
+    def join(one: str, other: str) -> None:
+        near[one].add(other)
+        near[other].add(one)
+
+    for point in {point for body in spec.bodies.values() for point in body}:
+        holders = [name for name, body in spec.bodies.items() if point in body]
+        for other in holders[1:]:
+            join(holders[0], other)
+    for slide in spec.slides.values():
+        join(slide.link, slide.on)
+    for slot in spec.slots.values():
+        join(slot.on, next(name for name, body in spec.bodies.items() if slot.point in body and name != slot.on))
+    reached, edge = {FRAME}, [FRAME]
+    while edge:
+        edge = [name for each in edge for name in near[each] if name not in reached and not reached.add(name)]  # type: ignore[func-returns-value]
+    for name in spec.links:
+        if name not in reached:
+            words = f"{name} hangs on nothing: no pin, slide or slot leads from the frame to it; give it a common point"
+            yield "GL111", f"links.{name}", words
