@@ -291,7 +291,7 @@ KINDS: dict[str, Kind] = {
             "any planar mechanism: links, pins, slides, slots, gears and racks, one or more drives",
             "machines.planar",
             "spec:PlanarSpec",
-            {"analyze": "design:PlanarMechanism", "tolerance": ""},
+            {"analyze": "design:PlanarMechanism", "loads": "loads:PlanarLoads", "tolerance": ""},
             motion="mechanism:motion",
             worked="planar_watt",
         ),

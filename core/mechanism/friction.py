@@ -87,8 +87,11 @@ class Coefficients:
                 continue
             direction = np.sign(speed) * sense_of(relative(mechanism, each), relative(mechanism, each, 2))
             if isinstance(each, Guide):
-                at = mechanism.links[each.second].origin.value
-                yield Unit(each.name, [Act(each.second, -direction * each.along, at, 0.0)], share)
+                at = mechanism.links[each.second].origin.value if each.first == FRAME else each.at
+                acts = [Act(each.second, -direction * each.along, at, 0.0)]
+                if each.first != FRAME:
+                    acts.append(Act(each.first, direction * each.along, at, 0.0))
+                yield Unit(each.name, acts, share)
             elif isinstance(each, Pin):
                 yield Unit(each.name, _against(each.second, each.first, direction), share)
             elif isinstance(each, Rack):
@@ -115,12 +118,31 @@ class Coefficients:
 def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:
     """Relative turning of a pin, travel of a guide [mm], rolling of a mesh; per input angle, or its derivative."""
     if isinstance(connection, Guide):
-        return dot(connection.along, mechanism.links[connection.second].origin.derivative(order))
+        return _travel(mechanism, connection, order)
     if isinstance(connection, Rack):
         return rates(mechanism, connection.carrier, connection.second, order)
     if isinstance(connection, Mesh):
         return rates(mechanism, connection.carrier, connection.first, order)
     return rates(mechanism, connection.first, connection.second, order)
+
+
+def _travel(mechanism: Mechanism, guide: Guide, order: int) -> Reals:
+    """Travel of a guide per input angle, or its derivative, seen from the link that has the line.
+
+    s' = u . (d' - i t' d),  s'' = u . (d'' - 2 i t' d' - (i t'' + t'^2) d),  t of that link
+
+    Notes
+        The link that slides does not turn against the other one, so that any point of it serves: d leads from the one
+        origin to the other.
+    """
+    sliding, held = mechanism.links[guide.second], mechanism.link(guide.first)
+    if held is None:
+        return dot(guide.along, sliding.origin.derivative(order))
+    turn, apart = held.turn, [there - here for there, here in zip(sliding.origin, held.origin, strict=True)]
+    if order == 1:
+        return dot(guide.along, apart[1] - 1j * turn.first * apart[0])
+    bent = apart[2] - 2j * turn.first * apart[1] - (1j * turn.second + turn.first**2) * apart[0]
+    return dot(guide.along, bent)
 
 
 Pulled = Mapping[str, Mask]

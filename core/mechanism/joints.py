@@ -66,13 +66,16 @@ class Pin:
 
 @dataclass(frozen=True)
 class Guide:
-    """A slide without play: a force across the direction `along`, and a couple."""
+    """A slide without play: a force across the direction `along`, and a couple.
+
+    The direction is one for all inputs, or on a link that moves an array.
+    """
 
     name: str
     first: str
     second: str
     at: Points
-    along: complex
+    along: complex | Points
 
     def columns(self) -> list[Column]:
         """The force i u and the couple."""
@@ -127,7 +130,7 @@ class Rack:
 
     Fields
         center : (N,) array [mm] - of the pinion
-        along, normal : complex - of the pitch line; from the rack to the pinion
+        along, normal : complex, or (N,) arrays of a rack that turns - of the pitch line; from the rack to the pinion
         mate_radius : float [mm] - of the pinion
         tangent : float - tan of the pressure angle
     """
@@ -136,8 +139,8 @@ class Rack:
     first: str
     second: str
     center: Points
-    along: complex
-    normal: complex
+    along: complex | Points
+    normal: complex | Points
     mate_radius: float
     tangent: float
     radius: float = field(default=0.0, init=False)
@@ -154,7 +157,7 @@ class Rack:
 
     def radial(self) -> Radial:
         """From the rack to the pinion."""
-        return Radial(np.full(self.center.shape, self.tangent * self.normal), self.pitch_point)
+        return Radial(np.broadcast_to(self.tangent * np.asarray(self.normal), self.center.shape), self.pitch_point)
 
 
 @dataclass(frozen=True)
@@ -244,6 +247,24 @@ class Coupling:
 
 
 @dataclass(frozen=True)
+class Feed:
+    """A train on the frame that moves the second link `ratio` mm along a line of the first while a shaft turns a rad."""
+
+    name: str
+    first: str
+    second: str
+    at: Points
+    along: complex | Points
+    shaft: str
+    ratio: float
+
+    def columns(self) -> list[Column]:
+        """The force along the line; the couple that it takes on the shaft, the frame takes the rest."""
+        on_shaft = Act(self.shaft, 0j, self.at, -self.ratio)
+        return [Column(self.first, self.second, self.along, self.at, 0.0, (on_shaft,))]
+
+
+@dataclass(frozen=True)
 class SharedContact:
     """A roller that several cams guide in turn: one force along the normal at the roller's centre.
 
@@ -299,7 +320,7 @@ class Flank:
         return [column._replace(force=np.asarray(column.force + self.side * radial.force))]
 
 
-Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | SharedContact | Flank
+Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | Feed | SharedContact | Flank
 Toothed = (Mesh, Rack, ToothDrive)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlink.core.machines.planar.outputs import jets_of, moved
 from gearlink.core.machines.planar.structure import GearJoint, LineJoint, PinJoint, RackJoint
-from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.planar.course import Course as Followed
     from gearlink.core.machines.planar.design import PlanarMechanism
     from gearlink.core.machines.planar.dyads import Dyad
-    from gearlink.core.machines.planar.structure import Structure
+    from gearlink.core.machines.planar.structure import Driven, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Points, Reals
 
@@ -75,6 +75,7 @@ def _joints(structure: Structure, jets: Jets) -> list[Connection]:
         *(places.guide(slide) for slide in structure.slides.values()),
         *(places.slot(slot) for slot in structure.slots.values()),
         *(places.teeth(mesh) for mesh in structure.meshes.values()),
+        *(places.train(drive, structure.drives[0]) for drive in structure.drives[1:]),
     ]
 
 
@@ -106,6 +107,20 @@ class _Places:
         return Contact(
             slot.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), normal
         )
+
+    def train(self, driven: Driven, first: Driven) -> Coupling | Feed:
+        """What moves a further drive with the first one."""
+        shaft, name = self._moved(first), f"drive_{driven.name}"
+        at = self.jets.x[0][:, driven.body] * self.structure.size
+        if driven.slide is None:
+            return Coupling(name, shaft, self.names[driven.body], at, driven.ratio)
+        line = driven.slide.line
+        along = self._unit(line.body, line.direction)
+        place = self._at(line.other, line.point)
+        return Feed(name, self.names[line.body], self.names[line.other], place, along, shaft, driven.ratio)
+
+    def _moved(self, driven: Driven) -> str:
+        return self.names[driven.body if driven.slide is None else driven.slide.line.other]
 
     def teeth(self, mesh: GearJoint | RackJoint) -> Mesh | Rack:
         if isinstance(mesh, RackJoint):

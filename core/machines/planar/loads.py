@@ -1,0 +1,204 @@
+"""The loads of a planar mechanism: torque of the driven link, forces of pins, slides, slots and teeth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Outline
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.report import Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.planar.design import OfFile, PlanarMechanism
+from gearlink.core.studies.loads import tables
+from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from gearlink.core.machines.planar.loads_spec import PlanarLoads as Section
+    from gearlink.core.machines.planar.spec import PlanarSpec
+    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Motion
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.studies.loads.machine import Machine
+    from gearlink.core.studies.loads.sources import Sources
+
+
+class PlanarLoads(LoadsDesign):
+    """Forces over the period, or with a range over one pass of it at constant speed.
+
+    Parameters
+        spec : PlanarSpec
+    """
+
+    kind = "planar-mechanism"
+    spec: PlanarSpec
+    section: Section
+    links, pins, meshes = (), (), ()
+    outlines = loads_outline((), ())
+    quantity_names = OfFile()  # type: ignore[assignment]
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        structure = self.design.structure
+        first = next((name for name in spec.shown if name in (*spec.links, *spec.slides)), structure.names[-1])
+        sliding = [slide.link for slide in spec.slides.values() if slide.on == structure.names[0]]
+        vars(self).update(
+            links=structure.names[1:],
+            sliding=tuple(sliding),
+            pins=tuple(pin.name for pin in structure.pins),
+            meshes=tuple(spec.meshes),
+            output=spec.slides[first].link if first in spec.slides else first,
+        )
+
+    @cached_property
+    def design(self) -> PlanarMechanism:
+        """The geometry."""
+        return PlanarMechanism(self.spec)
+
+    @property
+    def own_names(self) -> tuple[str, ...]:
+        """The quantities of this design."""
+        return self.outline("loads").quantities
+
+    def outline(self, command: str) -> Outline:
+        """With the joints of the file."""
+        return loads_outline(self.pins, self.meshes)[command]
+
+    @cached_property
+    def section(self) -> Any:  # type: ignore[no-redef]
+        """The section `loads`, refused where it asks for what a pass over a range or a slide as drive has not."""
+        if self.spec.drive.slide is not None:
+            words = "`loads` is of a link that the input turns: drive a link in place of a slide"
+            raise MissingSection(words, key="drive.slide")
+        found = super().section
+        if self.spec.range is not None:
+            for key in ("flywheel", "motor", "vibration"):
+                if getattr(found, key) is not None:
+                    words = f"over a range nothing repeats, so there is no {key}: leave it out, or range"
+                    raise MissingSection(words, key=f"loads.{key}")
+            for name, bearing in found.bearings.items():
+                if bearing.life is not None:
+                    words = "over a range nothing repeats, so there is no life: leave it out, or range"
+                    raise MissingSection(words, key=f"loads.bearings.{name}.life")
+        return found
+
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """Masses by link, those of the file."""
+        from gearlink.core.studies.loads.sources import mass_of
+
+        for name in self.section.links:
+            if name not in self.links:
+                words = f"this mechanism has no link {name!r}: it has {', '.join(self.links)}"
+                raise NoSolution(words, key=f"loads.links.{name}")
+        bodies = self.section.links
+        return {name: mass_of(body) for name, body in bodies.items() if body.mass or body.inertia}
+
+    @property
+    def turns(self) -> int:
+        """Input turns after which everything repeats; over a range those that it takes."""
+        return self.design.period_turns or 1
+
+    # One pass over a range
+
+    @property
+    def _first(self) -> float:
+        """Input at which a pass begins [rad]; 0 of a period."""
+        return self.design.course.start
+
+    @cached_property
+    def moving(self) -> Motion:
+        """The motion; over a range its input counts from where the pass begins."""
+        found, first = self.design.moving, self._first
+        if self.spec.range is None or first == 0.0:
+            return found
+        given = replace(found.input, start=0.0, end=found.input.end - first)
+        return replace(found, input=given, make=lambda q, order, side: found.make(q + first, order, side), kept={},
+                       kept_few={})  # fmt: skip
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything together; over a range a pass of it."""
+        found = super().machine
+        if self.spec.range is None:
+            return found
+        first, last = self._first, self.design.course.end
+        sources: Any = _Shifted(found.sources, first)
+        return replace(found, sources=sources, stroke=last - first, kept={}, kept_few={}, kept_sums={})
+
+    def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
+        """Input angles of a table's rows from where the pass begins [rad], and the first column."""
+        import numpy as np
+
+        if self.spec.range is None:
+            return super().rows(samples)
+        from gearlink.core.machines.planar.tables import inputs
+
+        degrees = inputs(self.design, samples)
+        return np.radians(degrees) - self._first, {"input_angle": (degrees, "deg")}
+
+    @property
+    def input_torque_max_at(self) -> float:
+        """Input angle of the greatest torque [rad]."""
+        return self._place(self.torque_range[1].place)
+
+    @property
+    def input_torque_min_at(self) -> float:
+        """Input angle of the least [rad]."""
+        return self._place(self.torque_range[0].place)
+
+    def _place(self, found: float) -> float:
+        return found % self.machine.period if self.spec.range is None else found + self._first
+
+    # Tables
+
+    def table_joints(self, samples: int | None = None) -> Table:
+        """Forces of pins, those across slides with their couples, those of slots."""
+        from gearlink.core.mechanism.joints import Contact, Guide
+
+        whole = tables.joints(self, samples)
+        found = self.machine.reactions(self.rows(samples)[0])
+        columns = dict(zip(whole.columns, zip(whole.data, whole.units, strict=True), strict=True))
+        for each in found.mechanism.connections:
+            if isinstance(each, Guide):  # one number across the line says it
+                columns.pop(f"{each.name}_x")
+                columns.pop(f"{each.name}_y")
+                columns[each.name] = found.unknowns[each.name][0], "N"
+            elif isinstance(each, Contact):
+                columns[each.name] = found.unknowns[each.name][0], "N"
+        return Table.of("joints", columns)
+
+
+@dataclass(frozen=True)
+class _Shifted:
+    """Sources whose input counts from elsewhere [rad]."""
+
+    sources: Sources
+    first: float
+
+    @property
+    def any(self) -> bool:
+        """Whether there is any force at all."""
+        return self.sources.any
+
+    @property
+    def resisted(self) -> tuple[str, ...]:
+        """Links with a resistance."""
+        return self.sources.resisted
+
+    def breaks(self) -> list[float]:
+        """Where a zone or a table jumps or bends."""
+        return sorted(self._breaks())
+
+    def _breaks(self) -> Iterator[float]:
+        import math
+
+        for place in self.sources.breaks():
+            yield (place - self.first) % (2.0 * math.pi)
+
+    def at(self, mechanism: Mechanism, phi: Reals, sense: float) -> list[Force | Torque]:
+        """All of them."""
+        return self.sources.at(mechanism, phi + self.first, sense)
