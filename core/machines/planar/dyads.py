@@ -39,13 +39,11 @@ class Dyad:
         block : the part of the equations
         bodies : numbers of its links
         ways : how each unknown moves the closing pin
-        moved : bodies that each unknown carries, for the other closing
     """
 
     block: Block
     bodies: tuple[int, ...]
     ways: tuple[Swing | Along, Swing | Along]
-    moved: tuple[tuple[int, ...], tuple[int, ...]]
 
     def motions(self, jets: Jets, k: int) -> tuple[Points, Points]:
         """Coefficients of the two motions of the closing pin."""
@@ -82,48 +80,58 @@ def _motion(way: Swing | Along, jets: Jets, k: int) -> Points:
 def dyads(structure: Structure, system: System) -> list[Dyad]:
     """The dyads among the parts of the equations of a mechanism."""
     joints = _joints(structure)
-    found = []
+    found: dict[tuple[int, ...], Dyad] = {}
     for block in system.blocks:
         bodies = {column // 3 + 1 for column in block.columns}
         own = [each for each in system.blocks if {column // 3 + 1 for column in each.columns} & bodies]
-        rows = {row for each in own for row in each.rows}
         if any({column // 3 + 1 for column in each.columns} - bodies for each in own):
             continue
-        if any(2 in (column % 3 for column in each.columns) for each in own if each != block):
-            continue  # its directions were known before
-        made = _dyad(block, bodies, [joints.get(row) for row in sorted(rows)], structure)
+        rows = sorted(row for each in own for row in each.rows)
+        made = _dyad(block, bodies, [joints.get(row) for row in rows], structure)
         if made is not None:
-            found.append(made)
-    return found
+            known = found.get(made.bodies)
+            if known is None or len(known.block.rows) < len(block.rows):
+                found[made.bodies] = made
+    return list(found.values())
 
 
-def _joints(structure: Structure) -> dict[int, PinJoint | LineJoint]:
+class _Tie(NamedTuple):
+    """An equation of a joint; of a slide `across` its line, or of the direction."""
+
+    joint: PinJoint | LineJoint
+    across: bool = False
+
+
+def _joints(structure: Structure) -> dict[int, _Tie]:
     """By equation the joint that it is of; those of drives and meshes are left out."""
-    each: list[PinJoint | LineJoint] = [pin for pin in structure.pins for _ in range(2)]
-    each += [slide for slide in structure.slides.values() for _ in range(2)]
-    each += structure.slots.values()
-    return dict(enumerate(each))
+    ties = [_Tie(pin) for pin in structure.pins for _ in range(2)]
+    ties += [_Tie(slide, across) for slide in structure.slides.values() for across in (True, False)]
+    ties += [_Tie(slot, across=True) for slot in structure.slots.values()]
+    return dict(enumerate(ties))
 
 
 def _ends(joint: PinJoint | LineJoint) -> tuple[int, int]:
     return (joint.first, joint.second) if isinstance(joint, PinJoint) else (joint.line.body, joint.line.other)
 
 
-def _dyad(
-    block: Block, bodies: set[int], joints: list[PinJoint | LineJoint | None], structure: Structure
-) -> Dyad | None:
-    if None in joints or len(joints) != 3 * len(bodies):
+def _dyad(block: Block, bodies: set[int], ties: list[_Tie | None], structure: Structure) -> Dyad | None:
+    known = [tie for tie in ties if tie is not None]
+    if len(known) != len(ties) or len(ties) != 3 * len(bodies):
         return None
-    distinct = list(dict.fromkeys(joint for joint in joints if joint is not None))
-    slots = [each for each in distinct if isinstance(each, LineJoint) and each.lean is None]
-    if len(bodies) == 1 and len(distinct) == 2 and len(slots) == 1:
-        (body,), (held,) = bodies, (each for each in distinct if each not in slots)
-        line = scaled(slots[0].line, structure.size)
-        along = Along(line.body, line.direction)
-        swing = _held_way(held, body, (line.other, line.point), structure.size)
-        return Dyad(block, (body,), (swing, along), ((body,), ()))
-    if len(bodies) == 2 and len(distinct) == 3 and not slots:
-        return _of_two(block, tuple(sorted(bodies)), distinct, structure.size)
+    rows: dict[PinJoint | LineJoint, list[_Tie]] = {}
+    for tie in known:
+        rows.setdefault(tie.joint, []).append(tie)
+    whole = [joint for joint, own in rows.items() if len(own) == 2]
+    if len(bodies) == 1 and len(rows) == 2 and len(whole) == 1:
+        (body,), ((tie,),) = bodies, (own for own in rows.values() if len(own) == 1)
+        joint = tie.joint
+        if not tie.across or not isinstance(joint, LineJoint):
+            return None
+        line = scaled(joint.line, structure.size)
+        swing = _held_way(whole[0], body, (line.other, line.point), structure.size)
+        return Dyad(block, (body,), (swing, Along(line.body, line.direction)))
+    if len(bodies) == 2 and len(whole) == 3:
+        return _of_two(block, tuple(sorted(bodies)), whole, structure.size)
     return None
 
 
@@ -145,7 +153,7 @@ def _of_two(block: Block, bodies: tuple[int, ...], joints: list[PinJoint | LineJ
     if isinstance(joint, PinJoint):
         pins = {joint.first: joint.at_first / size, joint.second: joint.at_second / size}
         ways = _held_way(first, one, (one, pins[one]), size), _held_way(second, other, (other, pins[other]), size)
-        return Dyad(block, bodies, ways, ((one,), (other,)))
+        return Dyad(block, bodies, ways)
     along = Along(joint.line.body, joint.line.direction)
     if isinstance(first, LineJoint) and isinstance(second, PinJoint):
         one, other, first, second = other, one, second, first
@@ -153,8 +161,8 @@ def _of_two(block: Block, bodies: tuple[int, ...], joints: list[PinJoint | LineJ
         return None
     if isinstance(second, PinJoint):
         far = (other, (second.at_first if second.first == other else second.at_second) / size)
-        return Dyad(block, bodies, (_held_way(first, one, far, size), along), ((one, other), (other,)))
-    return Dyad(block, bodies, (along, Along(second.line.body, second.line.direction)), ((one,), (other,)))
+        return Dyad(block, bodies, (_held_way(first, one, far, size), along))
+    return Dyad(block, bodies, (along, Along(second.line.body, second.line.direction)))
 
 
 def mirrored(dyad: Dyad, x: Points, t: Reals) -> None:
