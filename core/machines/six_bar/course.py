@@ -4,62 +4,37 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution, anew
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.six_bar.loop import SixBar
+from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
 from gearlink.core.numerics.arrays import Reals
 
-# One place after another of a six-bar's motion, each certain to lie on the branch of the one before
-
-JAM = 1e-9  # rad, a certified step so short is a dead centre, known to about as much
 _ROUNDS = 60
 _FINE = 1e-10  # rad, after a step so short another one would be some 1e-20
 _SINGULAR = 1e-15
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A place of the motion.
-
-    Parameters
-        phi : float - input angle [rad]
-        u : two float - free directions less those at the start [rad]
-        rates : two float - their derivatives by the input angle
-        reach : float - how far the tangent certainly leads to the next place [rad]
-    """
-
-    phi: float
-    u: tuple[float, float]
-    rates: tuple[float, float]
-    reach: float
-
-    @property
-    def row(self) -> tuple[float, ...]:
-        """Input angle, free directions and their rates."""
-        return (self.phi, *self.u, *self.rates)
+_HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a turn
 
 
 @dataclass(frozen=True)
 class Follower:
-    """The motion of a six-bar in certain steps.
+    """The certain steps of a six-bar: unknown are its free directions less those at the start [rad].
 
     Parameters
         bar : SixBar
     Example
+        >>> from gearlink.core.mechanism.follow import onwards
         >>> from gearlink.core.machines.six_bar.relations import train_relation
         >>> rows = train_relation(0, (20, 20)), train_relation(4, (16, 24))
         >>> start = {2: math.radians(300.0), 5: math.radians(-60.0)}
         >>> follower = Follower(SixBar((190.0, 30.0, 30.0, 150.0, 60.0, 75.0), rows, start))
         >>> origin = follower.place(0.0, (0.0, 0.0))
-        >>> round(list(follower.onwards(origin, 0.5))[-1].phi, 12)
+        >>> round(list(onwards(follower, origin, 0.5))[-1].q, 12)
         0.5
 
     Source
@@ -84,30 +59,16 @@ class Follower:
         """K."""
         return sum(size * math.hypot(n, m) for size, (*_, n, m) in zip(self._sizes, self._links, strict=True))
 
-    def onwards(self, place: Place, end: float) -> Iterator[Place]:
-        """The places after one, up to an input angle; fewer where a dead centre is met before."""
-        way = math.copysign(1.0, end - place.phi)
-        while place.phi != end and place.reach >= JAM:
-            phi = end if place.reach >= abs(end - place.phi) else place.phi + way * place.reach
-            on = phi - place.phi
-            found = self.place(
-                phi, self.closed(phi, (place.u[0] + place.rates[0] * on, place.u[1] + place.rates[1] * on))
-            )
-            if found is None:
-                return
-            place = found
-            yield place
-
-    def closed(self, phi: float, near: tuple[float, float]) -> tuple[float, float]:
-        """Free directions less those at the start, from approximate ones, by Newton's steps.
+    def closed(self, q: float, near: tuple[float, ...]) -> tuple[float, ...]:
+        """Free directions from approximate ones, by Newton's steps.
 
         Parameters
-            phi : float - input angle [rad]
+            q : float - input angle [rad]
             near : two float [rad] - next to those of the loop
         Raises
             NoSolution - where the loop does not close
         """
-        u, w, finest = *near, math.inf
+        (u, w), phi, finest = near, q, math.inf
         frame, crank = self.bar.lengths[:2]
         for _ in range(_ROUNDS):
             gap, one, other = cmath.rect(crank, phi) - frame, 0j, 0j
@@ -125,13 +86,14 @@ class Follower:
                 return u, w
         raise NoSolution("the six-bar does not close there")
 
-    def place(self, phi: float, u: tuple[float, float]) -> Place | None:
+    def place(self, q: float, u: tuple[float, ...]) -> Place | None:
         """The place at an input angle; None in a dead centre.
 
         Parameters
-            phi : float - input angle [rad]
-            u : two float - free directions less those at the start [rad]
+            q : float - input angle [rad]
+            u : two float - free directions [rad]
         """
+        phi = q
         crank, one, other = cmath.rect(self.bar.lengths[1], phi), 0j, 0j
         pushed = crank
         for length, first, slope, n, m in self._links:
@@ -157,18 +119,32 @@ def _solve_pair(one: complex, other: complex, right: complex) -> tuple[float, fl
     return (right.conjugate() * other).imag / determinant, (one.conjugate() * right).imag / determinant
 
 
-_TURN = 2.0 * math.pi
-_MOST_TURNS = 100
-_HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a turn
-_MOST_STEPS = 100_000
+@dataclass(frozen=True)
+class _Refusals:
+    """Why a six-bar cannot be followed."""
 
+    def starts_dead(self) -> NoSolution:
+        return NoSolution("the six-bar starts in a dead centre: change start", key="start")
 
-class _Walk(NamedTuple):
-    """Places one after the other, the turns of the period, and why there are no more."""
+    def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
+        """With the range that is free of dead centres."""
+        if back is None:
+            free = f"{'above' if q < 0.0 else 'below'} {math.degrees(q):.6g} deg"
+        else:
+            low, high = sorted((math.degrees(q), math.degrees(back)))
+            free = f"between {low:.6g} and {high:.6g} deg"
+        return NoSolution(
+            f"the six-bar meets a dead centre at input angle {math.degrees(q):.6g} deg, where it jams: let the input "
+            f"swing {free} (range: {{start, end}}), lengthen the couplers, or shorten input and output",
+            key="range" if ranged else "links",
+        )
 
-    places: list[Place]
-    turns: int | None
-    error: NoSolution | None
+    def never_home(self) -> NoSolution:
+        return NoSolution(
+            f"the six-bar does not come home within {MOST_TURNS} turns of the input: take teeth with common factors, "
+            "or give range: {start, end}",
+            key="trains",
+        )
 
 
 @dataclass(frozen=True)
@@ -203,99 +179,34 @@ class Course:
     @property
     def end(self) -> float:
         """Last input angle [rad]."""
-        return _TURN * (self.period_turns or 1) if self.range is None else self.range[1]
+        return TURN * (self.period_turns or 1) if self.range is None else self.range[1]
 
     @property
     def period_turns(self) -> int | None:
         """Input turns until everything repeats; None over a range."""
-        return self._followed[1]
+        return self.walk.turns
 
     @property
     def followed(self) -> int:
         """How many places were followed so far."""
-        return len(self._walk.places) if "_walk" in self.__dict__ else 0
+        return self.walk.followed
 
     @cached_property
-    def _followed(self) -> tuple[Reals, int | None]:
-        """Certified places: rows of input angle, free directions, their rates; and the turns of the period."""
-        if self._walk.error is not None:
-            raise anew(self._walk.error)
-        return np.array([place.row for place in self._walk.places]), self._walk.turns
-
-    @cached_property
-    def _walk(self) -> _Walk:
-        """What was followed; kept also where it ends too early."""
-        places: list[Place] = []
-        try:
-            return _Walk(places, self._walked(places), None)
-        except NoSolution as error:
-            return _Walk(places, None, anew(error))
-
-    def _walked(self, places: list[Place]) -> int | None:
-        """Follow the motion over its period or range; the turns of the period."""
-        if self.range is not None:
-            places += self._leg(min(self.range[0], 0.0))[:0:-1]
-            places += self._leg(max(self.range[1], 0.0))
-            return None
-        places.append(self._origin)
-        least = _home_turns(self.bar)
-        for turns in range(least, _MOST_TURNS + 1, least):
-            if not self._follow(places, _TURN * turns):
-                raise NoSolution(self._jam(places[-1].phi), key="links")
-            if self._is_home(places[-1], turns):
-                return turns
-        raise NoSolution(
-            f"the six-bar does not come home within {_MOST_TURNS} turns of the input: take teeth with common factors, "
-            "or give range: {start, end}",
-            key="trains",
-        )
-
-    @cached_property
-    def _follower(self) -> Follower:
-        return Follower(self.bar)
-
-    @cached_property
-    def _origin(self) -> Place:
-        place = self._follower.place(0.0, (0.0, 0.0))
-        if place is None:
-            raise NoSolution("the six-bar starts in a dead centre: change start", key="start")
-        return place
-
-    def _leg(self, end: float) -> list[Place]:
-        places = [self._origin]
-        if not self._follow(places, end):
-            raise NoSolution(self._jam(places[-1].phi), key="range")
-        return places
-
-    def _follow(self, places: list[Place], end: float) -> bool:
-        """Go on from the last place to an input angle; False where a dead centre is met before."""
-        places.extend(islice(self._follower.onwards(places[-1], end), _MOST_STEPS - len(places)))
-        return places[-1].phi == end
+    def walk(self) -> Walk:
+        """The certified places."""
+        return Walk(Follower(self.bar), (0.0, 0.0), self.range, _home_turns(self.bar), self._is_home, _Refusals())
 
     def _is_home(self, place: Place, turns: int) -> bool:
         _, _, slopes, shares = self.bar.numbers
-        moved = slopes * _TURN * turns + shares @ np.array(place.u)
-        return bool(np.abs(np.remainder(moved + math.pi, _TURN) - math.pi).max() < _HOME)
-
-    def _jam(self, phi: float) -> str:
-        """What is wrong at a dead centre, with the range that is free of them."""
-        back = [self._origin]
-        if self._follow(back, -math.copysign(_TURN, phi)):
-            free = f"{'above' if phi < 0.0 else 'below'} {math.degrees(phi):.6g} deg"
-        else:
-            low, high = sorted((math.degrees(phi), math.degrees(back[-1].phi)))
-            free = f"between {low:.6g} and {high:.6g} deg"
-        return (
-            f"the six-bar meets a dead centre at input angle {math.degrees(phi):.6g} deg, where it jams: let the input "
-            f"swing {free} (range: {{start, end}}), lengthen the couplers, or shorten input and output"
-        )
+        moved = slopes * TURN * turns + shares @ np.array(place.u)
+        return bool(np.abs(np.remainder(moved + math.pi, TURN) - math.pi).max() < _HOME)
 
     # Positions
 
     @cached_property
     def grid(self) -> Reals:
         """Input angles [rad] next to which functions of the motion are smooth: dense where dead centres are near."""
-        places = self._followed[0][:, 0]
+        places = self.walk.rows[:, 0]
         inside = places[(places >= self.start) & (places <= self.end)]
         ends = np.array([self.start, self.end])
         return np.unique(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
@@ -304,7 +215,7 @@ class Course:
     def samples(self) -> int:
         """Points of an even grid on which the motion is smooth."""
         fastest = max(1.0, *(abs(float(p)) for p in self.bar.slopes))
-        return math.ceil(360.0 * fastest * (self.end - self.start) / _TURN)
+        return math.ceil(360.0 * fastest * (self.end - self.start) / TURN)
 
     def angles(self, phi: Reals) -> Reals:
         """Directions of links 2 to 5, continuous over the course and beyond its period; (4, N) array [rad]."""
@@ -320,11 +231,7 @@ class Course:
         return np.asarray(ends[:, 1:] - ends[:, :1])
 
     def _angles(self, phi: Reals) -> Reals:
-        places = self._followed[0]
-        k = np.searchsorted(places[1:, 0], phi, side="right")
-        nearest = np.where(phi < 0.0, np.minimum(k + 1, len(places) - 1), k)  # certified outwards from 0
-        at = places[nearest]
-        return self.bar.closed(phi, (at[:, 1:3] + at[:, 3:] * (phi - at[:, 0])[:, None]).T)
+        return self.bar.closed(phi, self.walk.tangents(phi).T)
 
     def rates(self, phi: Reals, order: int = 3) -> tuple[Reals, ...]:
         """Directions of links 2 to 5 and their first derivatives by the input angle, up to three; (4, N) arrays."""

@@ -26,6 +26,7 @@ from gearlink.core.machines.six_bar.loop import SixBar
 from gearlink.core.machines.six_bar.mechanism import pins
 from gearlink.core.machines.six_bar.relations import reduced, train_relation
 from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixStart
+from gearlink.core.mechanism.follow import onwards
 
 EPS = 2.0**-52
 CLOSED, FOLLOWED = "geared_six_bar", "six_bar_swing"
@@ -327,8 +328,8 @@ def test_one_place_after_the_other_against_arrays(name: str) -> None:
     """Places and rates by Python's numbers against the loop's own over arrays, by the dyad where it has one."""
     bar = six_bar(name).bar
     follower = Follower(bar)
-    places = list(follower.onwards(follower.place(0.0, (0.0, 0.0)), 2.0 * math.pi))  # type: ignore[arg-type]
-    phi, u = np.array([place.phi for place in places]), np.array([place.u for place in places]).T
+    places = list(onwards(follower, follower.place(0.0, (0.0, 0.0)), 2.0 * math.pi))  # type: ignore[arg-type]
+    phi, u = np.array([place.q for place in places]), np.array([place.u for place in places]).T
     angles = bar.closed(phi, u + 1e-4)
     free = [j - 2 for j in bar.free]
     condition = 1.0 / np.sin(bar.transmission(angles))
