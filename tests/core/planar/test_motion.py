@@ -1,0 +1,195 @@
+"""Positions to jerks of planar mechanisms, their extremes and dead centres, against other ways to the same numbers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from gearlink.cli.opening import load
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planar.design import PlanarMechanism
+from gearlink.core.machines.planar.system import joined
+from oracles.planar_zoo import FOUR_BAR, WATT, ZOO, made
+from oracles.planar import motion
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+
+
+def planar(name: str, **more: Any) -> PlanarMechanism:
+    return PlanarMechanism(made(name, **more))
+
+
+@pytest.mark.parametrize("name", ZOO)
+def test_positions_and_three_derivatives_against_forty_digits(name: str) -> None:
+    """Joints written down anew from the file, a root of 40 digits, differences of nine places; at two inputs."""
+    course = planar(name).course
+    size = course.structure.size
+    x, t = course.at_start.closed
+    start = _unknowns(x[None] * size, t[None])
+    for share in (0.31, 0.83):
+        q = course.start + share * (course.end - course.start)
+        jets = course.jets(np.array([q]), 3)
+        scale = 1.0 / size if course.by_slide else 1.0
+        found = [
+            _unknowns(jets.x[k] * size, jets.t[k]) * (math.factorial(k) * scale**k) for k in range(4)
+        ]
+        wanted = motion(ZOO[name], start.tolist(), found[0].tolist(), q)
+        for order, (mine, other) in enumerate(zip(found, wanted, strict=True)):
+            exact = np.array([float(each) for each in other])
+            assert mine == pytest.approx(exact, rel=1e-10, abs=1e-11 * max(1.0, np.abs(exact).max())), (order, share)
+
+
+def _unknowns(x: Any, t: Any) -> Any:
+    return joined(x, t)[0]
+
+
+def test_a_geared_five_bar_is_the_kind_of_that_name() -> None:
+    mine, other = load(DESIGNS / "planar_five_bar.yaml"), load(DESIGNS / "five_bar_path.yaml")
+    one, two = mine.table("points"), other.table("path")
+    for column in ("x", "y"):
+        names = [name for name in two.columns if name.endswith(f"{column}") or name == f"point_{column}"]
+        data = np.asarray(two.data[two.columns.index(names[0])])
+        assert np.asarray(one.data[one.columns.index(f"M_{column}")]) == pytest.approx(data, abs=1e-12)
+
+
+def test_the_bed_chain_is_that_of_the_press() -> None:
+    mine, press = load(DESIGNS / "planar_bed_chain.yaml"), load(DESIGNS / "ty460.yaml")
+    degrees = np.arange(0.0, 360.0, 30.0)
+    table = press.table("positions")
+    bed = np.asarray(table.data[table.columns.index("bed_displacement")])
+    slides = mine.table("slides", samples=12)
+    place = np.asarray(slides.data[slides.columns.index("guide_bed_position")])
+    assert len(bed) == len(degrees) == len(place)
+    assert place[0] - place == pytest.approx(bed, abs=1e-10)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "watt", "quick-return", "cylinder"])
+def test_extremes_against_dense_rows(name: str) -> None:
+    """None of 20,000 rows lies beyond an extreme, and the row next to its place comes near it."""
+    design = planar(name)
+    course = design.course
+    q = np.linspace(course.start, course.end, 20_001)
+    jets = course.jets(q, 3)
+    for key, meaning in design.meanings.items():
+        if meaning.side not in ("max", "min"):
+            continue
+        value, place = design.raw(key), design.raw(f"{key}_at")
+        if value is None:
+            continue
+        rows = course.derivatives(meaning.output.coefficient, jets, meaning.order)[meaning.order]
+        top = rows.max() if meaning.side == "max" else rows.min()
+        size = np.abs(rows).max() + 1e-12
+        assert abs(value - top) <= 2e-6 * size and (value - top) * (1 if meaning.side == "max" else -1) >= -1e-12 * size
+        here = course.jets(np.array([place]), 3)
+        again = course.derivatives(meaning.output.coefficient, here, meaning.order)[meaning.order][0]
+        assert again == pytest.approx(value, abs=1e-11 * size)
+
+
+def test_lengths_of_paths() -> None:
+    """Of the circle of a crank pin, of an arc that a rocker goes to and fro, of a coupler curve by quadrature."""
+    design = planar("four-bar", outputs=["B", "C", "P", "rocker"])
+    assert design.raw("B.path_length") == pytest.approx(2.0 * math.pi * 32.0, rel=1e-13)
+    assert design.raw("C.path_length") == pytest.approx(2.0 * 78.0 * design.raw("rocker.swing"), rel=1e-12)
+
+    def speed(q: float) -> float:
+        link = design.moving.at(np.array([q]), 1).links["coupler"]
+        return abs(complex(link.at("P").first[0]))
+
+    whole = sum(quad(speed, k, k + 0.25 * math.pi, epsabs=1e-10)[0] for k in np.arange(8) * 0.25 * math.pi)
+    assert design.raw("P.path_length") == pytest.approx(whole, rel=1e-9)
+
+
+def test_dead_centres_of_a_driven_rocker_are_the_ends_of_its_swing() -> None:
+    swing = planar("four-bar")
+    file = {**FOUR_BAR, "drive": {"link": "rocker"}, "range": {"start": -1, "end": 1}, "outputs": ["crank"]}
+    file["start"] = {**FOUR_BAR["start"], "rocker": 113.0}
+    from gearlink.core.machines.planar.spec import PlanarSpec
+
+    design = PlanarMechanism(PlanarSpec.model_validate({"kind": "planar-mechanism", **file}))
+    low, high = (math.degrees(each) for each in design.raw("free_range"))
+    assert low + 113.0 == pytest.approx(math.degrees(swing.raw("rocker.angle_min")), abs=1e-8)
+    assert high + 113.0 == pytest.approx(math.degrees(swing.raw("rocker.angle_max")), abs=1e-8)
+
+
+def test_a_cylinder_jams_where_rod_and_lever_are_in_line() -> None:
+    """|A - E| = 140 + 90 and 140 - 90, E on the line through (-200, -10) at 4 deg, less the start at 20 mm."""
+    low, high = planar("cylinder").raw("free_range")
+    way = complex(math.cos(math.radians(4.0)), math.sin(math.radians(4.0)))
+    for found, distance in ((low, 230.0), (high, 50.0)):
+        assert abs(complex(-200.0, -10.0) + (20.0 + found) * way) == pytest.approx(distance, abs=1e-8)
+
+
+def test_the_assembly_is_never_changed() -> None:
+    """A rocker that nearly stretches, by some hundredths of a degree: the dyad keeps its side."""
+    design = planar("four-bar", links={**FOUR_BAR["links"], "rocker": ["D", "C", 56.935]})
+    assert design.raw("min_transmission_angle") < math.radians(3.0)
+    q = np.linspace(0.0, design.course.end, 5000)
+    (dyad,) = design.course.dyads
+    angle = dyad.angle(design.course.jets(q, 0), 0)
+    assert (np.sign(angle) == np.sign(angle[0])).all()
+
+
+def test_rough_starts_choose_the_nearer_closing() -> None:
+    """Both closings of the coupler's dyad by rough starts on either side, mirrored at the line B-D."""
+    one, other = planar("four-bar"), planar("four-bar", start={"crank": 20, "coupler": -40, "rocker": -100})
+    x1, t1 = one.course.at_start.closed
+    _, t2 = other.course.at_start.closed
+    b = complex(x1[2]) * one.structure.size
+    line = np.angle(complex(120, 15) - b)
+    assert t2[2] == pytest.approx(2.0 * line - t1[2], abs=1e-12)
+
+
+def test_the_grashof_sorts() -> None:
+    assert planar("four-bar").grashof == ["A B C D: crank-rocker"]
+    assert planar("quick-return").grashof is None
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "words"),
+    [
+        ({"drive": {"link": "crank", "with": {"rocker": 1.0}}}, "links", "more than it can take"),
+        ({"links": {**FOUR_BAR["links"], "extra": ["P", "Z", 10]}, "start": {**FOUR_BAR["start"], "extra": 0}}, "drive",
+         "2 degrees of freedom and 1 drive"),
+        ({"links": {**FOUR_BAR["links"], "rocker": ["D", "C", 1]}}, "start", "do not close"),
+        ({"links": {**FOUR_BAR["links"], "rocker": ["D", "C", 30]}}, "range", "dead centre"),
+    ],
+)  # fmt: skip
+def test_refusals(change: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(NoSolution, match=words) as refusal:
+        planar("four-bar", **change).require("analyze")
+    assert refusal.value.key == key
+
+
+def test_three_parallel_cranks_name_the_joints_that_repeat_each_other() -> None:
+    from gearlink.core.machines.planar.spec import PlanarSpec
+
+    spec = PlanarSpec.model_validate(
+        {
+            "kind": "planar-mechanism",
+            "frame": {"A": [0, 0], "D": [100, 0], "F": [50, 0]},
+            "links": {"crank": ["A", "B", 40], "coupler": {"B": [0, 0], "C": [100, 0], "E": [50, 0]},
+                      "rocker": ["D", "C", 40], "third": ["F", "E", 40]},
+            "drive": {"link": "crank"},
+            "start": {"crank": 60, "coupler": 0, "rocker": 60, "third": 60},
+        }
+    )  # fmt: skip
+    with pytest.raises(NoSolution) as refusal:
+        PlanarMechanism(spec).require("analyze")
+    assert all(f"{joint}," in refusal.value.message for joint in "ADFBC") and refusal.value.key == "links"
+
+
+def test_a_rough_start_far_off_is_told() -> None:
+    (found,) = planar("four-bar", start={**FOUR_BAR["start"], "coupler": 120}).check("assembly")
+    assert found.status == "warn" and found.value == pytest.approx(120.0 - 52.0353, abs=1e-3)
+    assert planar("four-bar").check("assembly") == []
+
+
+def test_the_limit_of_the_transmission_angle_is_judged() -> None:
+    assert [each.status for each in planar("watt").check("transmission-angle")] == ["warn"]
+    strict = planar("watt", limits={**WATT["limits"], "transmission_angle": 12})
+    assert [each.status for each in strict.check("transmission-angle")] == ["fail"]
