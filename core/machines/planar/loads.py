@@ -73,7 +73,9 @@ class PlanarLoads(LoadsDesign):
         if self.spec.drive.slide is not None:
             words = "`loads` is of a link that the input turns: drive a link in place of a slide"
             raise MissingSection(words, key="drive.slide")
-        found = super().section
+        found = self.spec.loads
+        if found is None:
+            raise MissingSection(self._first_section(), key="loads")
         if self.spec.range is not None:
             for key in ("flywheel", "motor", "vibration"):
                 if getattr(found, key) is not None:

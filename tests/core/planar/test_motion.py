@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from oracles.planar import motion
+from oracles.planar_zoo import FOUR_BAR, WATT, ZOO, made
 from scipy.integrate import quad
 
 from gearlink.cli.opening import load
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.machines.planar.system import joined
-from oracles.planar_zoo import FOUR_BAR, WATT, ZOO, made
-from oracles.planar import motion
 
 DESIGNS = Path(__file__).parents[3] / "designs"
 
@@ -35,9 +35,7 @@ def test_positions_and_three_derivatives_against_forty_digits(name: str) -> None
         q = course.start + share * (course.end - course.start)
         jets = course.jets(np.array([q]), 3)
         scale = 1.0 / size if course.by_slide else 1.0
-        found = [
-            _unknowns(jets.x[k] * size, jets.t[k]) * (math.factorial(k) * scale**k) for k in range(4)
-        ]
+        found = [_unknowns(jets.x[k] * size, jets.t[k]) * (math.factorial(k) * scale**k) for k in range(4)]
         wanted = motion(ZOO[name], start.tolist(), found[0].tolist(), q)
         for order, (mine, other) in enumerate(zip(found, wanted, strict=True)):
             exact = np.array([float(each) for each in other])
