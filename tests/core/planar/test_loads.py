@@ -100,7 +100,8 @@ def test_every_link_is_in_equilibrium(name: str) -> None:
 
 
 def test_a_slider_crank_has_the_loads_of_its_kind() -> None:
-    links = {"crank": {"mass": 1, "inertia": 0.002, "center": [12, 1]}, "rod": {"mass": 2, "inertia": 0.01, "center": [60, 2]},
+    links = {"crank": {"mass": 1, "inertia": 0.002, "center": [12, 1]},
+             "rod": {"mass": 2, "inertia": 0.01, "center": [60, 2]},
              "slider": {"mass": 3}}  # fmt: skip
     forces = [{"on": "slider", "force": -40}]
     other = design(

@@ -82,7 +82,8 @@ def test_extremes_against_dense_rows(name: str) -> None:
         rows = course.derivatives(meaning.output.coefficient, jets, meaning.order)[meaning.order]
         top = rows.max() if meaning.side == "max" else rows.min()
         size = np.abs(rows).max() + 1e-12
-        assert abs(value - top) <= 2e-6 * size and (value - top) * (1 if meaning.side == "max" else -1) >= -1e-12 * size
+        assert abs(value - top) <= 2e-6 * size
+        assert (value - top) * (1 if meaning.side == "max" else -1) >= -1e-12 * size
         here = course.jets(np.array([place]), 3)
         again = course.derivatives(meaning.output.coefficient, here, meaning.order)[meaning.order][0]
         assert again == pytest.approx(value, abs=1e-11 * size)
@@ -178,12 +179,14 @@ def test_three_parallel_cranks_name_the_joints_that_repeat_each_other() -> None:
     )  # fmt: skip
     with pytest.raises(NoSolution) as refusal:
         PlanarMechanism(spec).require("analyze")
-    assert all(f"{joint}," in refusal.value.message for joint in "ADFBC") and refusal.value.key == "links"
+    assert all(f"{joint}," in refusal.value.message for joint in "ADFBC")
+    assert refusal.value.key == "links"
 
 
 def test_a_rough_start_far_off_is_told() -> None:
     (found,) = planar("four-bar", start={**FOUR_BAR["start"], "coupler": 120}).check("assembly")
-    assert found.status == "warn" and found.value == pytest.approx(120.0 - 52.0353, abs=1e-3)
+    assert found.status == "warn"
+    assert found.value == pytest.approx(120.0 - 52.0353, abs=1e-3)
     assert planar("four-bar").check("assembly") == []
 
 
