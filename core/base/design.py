@@ -151,6 +151,16 @@ class Design:
         """Every table that any command shows or that can be asked for."""
         return _tables_of(cls)  # type: ignore[arg-type]
 
+    @classmethod
+    def names_for(cls, _spec: Any, /) -> tuple[str, ...]:
+        """Every quantity of the design of a spec, of a kind whose files name what they have."""
+        return cls.quantity_names()
+
+    @classmethod
+    def unit_for(cls, _spec: Any, name: str, /) -> str:
+        """The unit of a quantity of the design of a spec."""
+        return term(name).unit
+
     def raw(self, name: str) -> Any:
         """The value of a quantity in mm and radians, or None where it does not apply."""
         return object.__getattribute__(self, name)

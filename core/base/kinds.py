@@ -293,6 +293,7 @@ KINDS: dict[str, Kind] = {
             "spec:PlanarSpec",
             {"analyze": "design:PlanarMechanism", "loads": "loads:PlanarLoads", "tolerance": ""},
             motion="mechanism:motion",
+            samples="samples:PlanarSamples",
             worked="planar_watt",
         ),
         Kind(

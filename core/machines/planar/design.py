@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 _CLOSED = 1e-9
 _FAR_OFF = 45.0  # deg
 _ANYWAY = ("degrees_of_freedom", "period_turns")
+_INPUTS = ("free_range", "min_transmission_angle_at")
 
 
 def _folded(angle: float) -> float:
@@ -102,6 +105,22 @@ class PlanarMechanism(Design):
         """The quantities of this design."""
         return (*GENERAL, *self.meanings)
 
+    @classmethod
+    def names_for(cls, spec: Any, /) -> tuple[str, ...]:
+        """The quantities of the outputs of a file."""
+        return cls(spec).own_names
+
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
+        """Units follow the input and what the outputs are."""
+        design = cls(spec)
+        meaning = design.meanings.get(name)
+        return design.general_unit(name) if meaning is None else meaning.unit
+
+    def general_unit(self, name: str) -> str:
+        """Unit of a quantity that is not of an output; inputs of a slide are in mm."""
+        return "mm" if self.spec.drive.slide and name in _INPUTS else term(name).unit
+
     def outline(self, command: str) -> Outline:
         """With the quantities of the file's outputs."""
         return super().outline(command)._replace(quantities=self.own_names)
@@ -117,15 +136,11 @@ class PlanarMechanism(Design):
     def quantity(self, name: str) -> Quantity | None:
         """Units of the outputs follow the input and what they are."""
         meaning = self.meanings.get(name)
-        found = None if meaning is None else self.raw(name)
         if meaning is None:
-            quantity = super().quantity(name)
-            slides = (
-                self.spec.drive.slide and quantity is not None and name in ("free_range", "min_transmission_angle_at")
-            )
-            if not slides or quantity is None:
-                return quantity
-            return Quantity(name, self.raw(name), "mm", quantity.symbol, quantity.words)
+            found = super().quantity(name)
+            unit = self.general_unit(name)
+            return found if found is None or found.unit == unit else replace(found, value=self.raw(name), unit=unit)
+        found = self.raw(name)
         if found is None:
             return None
         return Quantity(name, math.degrees(found) if meaning.unit == "deg" else found, meaning.unit, "", words_of(name))

@@ -63,6 +63,11 @@ class PlanarLoads(LoadsDesign):
         """The quantities of this design."""
         return self.outline("loads").quantities
 
+    @classmethod
+    def names_for(cls, spec: Any, /) -> tuple[str, ...]:
+        """The quantities of the joints of a file."""
+        return cls(spec).own_names
+
     def outline(self, command: str) -> Outline:
         """With the joints of the file."""
         return loads_outline(self.pins, self.meshes)[command]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -20,13 +20,14 @@ if TYPE_CHECKING:
 
 
 class PinJoint(NamedTuple):
-    """A pin: its name, its bodies by number, and its place in coordinates of each."""
+    """A pin: its name, its bodies by number, its place in coordinates of each, and by how much the second is off [mm]."""
 
     name: str
     first: int
     second: int
     at_first: complex
     at_second: complex
+    play: complex = 0j
 
 
 class Line(NamedTuple):
@@ -91,9 +92,11 @@ class Structure:
 
     Parameters
         spec : PlanarSpec
+        plays : by pin - by how much the second body's hole is off the first one's, in the frame's directions [mm]
     """
 
     spec: PlanarSpec
+    plays: Mapping[str, complex] = field(default_factory=dict)
 
     @cached_property
     def bodies(self) -> dict[str, dict[str, complex]]:
@@ -133,7 +136,9 @@ class Structure:
             for k, other in enumerate(others):
                 places = self.bodies[first][point], self.bodies[other][point]
                 name = point if k == 0 else f"{point}_{other}"
-                found.append(PinJoint(name, self.numbers[first], self.numbers[other], *places))
+                found.append(
+                    PinJoint(name, self.numbers[first], self.numbers[other], *places, self.plays.get(name, 0j))
+                )
         return tuple(found)
 
     @cached_property

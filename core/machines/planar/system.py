@@ -87,12 +87,12 @@ class System:
 
     Parameters
         bodies : int - the frame among them
-        pins : ((first, second, place on first, place on second), ...) in units of size
+        pins : ((first, second, place on first, place on second, play), ...) in units of size
         rows : Row, ...
     """
 
     bodies: int
-    pins: tuple[tuple[int, int, complex, complex], ...]
+    pins: tuple[tuple[int, int, complex, complex, complex], ...]
     rows: tuple[Row, ...]
 
     @property
@@ -106,9 +106,9 @@ class System:
         return 3 * (self.bodies - 1)
 
     @cached_property
-    def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points]:
-        a, b, s, r = zip(*self.pins, strict=True) if self.pins else ((), (), (), ())
-        return np.array(a, int), np.array(b, int), np.array(s, complex), np.array(r, complex)
+    def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points, Points]:
+        a, b, s, r, play = zip(*self.pins, strict=True) if self.pins else ((), (), (), (), ())
+        return np.array(a, int), np.array(b, int), np.array(s, complex), np.array(r, complex), np.array(play, complex)
 
     def values(self, jets: Jets, k: int, q: Reals) -> Reals:
         """Coefficient k of all equations along a motion; (N, count).
@@ -116,10 +116,12 @@ class System:
         Parameters
             q : (N,) array - the input, of which coefficient 1 is 1
         """
-        n, (a, b, s, r) = q.size, self._pins
+        n, (a, b, s, r, play) = q.size, self._pins
         found = np.empty((n, self.count))
         x, e = jets.x[k], jets.e[k]
         gaps = x[:, b] + r * e[:, b] - x[:, a] - s * e[:, a]
+        if k == 0:
+            gaps = gaps - play
         found[:, 0 : 2 * len(self.pins) : 2], found[:, 1 : 2 * len(self.pins) : 2] = gaps.real, gaps.imag
         for i, row in enumerate(self.rows, 2 * len(self.pins)):
             total = np.zeros(n)
@@ -138,7 +140,7 @@ class System:
     def matrix(self, jets: Jets) -> Reals:
         """Derivatives of the equations by the unknowns x_1, y_1, t_1, x_2, ...; (N, count, unknowns)."""
         x, e = jets.x[0], jets.e[0]
-        n, (a, b, s, r) = x.shape[0], self._pins
+        n, (a, b, s, r, _) = x.shape[0], self._pins
         found = np.zeros((n, self.count, 3 * self.bodies))
         even = 2 * np.arange(len(self.pins))
         for bodies, places, sign in ((a, s, -1.0), (b, r, 1.0)):
@@ -212,7 +214,7 @@ class System:
 
     def bounds(self, jets: Jets) -> tuple[float, float, float, float]:
         """K, K', M of the step, and the fastest that a point moves against a line of a moving body; one row."""
-        a, b, s, r = self._pins
+        a, b, s, r, _ = self._pins
         first = np.abs(s), np.abs(r)
         turn = np.abs(jets.t[1][0])
         k = [first[0] + first[1], first[0] * turn[a] + first[1] * turn[b],
@@ -337,10 +339,13 @@ def _weights(*shares: tuple[int, float]) -> dict[int, float]:
     return {body: share for body, share in found.items() if share}
 
 
-def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex], ...]:
+def pins_of(structure: Structure) -> tuple[tuple[int, int, complex, complex, complex], ...]:
     """The pins in units of size."""
     size = structure.size
-    return tuple((each.first, each.second, each.at_first / size, each.at_second / size) for each in structure.pins)
+    return tuple(
+        (each.first, each.second, each.at_first / size, each.at_second / size, each.play / size)
+        for each in structure.pins
+    )
 
 
 def drive_rows(structure: Structure, starts: Mapping[str, float]) -> list[Row]:

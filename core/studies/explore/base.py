@@ -165,17 +165,25 @@ class Base:
     def places(self) -> dict[str, str]:
         """The command that gives each quantity of the kind: that of the study where its class can."""
         own = self.kind.design_class(self.command)
-        found: dict[str, str] = dict.fromkeys(own.quantity_names(), self.command)
+        found: dict[str, str] = dict.fromkeys(own.names_for(self._own_spec), self.command)
         for command in self.kind.commands:
             other = self.kind.design_class(command)
             place = self.command if issubclass(own, other) else command
-            for name in other.quantity_names():
+            for name in other.names_for(self._own_spec):
                 found.setdefault(name, place)
         return found
 
     def unit(self, name: str) -> str:
         """The unit of a quantity, with its index or without."""
-        return term(name.partition("[")[0]).unit
+        plain = name.partition("[")[0]
+        command = self.places.get(plain, self.command)
+        found: str = self.kind.design_class(command).unit_for(self._own_spec, plain)
+        return found
+
+    @cached_property
+    def _own_spec(self) -> Any:
+        """The spec as it stands."""
+        return self.spec()
 
     def values(self, design: Design, names: Iterable[str]) -> dict[str, Any]:
         """Quantities of a design in the units of design files.
@@ -199,7 +207,7 @@ class Base:
                 value = made[command].raw(plain)
             except NoSolution as error:
                 raise Refused(error.key, error.message, error.code) from error
-            value = None if value is None else in_unit(value, term(plain).unit)
+            value = None if value is None else in_unit(value, self.unit(plain))
             found[name] = _element(value, index) if index else value
         return found
 

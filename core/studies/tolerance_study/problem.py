@@ -104,7 +104,7 @@ class Problem:
             WrongStudy - at the line
         """
         known = {*self.base.places, *(self.axis.extra if self.axis is not None else ())}
-        names = Names(lambda name: term(name).unit, frozenset(known), {}, self.base.nearest)
+        names = Names(self.base.unit, frozenset(known), {}, self.base.nearest)
         found = []
         for i, text in enumerate(self.section.require):
             try:
