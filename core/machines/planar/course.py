@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -170,7 +170,7 @@ class Course:
         start = tuple(joined(x[None], t[None])[0].tolist())
         ratios = [Fraction(each.ratio).limit_denominator(10**6) for each in self.structure.drives if each.slide is None]
         least = math.lcm(*(ratio.denominator for ratio in ratios)) if ratios else 1
-        made = Walk(_Follower(self.system), start, ends, least, self._is_home, _Refusals(self))
+        made = Walk(_Follower(replace(self.system, whole=True)), start, ends, least, self._is_home, _Refusals(self))
         if made.origin.reach < JAM:
             raise _Refusals(self).starts_dead()
         return made
@@ -209,7 +209,7 @@ class Course:
 
         d = |y'|/(2 |y''|)
         """
-        follower = _Follower(self.system)
+        follower = self.walk.follower
         places = [self.walk.origin]
         self.walk.follow(places, q)
         last = places[-1]

@@ -89,11 +89,13 @@ class System:
         bodies : int - the frame among them
         pins : ((first, second, place on first, place on second, play), ...) in units of size
         rows : Row, ...
+        whole : bool - solved at once: for one row at a time that is quicker than part by part
     """
 
     bodies: int
     pins: tuple[tuple[int, int, complex, complex, complex], ...]
     rows: tuple[Row, ...]
+    whole: bool = False
 
     @property
     def count(self) -> int:
@@ -188,7 +190,8 @@ class System:
 
     def solved(self, matrix: Reals) -> Solved:
         """The matrix made ready to be solved."""
-        return Solved(matrix, self.blocks)
+        everything = Block(tuple(range(self.count)), tuple(range(self.unknowns)))
+        return Solved(matrix, (everything,) if self.whole else self.blocks)
 
     def step(self, jets: Jets, q: Reals) -> Reals:
         """Newton's step; (N, unknowns)."""
