@@ -1,7 +1,8 @@
 """A motion followed from its start in certain steps, so that it never changes over to another of its closings.
 
 A step is as long as Kantorovich's theorem proves that Newton's steps from the tangent lead to the same branch:
-1/(beta (sqrt(K M) + K')), beta = 1/sigma_min of the matrix of the equations. A dead centre shows as a step of no length.
+1/(beta (sqrt(K M) + K')), beta = 1/sigma_min of the matrix of the equations. A dead centre shows as a step of no
+length.
 """
 
 from __future__ import annotations

@@ -248,7 +248,7 @@ class Coupling:
 
 @dataclass(frozen=True)
 class Feed:
-    """A train on the frame that moves the second link `ratio` mm along a line of the first while a shaft turns a rad."""
+    """A train on the frame that moves the second link `ratio` mm along a line of the first per rad of a shaft."""
 
     name: str
     first: str

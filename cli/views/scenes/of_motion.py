@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, PURPLE, pale
 from gearlink.cli.views.scenes.scene import Body, Chain, Chart, Curve, Mark, Part, Points, Readout, Reals, Scene, circle
-from gearlink.core.mechanism.joints import Guide, Mesh, Pin, Rack
+from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def build(design: Any, fraction: Reals) -> Scene:
     degree = np.degrees if motion.input.unit == "rad" else np.asarray
     measure = "deg" if output.course.unit == "rad" else output.course.unit
     return Scene(
-        parts=(*_gears(now), *_links(now), *_sliders(now)),
+        parts=(*_gears(now), *_slots(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
         marks=_marks(now),
         chart=Chart(
             words + unit,
@@ -104,6 +104,27 @@ def _sliders(mechanism: Mechanism) -> list[Part]:
     return found
 
 
+def _slots(mechanism: Mechanism, whole: Mechanism) -> list[Part]:
+    """The lines of slots, as far as their pins run in them over all inputs, and from the link's own origin on."""
+    found: list[Part] = []
+    for each, over in zip(mechanism.connections, whole.connections, strict=True):
+        if not isinstance(each, Contact) or not isinstance(over, Contact):
+            continue
+        link, run = mechanism.link(each.first), whole.link(each.first)
+        seen = over.at if run is None else (over.at - run.origin.value) / run.unit
+        along = -1j * (over.normal[0] if run is None else over.normal[0] / run.unit[0])
+        places = (np.conj(along) * seen).real
+        ends = seen[[np.argmin(places), np.argmax(places)]]
+        outline = ends if run is None else np.array([0j, ends[np.argmin(np.abs(ends))], ends[np.argmax(np.abs(ends))]])
+        still = np.zeros(each.at.shape)
+        origin, turn = (still + 0j, still) if link is None else (link.origin.value, link.turn.value)
+        found.append(Body(outline=outline, place=origin, turn=turn, color=ORANGE, width=2.5, name=each.name))
+        square = 0.5 * _SLIDER * _size(mechanism) * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j])
+        across = np.asarray(np.angle(-1j * each.normal), dtype=np.float64)
+        found.append(Body(outline=square, place=each.at, turn=across, color=BLUE, fill=pale(BLUE, 0.3), width=1.2))
+    return found
+
+
 def _gears(mechanism: Mechanism) -> list[Part]:
     """Pitch circles, each with a spoke that shows how far it has turned."""
     found: dict[str, Part] = {}
@@ -127,4 +148,8 @@ def _disc(mechanism: Mechanism, name: str, center: Points, radius: float) -> Bod
 
 
 def _marks(mechanism: Mechanism) -> tuple[Mark, ...]:
-    return tuple(Mark(each.at, each.name, FRAME in (each.first, each.second)) for each in _pins(mechanism))
+    """The pins by name; of several on one axis the first."""
+    found: dict[complex, Mark] = {}
+    for each in _pins(mechanism):
+        found.setdefault(complex(each.at[0]), Mark(each.at, each.name, FRAME in (each.first, each.second)))
+    return tuple(found.values())

@@ -1,1 +1,1 @@
-"""The general planar mechanism, made of links, pins, slides, slots, meshes and racks: begin with `structure`, then `design`."""
+"""Any planar mechanism, of links, pins, slides, slots and teeth: begin with `structure`, `system`, then `design`."""

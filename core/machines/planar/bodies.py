@@ -50,7 +50,7 @@ def layout(design: PlanarMechanism) -> Layout | None:
             _add(found, _gear(mesh, k, structure.names[gear] if gear else name, letters))
     if not found and not design.spec.shafts:
         return None
-    gears = [gear._replace(turns_with=_shafts_of(design, gear, body, axes)) for (body, _), gear in found.items()]
+    gears = [gear._replace(turns_with=_shafts_of(design, body, axes)) for (body, _), gear in found.items()]
     shafts = [
         Shaft(
             f"shaft at {point}",
@@ -96,7 +96,7 @@ def _gear(mesh: GearJoint, k: int, body: str, letters: list[str]) -> tuple[str, 
     return body, Gear(f"the gear {body}", letters[k], tip, mates=mate, root=tip - FULL_HEIGHT * mesh.module)
 
 
-def _shafts_of(design: PlanarMechanism, gear: Gear, body: str, axes: dict[tuple[str, complex], str]) -> str:
+def _shafts_of(design: PlanarMechanism, body: str, axes: dict[tuple[str, complex], str]) -> str:
     """Letters of the axes of the frame that the gear's own link turns on."""
     points = design.structure.bodies.get(body, {})
     frame = design.structure.bodies[FRAME]

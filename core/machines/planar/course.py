@@ -41,7 +41,7 @@ class _Follower:
 
     def place(self, q: float, u: tuple[float, ...]) -> Place | None:
         """The place at an input; None in a dead centre."""
-        jets = Jets(*([each] for each in split(np.array([u]))))
+        jets = Jets.of(np.array([u]))
         sizes = np.linalg.svd(self.system.matrix(jets)[0], compute_uv=False)
         if sizes[-1] < _SINGULAR * sizes[0]:
             return None
@@ -61,7 +61,7 @@ def settled(system: System, q: Reals, near: Reals) -> Reals:
     """
     found, rows, finest = near.copy(), np.arange(q.size), np.full(q.size, math.inf)
     for _ in range(_ROUNDS):
-        jets = Jets(*([each] for each in split(found[rows])))
+        jets = Jets.of(found[rows])
         try:
             step = system.step(jets, q[rows])
         except np.linalg.LinAlgError:
@@ -105,8 +105,8 @@ class _Refusals:
     def never_home(self) -> NoSolution:
         key = "drive.with" if self.course.structure.spec.drive.others else "meshes"
         return NoSolution(
-            f"the mechanism does not come home within {MOST_TURNS} turns of the input: take ratios and teeth with common "
-            "factors, or give range: {start, end}",
+            f"the mechanism does not come home within {MOST_TURNS} turns of the input: take ratios and teeth with "
+            "common factors, or give range: {start, end}",
             key=key,
         )
 
@@ -213,7 +213,7 @@ class Course:
         places = [self.walk.origin]
         self.walk.follow(places, q)
         last = places[-1]
-        jets = Jets(*([each] for each in split(np.array([last.u]))))
+        jets = Jets.of(np.array([last.u]))
         assert follower.place(last.q, last.u) is not None
         jets = self.system.onward(jets, np.array([last.q]), 2)
         first, second = (float(np.abs(joined(jets.x[k], jets.t[k])).max()) for k in (1, 2))

@@ -64,7 +64,7 @@ class PlanarMechanism(Design):
         )
     }
     extra_tables = ("links", "points", "slides", "poles")
-    quantity_names = OfFile()  # type: ignore[assignment]
+    quantity_names = OfFile()
 
     @cached_property
     def structure(self) -> Structure:
@@ -277,8 +277,8 @@ class PlanarMechanism(Design):
             _, t = self.course.at_start.closed
             found = math.degrees(float(t[self.structure.numbers[name]]))
             text = (
-                f"{name} stands at {found:.6g} deg at the start, {off:.4g} deg off the {self.spec.start[name]:g} deg of "
-                f"start.{name}: another assembly may be meant"
+                f"{name} stands at {found:.6g} deg at the start, {off:.4g} deg off the {self.spec.start[name]:g} deg "
+                f"of start.{name}: another assembly may be meant"
             )
             yield ASSEMBLY.check("warn", text, off, _FAR_OFF, "deg")
 

@@ -56,7 +56,7 @@ class Dyad:
         L = log z, k L_k = (k z_k - sum_(j=1..k-1) j L_j z_(k-j))/z_0
         """
         pairs = [self.motions(jets, j) for j in range(k + 1)]
-        z = [sum(np.conj(pairs[j][0]) * pairs[i - j][1] for j in range(i + 1)) for i in range(k + 1)]
+        z = [np.sum([np.conj(pairs[j][0]) * pairs[i - j][1] for j in range(i + 1)], axis=0) for i in range(k + 1)]
         if k == 0:
             return np.asarray(np.angle(z[0]))
         logs = [np.zeros_like(z[0])]

@@ -35,10 +35,9 @@ class PlanarLoads(LoadsDesign):
 
     kind = "planar-mechanism"
     spec: PlanarSpec
-    section: Section
     links, pins, meshes = (), (), ()
     outlines = loads_outline((), ())
-    quantity_names = OfFile()  # type: ignore[assignment]
+    quantity_names = OfFile()
 
     def __init__(self, spec: Any) -> None:
         super().__init__(spec)
@@ -73,12 +72,12 @@ class PlanarLoads(LoadsDesign):
         return loads_outline(self.pins, self.meshes)[command]
 
     @cached_property
-    def section(self) -> Any:  # type: ignore[no-redef]
+    def section(self) -> Section:
         """The section `loads`, refused where it asks for what a pass over a range or a slide as drive has not."""
         if self.spec.drive.slide is not None:
             words = "`loads` is of a link that the input turns: drive a link in place of a slide"
             raise MissingSection(words, key="drive.slide")
-        found = self.spec.loads
+        found: Section | None = self.spec.loads
         if found is None:
             raise MissingSection(self._first_section(), key="loads")
         if self.spec.range is not None:

@@ -141,7 +141,7 @@ def point_output(structure: Structure, name: str) -> tuple[Moved, Moved]:
     """Both coordinates of a point; of a pin those on the first moving body that has it."""
     body = next(body for body, points in structure.bodies.items() if name in points and body != "frame")
     number, place = structure.numbers[body], structure.bodies[body][name]
-    x, y = (Moved(f"{name}_{axis}", axis, number, structure.size, place) for axis in ("x", "y"))  # type: ignore[arg-type]
+    x, y = (Moved(f"{name}_{axis}", axis, number, structure.size, place) for axis in ("x", "y"))
     return x, y
 
 

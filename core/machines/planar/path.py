@@ -25,10 +25,8 @@ def length(course: Course, x_of: Moved, y_of: Moved) -> float:
     point, arm = x_of, x_of.place / x_of.size
 
     def square(jets: Jets, k: int) -> Reals:
-        return np.asarray(sum(
-            ((j + 1) * (k - j + 1) * (np.conj(jets.point(point.body, arm, j + 1)) * jets.point(point.body, arm, k - j + 1))).real
-            for j in range(k + 1)
-        ))  # fmt: skip
+        rates = [(j + 1) * jets.point(point.body, arm, j + 1) for j in range(k + 1)]
+        return np.asarray(sum((np.conj(rates[j]) * rates[k - j]).real for j in range(k + 1)))
 
     places = turning_points(course, square, ahead=1)
     edges = np.unique(np.concatenate([course.grid, places]))

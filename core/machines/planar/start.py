@@ -108,12 +108,12 @@ class Start:
         """That joints repeat each other, by the left null vectors of the matrix."""
         y = self.rough
         for _ in range(_ROUNDS):
-            jets = _jets(y)
+            jets = Jets.of(y)
             step = np.linalg.lstsq(system.matrix(jets)[0], -system.values(jets, 0, np.zeros(1))[0], rcond=None)[0]
             y = y + _held_back(step)[None]
             if np.abs(step).max() < _CLOSED:
                 break
-        left, sizes, _ = np.linalg.svd(system.matrix(_jets(y))[0])
+        left, sizes, _ = np.linalg.svd(system.matrix(Jets.of(y))[0])
         rank = int(np.count_nonzero(sizes > _SHARE * max(1.0, sizes[0])))
         share = np.abs(left[:, rank:]).max(axis=1)
         joints = self.joints_of(system, np.flatnonzero(share > _SHARE).tolist())
@@ -252,13 +252,14 @@ class Start:
             y[0, columns] = first + np.where(turns, spread, 0.3 * spread) * rng.uniform(-1.0, 1.0, columns.size)
         y[0, columns] = first
         gap = (
-            float(np.abs(system.values(_jets(y), 0, np.zeros(1))[0, np.array(block.rows)]).max()) * self.structure.size
+            float(np.abs(system.values(Jets.of(y), 0, np.zeros(1))[0, np.array(block.rows)]).max())
+            * self.structure.size
         )
         links = [self.structure.names[body] for body in sorted({int(column) // 3 + 1 for column in columns})]
         joints = self.joints_of(system, block.rows)
         raise NoSolution(
-            f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} open by "
-            f"{gap:.4g} mm at the rough directions): change start, or the lengths",
+            f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} open "
+            f"by {gap:.4g} mm at the rough directions): change start, or the lengths",
             key="start",
         )
 
@@ -277,7 +278,7 @@ class Start:
     def _away(self, y: Reals, bodies: Sequence[int]) -> float:
         """Squares of what directions and places are off the rough ones."""
         total, structure = 0.0, self.structure
-        (x,), (t,) = split(y)
+        t = split(y)[1][0]
         for body in bodies:
             name = structure.names[body]
             given = structure.start_of(name) if name not in structure.spec.slid else None
@@ -286,7 +287,7 @@ class Start:
         if total == 0.0:
             for name, slide in structure.slides.items():
                 if slide.line.other in bodies and name in structure.spec.start:
-                    place = _jets(y).seen(scaled(slide.line, structure.size), 0).real[0]
+                    place = Jets.of(y).seen(scaled(slide.line, structure.size), 0).real[0]
                     total += (float(place) - (structure.start_of(name) or 0.0) / structure.size) ** 2
         return total
 
@@ -322,11 +323,6 @@ class Start:
         return system
 
 
-def _jets(y: Reals) -> Jets:
-    x, t = split(y)
-    return Jets([x], [t])
-
-
 def _held_back(step: Reals) -> Reals:
     longest = float(np.abs(step).max(initial=0.0))
     return step * min(1.0, _STEP / longest) if longest else step
@@ -337,7 +333,7 @@ def _newton(system: System, block: Block, y: Reals) -> bool:
     rows, columns, still = np.array(block.rows), np.array(block.columns), np.zeros(1)
     before = math.inf
     for _ in range(_ROUNDS):
-        jets = _jets(y)
+        jets = Jets.of(y)
         gap = system.values(jets, 0, still)[0, rows]
         part = system.matrix(jets)[0][rows[:, None], columns]
         step = _held_back(np.linalg.lstsq(part, -gap, rcond=None)[0])
@@ -345,10 +341,10 @@ def _newton(system: System, block: Block, y: Reals) -> bool:
         if not math.isfinite(size):
             return False
         y[0, columns] += step
-        if size < _CLOSED and size >= 0.5 * before or size == 0.0:
+        if size == 0.0 or 0.5 * before <= size < _CLOSED:
             break
         before = size
-    gap = system.values(_jets(y), 0, still)[0, rows]
+    gap = system.values(Jets.of(y), 0, still)[0, rows]
     return bool(np.abs(gap).max() < _CLOSED)
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class PinJoint(NamedTuple):
-    """A pin: its name, its bodies by number, its place in coordinates of each, and by how much the second is off [mm]."""
+    """A pin: its name, its bodies by number, its place in coordinates of each, and how far the second is off [mm]."""
 
     name: str
     first: int
@@ -115,7 +115,7 @@ class Structure:
 
     @cached_property
     def size(self) -> float:
-        """L, the greatest distance of a point of a moving link from its origin, or of the frame's from each other [mm]."""
+        """L, the greatest distance of a point of a link from its origin, or of two points of the frame [mm]."""
         links = [abs(place) for name, body in self.bodies.items() if name != FRAME for place in body.values()]
         frame = [abs(one - other) for one in self.bodies[FRAME].values() for other in self.bodies[FRAME].values()]
         return max(links) or max(frame) or 1.0
@@ -177,8 +177,13 @@ class Structure:
         }
 
     def _rack(self, name: str, each: Teeth) -> RackJoint:
-        assert each.rack and each.pinion and isinstance(each.at, str) and isinstance(each.teeth, int)
-        assert each.module is not None and each.side is not None and each.direction is not None
+        assert each.rack is not None, "the spec has seen to it"
+        assert each.pinion is not None, "the same"
+        assert isinstance(each.at, str), "the same"
+        assert isinstance(each.teeth, int), "the same"
+        assert each.module is not None, "the same"
+        assert each.side is not None, "the same"
+        assert each.direction is not None, "the same"
         pinion = self.numbers[each.pinion]
         line = Line(
             self.numbers[each.rack], 0j, math.radians(each.direction), pinion, self.bodies[each.pinion][each.at]
@@ -187,7 +192,8 @@ class Structure:
         return RackJoint(name, line, 0.5 * each.module * each.teeth, each.side, each.module, tangent)
 
     def _gears(self, name: str, each: Teeth) -> GearJoint:
-        assert each.gears is not None and isinstance(each.teeth, list)
+        assert each.gears is not None, "the spec has seen to it"
+        assert isinstance(each.teeth, list), "the same"
         points = tuple(each.at)
         carrier = each.carrier or next(body for body, own in self.bodies.items() if {*points} <= {*own})
         one, other = (self.bodies[carrier][point] for point in points)

@@ -50,6 +50,12 @@ class Jets:
         while len(self.e) < len(self.t):
             self.e.append(_unit(self.t, self.e))
 
+    @classmethod
+    def of(cls, y: Reals) -> Jets:
+        """Of unknowns alone, (N, unknowns)."""
+        x, t = split(y)
+        return cls([x], [t])
+
     @property
     def order(self) -> int:
         """The highest order."""
@@ -77,7 +83,7 @@ def _unit(t: Sequence[Reals], e: Sequence[Points]) -> Points:
     """The next coefficient of e^(i t): k E_k = i sum_(j=1..k) j t_j E_(k-j)."""
     k = len(e)
     if k == 0:
-        return np.exp(1j * t[0])
+        return np.asarray(np.exp(1j * t[0]))
     return np.asarray(1j / k * sum(j * t[j] * e[k - j] for j in range(1, k + 1)))
 
 
@@ -229,7 +235,8 @@ class System:
             parts, moved = _line_bounds(row.line, jets)
             fastest = max(fastest, moved)
             squares = [total + part * part for total, part in zip(squares, parts, strict=True)]
-        return (*(total**0.5 for total in squares), fastest)  # type: ignore[return-value]
+        k_size, k_rate, m_size = (total**0.5 for total in squares)
+        return k_size, k_rate, m_size, fastest
 
 
 def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
@@ -258,10 +265,10 @@ class Solved:
 
     @cached_property
     def _inverses(self) -> list[Reals]:
-        found = []
+        found: list[Reals] = []
         for block in self.blocks:
             part = self.matrix[:, np.array(block.rows)[:, None], np.array(block.columns)]
-            found.append(1.0 / part if len(block.rows) == 1 else np.linalg.inv(part))
+            found.append(np.asarray(1.0 / part if len(block.rows) == 1 else np.linalg.inv(part), dtype=np.float64))
         return found
 
     def solve(self, right: Reals) -> Reals:

@@ -17,7 +17,6 @@ from gearlink.core.base.design import Design, in_unit
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.base.nomenclature import term
 from gearlink.core.base.spec_paths import put
 
 Changes = Iterable[tuple[str, Any]]

@@ -13,7 +13,6 @@ import numpy as np
 from gearlink.core.base.design import Design
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.base.nomenclature import term
 from gearlink.core.base.spec_paths import part_at
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.explore.base import Base, Refused

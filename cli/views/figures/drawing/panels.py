@@ -170,11 +170,11 @@ def drawing(axes: Axes, title: str) -> None:
     _few_ticks(axes, 7)
 
 
-def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "") -> None:
-    """A marked extreme of a curve over a turn, with its value."""
+def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "", at: str = "°") -> None:
+    """A marked extreme of a curve over its input, with its value; `at` is the unit of places."""
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
     left, right = axes.get_xlim()
-    words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
+    words = f"{style.number(value, 5)}{unit} at {degrees:.5g}{at}"
     share, half = (degrees - left) / (right - left), _half_width(axes, words)
     side = "right" if share > 1.0 - half else "left" if share < half else "center"
     look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}

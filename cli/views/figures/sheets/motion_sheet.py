@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from gearlink.cli.views.figures.drawing import panels, style, time_axes
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
+from gearlink.core.mechanism.courses import unit_of
 from gearlink.core.numerics.extremes import extremes_over
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ _EQUAL = 1e-11
 """Of the height of a curve: what differs by less is equal."""
 _BEFORE = 8.0
 """Units in the last place by which a place is surely before a joint, in deg and in rad."""
+_MOST = 2
 _FEW = 9
 """Points between a place and those beside it."""
 
@@ -44,6 +46,7 @@ class Course:
     unit : "mm" or "rad"; places in rad are shown in degrees
     speed : of the input [rad/s], None where it is not known
     bands : stretches with a name and a colour [deg]; derivatives may jump where they end
+    per : unit of the input of the derivatives, "rad", or "mm" of a slide, whose x and speed are in mm as well
     rates : what `at` gives at x
     """
 
@@ -54,6 +57,7 @@ class Course:
     unit: str
     speed: float | None = None
     bands: tuple[panels.Phase, ...] = ()
+    per: str = "rad"
     rates: tuple[Reals, ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -102,13 +106,15 @@ def courses(design: Any) -> list[Course]:
 
 
 def of_motion(design: Any) -> list[Course]:
-    """The outputs of its motion, over the whole period or range of the input."""
-    return _courses(design.moving, getattr(design, "angular_speed", None))
+    """The outputs of its motion, over the whole period or range of the input; of many the first that a page holds."""
+    return _courses(design.moving, getattr(design, "angular_speed", None))[:_MOST]
 
 
 def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Course]:
     """The same of a motion, with so many steps a degree."""
     given = motion.input
+    if given.unit == "mm":
+        return _of_slide(motion, speed)
     start, end = math.degrees(given.start), math.degrees(given.end)
     joints = np.array(given.joints)
     after = np.degrees(joints)
@@ -141,6 +147,17 @@ def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Cours
     ]
 
 
+def _of_slide(motion: Any, speed: float | None) -> list[Course]:
+    """The same where a slide drives."""
+    given = motion.input
+    x, over = np.linspace(given.start, given.end, 721), f"{given.column.replace('_', ' ')} [mm]"
+
+    def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
+        return lambda x: tuple(course.rates(motion, x, 3))
+
+    return [Course(each.name, over, x, at(each.course), each.course.unit, speed, per="mm") for each in motion.outputs]
+
+
 def draw(design: Any) -> Figure:
     """A column for each output, its rates aligned; on the right in time where the speed is known."""
     shown = courses(design)
@@ -171,13 +188,13 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
             place, value = course.extreme(order, greatest=greatest)
             at_end = place in (float(course.x[0]), float(course.x[-1]))
             if not at_end or abs(value) > 1e-9 * np.ptp(values):  # a rest at an end is seen
-                panels.extreme(axes, place, value, above=greatest)
+                panels.extreme(axes, place, value, above=greatest, at="°" if course.per == "rad" else " mm")
         axes.margins(y=0.2)
     if order:
         measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)
         time_axes.in_time(axes, course.speed, order, measure, scale)
     if last and course.speed is not None:
-        time_axes.in_ms(axes, 1e3 * math.radians(1.0) / course.speed)
+        time_axes.in_ms(axes, 1e3 * (math.radians(1.0) if course.per == "rad" else 1.0) / course.speed)
 
 
 def _humps(values: Reals) -> Any:
@@ -191,6 +208,9 @@ def _per_angle(course: Course, order: int) -> str:
     if order == 0:
         return f"{_NAMES[0]} [{'deg' if course.unit == 'rad' else course.unit}]"
     power = ("", "", "²", "³")[order]
+    if course.per == "mm":
+        per = unit_of(course.unit, order, "mm").replace("^2", "²").replace("^3", "³")
+        return f"{_NAMES[order]}\n[{per}]"
     per = f"{course.unit}/rad{power}" if course.unit != "rad" else ("1", "1", "1/rad", "1/rad²")[order]
     return f"{_NAMES[order]}\n[{per}]"
 
