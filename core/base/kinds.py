@@ -294,6 +294,7 @@ KINDS: dict[str, Kind] = {
             {"analyze": "design:PlanarMechanism", "loads": "loads:PlanarLoads", "tolerance": ""},
             motion="mechanism:motion",
             samples="samples:PlanarSamples",
+            picture="cli.views.figures.of_motion:draw",
             worked="planar_watt",
         ),
         Kind(

@@ -4,15 +4,6 @@ from __future__ import annotations
 
 from gearlink.core.base.term import Term
 
-_OF = {
-    "angle": ("deg", "direction of the link"),
-    "position": ("mm", "place along the slide or slot"),
-    "velocity_ratio": ("mm/rad", "velocity along the slide or slot per input speed"),
-    "jerk_ratio": ("1", "jerk per cube of the input speed"),
-    "x": ("mm", "x of the point"),
-    "y": ("mm", "y of the point"),
-}
-
 PLANAR: dict[str, Term] = {
     "degrees_of_freedom": Term("F", "1", "degrees of freedom, 3 n - 2 (pins + slides) - slots - meshes", "Gruebler"),
     "grashof": Term("", "1", "what the four-bars of the driven link are by Grashof's rule", "VDI 2145"),
@@ -21,14 +12,28 @@ PLANAR: dict[str, Term] = {
     "swing": Term("", "deg", "greatest less least direction of the link"),
     "turns": Term("", "1", "net turns of the link over the period"),
     "path_length": Term("", "mm", "length of the path of the point over the period or range"),
-    **{
-        f"{name}_{side}": Term("", unit, f"{size} {words}")
-        for name, (unit, words) in _OF.items()
-        for side, size in (("max", "greatest"), ("min", "least"))
-    },
-    **{
-        f"{name}_{side}_at": Term("", "deg", f"input of the {size} {words}")
-        for name, (_, words) in _OF.items()
-        for side, size in (("max", "greatest"), ("min", "least"))
-    },
+    "angle_max": Term("", "deg", "greatest direction of the link"),
+    "angle_min": Term("", "deg", "least direction of the link"),
+    "position_max": Term("", "mm", "greatest place along the slide or slot"),
+    "position_min": Term("", "mm", "least place along the slide or slot"),
+    "velocity_ratio_max": Term("", "mm/rad", "greatest velocity along the slide or slot per input speed"),
+    "velocity_ratio_min": Term("", "mm/rad", "least velocity along the slide or slot per input speed"),
+    "jerk_ratio_max": Term("", "1", "greatest jerk per cube of the input speed"),
+    "jerk_ratio_min": Term("", "1", "least jerk per cube of the input speed"),
+    "x_max": Term("", "mm", "greatest x of the point"),
+    "x_min": Term("", "mm", "least x of the point"),
+    "y_max": Term("", "mm", "greatest y of the point"),
+    "y_min": Term("", "mm", "least y of the point"),
+    "angle_max_at": Term("", "deg", "input of the greatest direction of the link"),
+    "angle_min_at": Term("", "deg", "input of the least direction of the link"),
+    "position_max_at": Term("", "deg", "input of the greatest place along the slide or slot"),
+    "position_min_at": Term("", "deg", "input of the least place along the slide or slot"),
+    "velocity_ratio_max_at": Term("", "deg", "input of the greatest velocity along the slide or slot per input speed"),
+    "velocity_ratio_min_at": Term("", "deg", "input of the least velocity along the slide or slot per input speed"),
+    "jerk_ratio_max_at": Term("", "deg", "input of the greatest jerk per cube of the input speed"),
+    "jerk_ratio_min_at": Term("", "deg", "input of the least jerk per cube of the input speed"),
+    "x_max_at": Term("", "deg", "input of the greatest x of the point"),
+    "x_min_at": Term("", "deg", "input of the least x of the point"),
+    "y_max_at": Term("", "deg", "input of the greatest y of the point"),
+    "y_min_at": Term("", "deg", "input of the least y of the point"),
 }
