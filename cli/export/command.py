@@ -130,9 +130,15 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
     """The parts that a format takes: of all parts, those that are bodies become solids."""
     if form is not FileFormat.STEP:
         return contours[asked.curve]
-    made = contours[CurveForm.SPLINE]
+    made = [contour for contour in contours[CurveForm.SPLINE] if not _is_path(contour)]
+    if not made:
+        raise GearlinkError("a path is no body: take dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
+
+
+def _is_path(contour: Contour) -> bool:
+    return any(line.layer == "PATH" for line in contour.lines)
 
 
 def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:

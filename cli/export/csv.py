@@ -13,7 +13,12 @@ from gearlink.cli.export.contour import Contour, rows_of
 from gearlink.cli.export.header import describe
 from gearlink.cli.export.sampling import Sampled
 
-_HEADS = {"PROFILE": ("x [mm]", "y [mm]"), "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]")}
+_HEADS = {
+    "PROFILE": ("x [mm]", "y [mm]"),
+    "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]"),
+    "PATH": ("x [mm]", "y [mm]"),
+}
+_LEADING = ("k", "cam_angle [deg]", "input_angle [deg]", "input_position [mm]")
 
 
 def as_csv(contour: Contour, spec: Any) -> bytes:
@@ -35,7 +40,7 @@ def as_csv(contour: Contour, spec: Any) -> bytes:
 def _rows(contour: Contour) -> Iterator[list[Any]]:
     drawn = tuple(piece for piece in contour.pieces if piece.stretch.layers[0] in _HEADS)  # no construction lines
     layers = tuple(dict.fromkeys(layer for piece in drawn for layer in piece.stretch.layers))
-    leading = [head for head in contour.part.extra_columns if head in ("k", "cam_angle [deg]")]
+    leading = [head for head in contour.part.extra_columns if head in _LEADING]
     trailing = [head for head in contour.part.extra_columns if head not in leading]
     named = ["curve"] if any(piece.stretch.name for piece in drawn) else []
     yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, *named]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
 # Colours of the AutoCAD index: black or white, cyan, grey, green, red.
-_COLORS = {"PROFILE": 7, "PITCH_CURVE": 4, "CENTER": 1, "TEXT": 8}
+_COLORS = {"PROFILE": 7, "PITCH_CURVE": 4, "PATH": 5, "CENTER": 1, "TEXT": 8}
 _CONSTRUCTION = 3
 _DASHED = {"PITCH_CURVE": "CENTER", "CENTER": "CENTER"}
 _MM = 4

@@ -83,7 +83,7 @@ def gear_pair(design: Any, key: str = "") -> Makers:
         rim += abs(data.pair.root_radius[1])
     titles = ("gear 1", "gear 2")
     hands = pair_hands(design)
-    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim, hands=hands)
+    found = of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim, hands=hands)
     return {"gear1": found["gear1"], "rack": lambda: _rack(design)} if getattr(design.spec, "rack", False) else found
 
 
@@ -117,7 +117,7 @@ def three_gears(design: Any) -> Makers:
     def of(label: str, one: str, other: str) -> Makers:
         words = (titles[one], titles[other])
         widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
-        return _of_mesh(design.meshes[label], (one, other), words, "gears", widths_of=widths, rim=rim, hands=hands)
+        return of_mesh(design.meshes[label], (one, other), words, "gears", widths_of=widths, rim=rim, hands=hands)
 
     first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
     second = of("idler_output", "gear3", "gear5")
@@ -129,21 +129,21 @@ def two_gears(design: Any) -> Makers:
     """The coupler's gear and the output."""
     titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
     rim = design.outer_rim()
-    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
+    return of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
 def hypocycloid(design: Any) -> Makers:
     """Planet and ring."""
     titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
     rim = design.outer_rim()
-    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
+    return of_mesh(design.mesh, ("planet", "ring"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
 def mutilated(design: Any) -> Makers:
     """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
     hands = train_hands(design)
     titles = ("", "gear 2, driven")
-    made = _of_mesh(design.mesh, ("", "gear2"), titles, "gears", widths_of=design.widths_of, hands=hands)
+    made = of_mesh(design.mesh, ("", "gear2"), titles, "gears", widths_of=design.widths_of, hands=hands)
 
     def wheel() -> Part:
         from gearlink.cli.export.wheel_parts import wheel_of
@@ -163,7 +163,7 @@ def five_bar(design: Any) -> Makers:
         parts = (f"{names[0]}_gear", f"{names[1]}_gear")
         titles = (f"{names[0]} gear", f"{names[1]} gear")
         widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
-        found |= _of_mesh(mesh, parts, titles, "gears", widths_of=widths, rim=rim, hands=hands)
+        found |= of_mesh(mesh, parts, titles, "gears", widths_of=widths, rim=rim, hands=hands)
     return found
 
 
@@ -185,11 +185,11 @@ def six_bar(design: Any) -> Makers:
             first, second = (pin for _, pin in ordered) if ordered else pins
             names = (f"gear{i + 1}{first}", f"gear{i + 1}{second}")
             titles = (f"train {i + 1}, gear on {first}", f"train {i + 1}, gear on {second}")
-            found = _of_mesh(mesh, names, titles, f"trains[{i}]", train) | found
+            found = of_mesh(mesh, names, titles, f"trains[{i}]", train) | found
     return dict(sorted(found.items()))
 
 
-def _of_mesh(
+def of_mesh(
     mesh: Any,
     names: tuple[str, str],
     titles: tuple[str, str],

@@ -14,7 +14,7 @@ from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 
-_COLORS = {"PROFILE": "#000000", "PITCH_CURVE": "#0072b2", "CENTER": "#d55e00"}
+_COLORS = {"PROFILE": "#000000", "PITCH_CURVE": "#0072b2", "PATH": "#0072b2", "CENTER": "#d55e00"}
 _CONSTRUCTION = "#009e73"
 _DASHES = {"PITCH_CURVE": "6 1 1 1", "CENTER": "6 1 1 1"}
 

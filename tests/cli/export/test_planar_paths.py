@@ -1,0 +1,53 @@
+"""Paths of planar mechanisms as files: points on the path, rates beside them, and what has no path."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from gearlink.cli.app import app
+from gearlink.cli.opening import load
+
+DESIGNS = Path(__file__).parents[3] / "designs"
+
+
+def run(*words: str) -> Any:
+    return CliRunner().invoke(app, words)
+
+
+def test_rows_of_a_path_are_those_of_the_motion(tmp_path: Path) -> None:
+    """Each row against the mechanism at its input; the last row is the first again."""
+    done = run("export", str(DESIGNS / "planar_five_bar.yaml"), "--as", "csv", "--as", "svg", "--out", str(tmp_path))
+    assert done.exit_code == 0, done.output
+    names = {path.name for path in tmp_path.iterdir()}
+    assert {"geared-five-bar-PATH-M.csv", "geared-five-bar-PATH-M.svg", "geared-five-bar-mesh_14_crank.csv"} <= names
+    lines = [line for line in (tmp_path / "geared-five-bar-PATH-M.csv").read_text().splitlines() if line[0] != "#"]
+    head, *rows = csv.reader(lines)
+    assert head[:4] == ["input_angle [deg]", "x [mm]", "y [mm]", "x_velocity_ratio [mm/rad]"]
+    data = np.array(rows, dtype=float)
+    design = load(DESIGNS / "planar_five_bar.yaml")
+    point = design.moving.at(np.radians(data[:, 0]), 2).links["coupler"].at("M")
+    for column, wanted in zip(
+        range(1, 7),
+        (part for rate in point[:3] for part in (rate.real, rate.imag)),
+        strict=True,
+    ):
+        assert data[:, column] == pytest.approx(wanted, abs=1e-10)
+    assert data[-1, 1:3] == pytest.approx(data[0, 1:3], abs=1e-12)
+
+
+def test_a_mechanism_without_an_output_point_has_none(tmp_path: Path) -> None:
+    done = run("export", str(DESIGNS / "planar_quick_return.yaml"), "--out", str(tmp_path))
+    assert done.exit_code == 2
+    assert not [*tmp_path.iterdir()]
+
+
+def test_a_path_is_no_body(tmp_path: Path) -> None:
+    done = run("export", str(DESIGNS / "planar_watt.yaml"), "--as", "step", "--out", str(tmp_path))
+    assert done.exit_code == 2
+    assert "a path is no body" in done.output
