@@ -25,7 +25,7 @@ def makers(design: Any) -> Makers:
     """Makers of the paths by `PATH-POINT`, and of the gears, with standard teeth, by mesh and link."""
     structure = design.structure
     points = [name for name in design.spec.shown if len(moved(structure, name)) == 2]
-    found = {**{f"PATH-{name}": partial(_path, design, name) for name in points}, **_gears(design)}
+    found: Makers = {**{f"PATH-{name}": partial(_path, design, name) for name in points}, **_gears(design)}
     if not found:
         raise MissingSection("no path to export: name a point of a link in outputs", key="outputs")
     return found
