@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
@@ -185,19 +187,43 @@ class PlanarMechanism(Design):
     # Extremes
 
     @cached_property
-    def extremes(self) -> dict[tuple[str, int], Pair]:
-        """Extremes of all outputs with their derivatives, and of the transmission angles."""
+    def _found(self) -> dict[tuple[str, int], Pair]:
+        """Extremes that were asked for, by the number that moves and the order of the derivative."""
+        return {}
+
+    def prepare(self, quantities: Iterable[str], /) -> None:
+        """Search the extremes of these quantities together; a motion that is refused is so where one is asked for."""
+        with suppress(GearlinkError):
+            self._search(key for name in quantities for key in self._needed(name))
+
+    def _needed(self, name: str) -> list[tuple[str, int]]:
+        if name.startswith("min_transmission_angle"):
+            return self._dyads
+        meaning = self.meanings.get(name)
+        if meaning is None or meaning.side in ("turns", "path") or self._turns_through(meaning):
+            return []
+        return [(meaning.output.name, meaning.order)]
+
+    @property
+    def _dyads(self) -> list[tuple[str, int]]:
+        return [(f"dyad {i}", 0) for i in range(len(self.course.dyads))]
+
+    def extremes(self, *keys: tuple[str, int]) -> list[Pair]:
+        """Extremes of numbers by name and order of the derivative."""
+        self._search(keys)
+        return [self._found[key] for key in keys]
+
+    def _search(self, keys: Iterable[tuple[str, int]]) -> None:
         from gearlink.core.machines.planar.extremes import extremes
 
-        sought: dict[str, Any] = {}
-        for each in self.meanings.values():
-            if each.side in ("max", "min", "span") and not self._turns_through(each):
-                orders = sought.setdefault(each.output.name, (each.output.coefficient, []))[1]
-                if each.order not in orders:
-                    orders.append(each.order)
-        for i, dyad in enumerate(self.course.dyads):
-            sought[f"dyad {i}"] = dyad.angle, [0]
-        return extremes(self.course, sought)
+        moving = {each.output.name: each.output.coefficient for each in self.meanings.values()}
+        moving |= {f"dyad {i}": dyad.angle for i, dyad in enumerate(self.course.dyads)}
+        sought: dict[str, tuple[Any, list[int]]] = {}
+        for name, order in dict.fromkeys(keys):
+            if (name, order) not in self._found:
+                sought.setdefault(name, (moving[name], []))[1].append(order)
+        if sought:
+            self._found.update(extremes(self.course, sought))
 
     def _turns_through(self, meaning: Meaning) -> bool:
         """Whether it is the direction of a link that turns on and on."""
@@ -216,7 +242,7 @@ class PlanarMechanism(Design):
             from gearlink.core.machines.planar.path import length
 
             return length(self.course, *point_output(self.structure, output.name.removesuffix("_x")))
-        found = self.extremes[output.name, order]
+        (found,) = self.extremes((output.name, order))
         if meaning.side == "span":
             return found.max.value - found.min.value
         extreme: Extreme = found.max if meaning.side.startswith("max") else found.min
@@ -233,7 +259,7 @@ class PlanarMechanism(Design):
     @cached_property
     def _transmission(self) -> tuple[float, float] | None:
         """Least transmission angle of the dyads and its input."""
-        found = [self.extremes[f"dyad {i}", 0] for i in range(len(self.course.dyads))]
+        found = self.extremes(*self._dyads)
         angles = [(_folded(each.value), each.place) for pair in found for each in pair]
         if not angles:
             return None

@@ -231,7 +231,7 @@ class PlanarSpec(TolerancedSpec):
         """The outputs: those of the file, or all links but the driven one and all slides."""
         if self.outputs is not None:
             return self.outputs
-        return [*(name for name in self.links if name != self.drive.main and name not in self.slid), *self.slides]
+        return [*(name for name in self.links if name != self.drive.main), *self.slides]
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -201,6 +201,9 @@ class System:
 
     def step(self, jets: Jets, q: Reals) -> Reals:
         """Newton's step; (N, unknowns)."""
+        if self.whole:
+            right = -self.values(jets, 0, q)[..., None]
+            return np.asarray(np.linalg.solve(self.matrix(jets), right)[..., 0])
         return self.solved(self.matrix(jets)).solve(-self.values(jets, 0, q))
 
     def onward(self, jets: Jets, q: Reals, order: int) -> Jets:

@@ -12,9 +12,10 @@ from oracles.planar import motion
 from oracles.planar_zoo import FOUR_BAR, WATT, ZOO, made
 from scipy.integrate import quad
 
-from gearlink.cli.opening import load
+from gearlink.cli.opening import design, load
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.design import PlanarMechanism
+from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.system import joined
 
 DESIGNS = Path(__file__).parents[3] / "designs"
@@ -194,3 +195,30 @@ def test_the_limit_of_the_transmission_angle_is_judged() -> None:
     assert [each.status for each in planar("watt").check("transmission-angle")] == ["warn"]
     strict = planar("watt", limits={**WATT["limits"], "transmission_angle": 12})
     assert [each.status for each in strict.check("transmission-angle")] == ["fail"]
+
+
+@pytest.mark.parametrize("pin", ["B", "C"])
+def test_the_play_of_a_pin_is_that_of_a_pivot_beyond_it(pin: str) -> None:
+    """A hole of the coupler off the crank's pin, in the frame, moves the crank's circle as its pivot would; one of the
+    rocker off the coupler's pin moves the rocker's pivot back."""
+    off = 0.3 - 0.2j
+    played = PlanarSamples(planar("four-bar")).design({f"pins.{pin}": off})
+    a, d = (off, 120 + 15j) if pin == "B" else (0j, 120 + 15j - off)
+    frame = {"A": [a.real, a.imag], "D": [d.real, d.imag]}
+    moved = planar("four-bar", frame=frame)
+    for name in ("rocker.angle_max", "rocker.speed_ratio_max", "rocker.jerk_ratio_min", "min_transmission_angle"):
+        assert played.raw(name) == pytest.approx(moved.raw(name), rel=1e-10), name
+
+
+def test_samples_follow_the_keys_of_the_file_and_the_play() -> None:
+    """A yield of the four-bar with a require line on its own output, twice the same."""
+    tolerance = {
+        "seed": 3,
+        "samples": 16,
+        "sources": {"links.crank[2]": {"plus_minus": 0.05}, "pins.C": {"clearance": [0.01, 0.03]}},
+        "require": ["rocker.swing <= 48.5 deg"],
+    }
+    made_ = design("tolerance", kind="planar-mechanism", name="four", **ZOO["four-bar"], tolerance=tolerance)
+    assert 0.0 < made_.raw("yield") < 1.0
+    table = made_.table("contributions")
+    assert {*table["source"]} == {"links.crank[2]", "pins.C"}
