@@ -74,20 +74,10 @@ def _gears(design: Any) -> Makers:
             if teeth[0] < 0:
                 teeth, links = teeth[::-1], links[::-1]
         made = of_mesh(
-            _standard(mesh.module, teeth, alpha),
+            GearPair.from_shift(mesh.module, teeth, pressure_angle=alpha),
             (f"{name}_{links[0]}", f"{name}_{links[1]}"),
             (f"gear of {links[0]}", f"gear of {links[1]}"),
             f"meshes.{name}",
         )
         found |= {part: maker for part, maker in made.items() if not part.endswith("_")}
     return found
-
-
-def _standard(module: float, teeth: tuple[int, int], alpha: float) -> Any:
-    """A mesh of gears without shift, the ring second."""
-    from gearlink.core.parts.gears.mesh.internal_mesh import InternalMesh
-    from gearlink.core.parts.gears.mesh.pair import GearPair
-
-    if teeth[1] < 0:
-        return InternalMesh(module, (teeth[0], -teeth[1]), alpha)
-    return GearPair.from_shift(module, teeth, pressure_angle=alpha)
