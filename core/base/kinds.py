@@ -257,6 +257,7 @@ KINDS: dict[str, Kind] = {
             errors="register:errors",
             register_at="range",
             motion="mechanism:motion",
+            codes="",
             outputs={"path": ("x", "y"), "function": ("output_angle",)},
             picture="cli.views.figures.geared_five_bar:draw",
             scene="cli.views.scenes.geared_five_bar:build",

@@ -14,7 +14,6 @@ from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.five_bar import bodies, tables
-from gearlink.core.machines.five_bar.codes import CLOSURE
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
@@ -24,6 +23,7 @@ from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quantity
 from gearlink.core.parts.gears.train.ways import train_ways
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
+from gearlink.core.parts.linkages.codes import CLOSURE
 from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
 

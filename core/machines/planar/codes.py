@@ -4,18 +4,6 @@ from __future__ import annotations
 
 from gearlink.core.base.report import Rule
 
-CLOSURE = Rule(
-    "GL305",
-    "joints that do not close",
-    "Over the rows of the period or range the two bodies of a joint are apart by more than rounding.",
-    "Everything else is computed from these positions.",
-    "Move the range away from a dead centre; where none is near, report the file.",
-    "greatest gap of a pin or line over the rows; fails above 1e-9 of the largest length",
-    "own derivation",
-    ("closure",),
-    ("range", "start"),
-    side="<=",
-)
 ASSEMBLY = Rule(
     "GL318",
     "start far from what is found",

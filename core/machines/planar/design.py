@@ -16,14 +16,16 @@ from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planar import tables
-from gearlink.core.machines.planar.codes import ASSEMBLY, CLOSURE
+from gearlink.core.machines.planar.codes import ASSEMBLY
 from gearlink.core.machines.planar.names import GENERAL, generic, meanings, words_of
 from gearlink.core.parts.linkages.checks import transmission_check
+from gearlink.core.parts.linkages.codes import CLOSURE
 from gearlink.core.studies.clearance.checks import collision_check, seat_checks, shaft_checks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from gearlink.core.base.report import Status
     from gearlink.core.machines.planar.course import Course
     from gearlink.core.machines.planar.extremes import Extreme, Pair
     from gearlink.core.machines.planar.names import Meaning
@@ -292,7 +294,8 @@ class PlanarMechanism(Design):
             text += (
                 f", more than {_CLOSED:g} of the largest length {largest:.6g} mm: stay away from a dead centre (range)"
             )
-        return CLOSURE.check("fail" if share > _CLOSED else "pass", text, self.closure_error, _CLOSED * largest, "mm")
+        status: Status = "fail" if share > _CLOSED else "pass"
+        return CLOSURE.check(status, text, self.closure_error, _CLOSED * largest, "mm", side="<=")
 
     def check_assembly(self) -> Iterator[Check]:
         """GL318: rough start directions against those that were found."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -106,7 +107,8 @@ class PlanarLoads(LoadsDesign):
     @property
     def turns(self) -> int:
         """Input turns after which everything repeats; over a range those that it takes."""
-        return self.design.period_turns or 1
+        course = self.design.course
+        return self.design.period_turns or math.ceil((course.end - course.start) / (2.0 * math.pi))
 
     # One pass over a range
 
@@ -200,8 +202,6 @@ class _Shifted:
         return sorted(self._breaks())
 
     def _breaks(self) -> Iterator[float]:
-        import math
-
         for place in self.sources.breaks():
             yield (place - self.first) % (2.0 * math.pi)
 

@@ -35,13 +35,11 @@ def inputs(design: PlanarMechanism, samples: int | None) -> Reals:
 
 
 def _made(design: PlanarMechanism, name: str, shown: Iterable[Shown], samples: int | None) -> Table:
-    import numpy as np
-
     from gearlink.core.mechanism.courses import columns_of
 
     given = design.moving.input
     rows, asked = inputs(design, samples), list(shown)
-    q = np.radians(rows) if given.unit == "rad" else rows
+    q = _in_rad(design, rows)
     columns: dict[str, tuple[Any, str]] = {given.column: (rows, "deg" if given.unit == "rad" else "mm")}
     columns |= columns_of(design.moving, q, asked)
     speed = design.angular_speed
@@ -108,11 +106,20 @@ def slides(design: PlanarMechanism, samples: int | None = None) -> Table:
 def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     """The instant centre of every moving link against the frame; none where it does not turn."""
     from gearlink.core.machines.planar.mechanism import poles as pole
-    from gearlink.core.mechanism.courses import Shown
     from gearlink.core.mechanism.motion import Course
 
-    shown: list[Shown] = []
+    table = _made(design, "poles", (), samples)
+    columns: dict[str, tuple[Any, str]] = {table.columns[0]: (table.data[0], table.units[0])}
+    q = _in_rad(design, table.data[0])
     for name in design.structure.names[1:]:
-        shown.append(Shown(f"{name}_pole_x", Course("mm", lambda links, name=name: [pole(links, name).real])))  # type: ignore[misc]
-        shown.append(Shown(f"{name}_pole_y", Course("mm", lambda links, name=name: [pole(links, name).imag])))  # type: ignore[misc]
-    return _made(design, "poles", shown, samples)
+        course = Course("mm", lambda links, name=name: [pole(links, name)])  # type: ignore[misc]
+        places = course.rates(design.moving, q, 1)[0]
+        columns |= {f"{name}_pole_x": (places.real, "mm"), f"{name}_pole_y": (places.imag, "mm")}
+    return Table.of("poles", columns)
+
+
+def _in_rad(design: PlanarMechanism, rows: Any) -> Reals:
+    """Inputs of rows as the motion takes them."""
+    import numpy as np
+
+    return np.radians(rows) if design.moving.input.unit == "rad" else np.asarray(rows)

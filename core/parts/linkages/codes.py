@@ -124,3 +124,16 @@ DWELL_EDGE = Rule(
     ("dwell.margin", "dwell.tolerance", "dwell"),
     side="<=",
 )
+CLOSURE = Rule(
+    "GL305",
+    "joints close",
+    "The links reach from joint to joint at every input (what opens is refused, with the worst input); of a planar "
+    "mechanism the greatest gap of a joint over the rows.",
+    "Where they do not reach, the mechanism cannot be put together or jams there.",
+    "Make the links that close a loop longer or more equal, shorten the driven ones, or keep away from a dead centre.",
+    "five-bar |b - c| < |BD| < b + c over the period, function form |c - e| < |CE| < c + e over the range; planar "
+    "mechanism: fails above 1e-9 of the largest length",
+    "own derivation",
+    ("closure",),
+    ("links", "range"),
+)

@@ -59,6 +59,9 @@ STUDIES = {
         "drawn_feed", {"gears.profile_shift[0]": 0.5}, {"GL203"}, {"limits": {"contact_ratio": 1.5}}
     ),
     "two gears": Study("two_gear_standing", {"links.coupler": 8, "links.frame": 8}, {"GL303"}),
+    "planar mechanism": Study(
+        "planar_watt", {"links.arm[2]": 4, "frame.D[0]": 1}, {"GL303"}, {"limits__transmission_angle": 11.2}
+    ),
     "rocker": Study("wide_lever", {"links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 50.8}),
     "crank": Study("ty460_slider_crank", {"stroke": 60, "rod": 150, "offset": 60}, set()),
     "pair by shifts": Study(

@@ -34,6 +34,7 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "two_gear_drag_link": (["links.coupler", "links.frame"], "back_step_angle <= 90 deg"),
     "swing_gripper": (["links.input", "pivots.output[0]"], "min_transmission_angle[0] >= 1 deg"),
     "geared_six_bar": (["links.output", "links.frame"], "min_transmission_angle >= 1 deg"),
+    "planar_watt": (["links.crank[2]", "frame.D[0]"], "output.swing >= 1 deg"),
 }
 
 
