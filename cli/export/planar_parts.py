@@ -73,6 +73,8 @@ def _gears(design: Any) -> Makers:
             teeth, links = mesh.teeth, (names[mesh.first], names[mesh.second])
             if teeth[0] < 0:
                 teeth, links = teeth[::-1], links[::-1]
+        from gearlink.core.parts.gears.mesh.pair import GearPair
+
         made = of_mesh(
             GearPair.from_shift(mesh.module, teeth, pressure_angle=alpha),
             (f"{name}_{links[0]}", f"{name}_{links[1]}"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import TYPE_CHECKING
 
@@ -36,12 +37,14 @@ def errors(design: GearedFiveBar, mechanism: Mechanism) -> Movable:
     centers = {"gears": getattr(bar, carried)} if getattr(design.spec.links, carried) is None else {}
     if not design.is_path:
         return Movable(sizes, centers, gears=gears, radius=bar.output)
-    own = {"coupler_point.along": _across(1.0 + 0j), "coupler_point.across": _across(1j)}
+    section = design.spec.register_
+    line = cmath.exp(-1j * math.radians((section.direction if section is not None else None) or 0.0))
+    own = {"coupler_point.along": _across(line), "coupler_point.across": _across(1j * line)}
     return Movable(sizes, centers, gears=gears, own=own)
 
 
 def _across(way: complex) -> Course:
-    """How far the point M goes along x where it stands off on the coupler."""
+    """How far the point M goes along the direction of the output where it stands off on the coupler."""
     return Course("1", lambda mechanism: [np.asarray((mechanism.links["coupler"].unit * way).real)])
 
 

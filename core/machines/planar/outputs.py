@@ -103,26 +103,27 @@ def _place_on(line: Line, size: float, names: Sequence[str]) -> Course:
     def of(mechanism: Mechanism) -> Sequence[Reals]:
         jets = jets_of(mechanism, (names[line.body], names[line.other]), size)
         order = jets.order
-        near = line._replace(body=0, other=1)
-        return [jets.seen(near, k).real * (size * math.factorial(k)) for k in range(order + 1)]
+        near, shape = line._replace(body=0, other=1), mechanism.links[names[line.other]].turn.value.shape
+        return [(jets.seen(near, k).real * (size * math.factorial(k))).reshape(shape) for k in range(order + 1)]
 
     return Course("mm", of)
 
 
 def jets_of(mechanism: Mechanism, names: Sequence[str], size: float) -> Jets:
-    """Taylor coefficients of some links of a mechanism, lengths in units of size."""
+    """Taylor coefficients of some links of a mechanism, lengths in units of size; of all its rows one after another."""
     import numpy as np
 
     from gearlink.core.machines.planar.system import Jets
 
     links = [mechanism.link(name) for name in names]
     order = min(link.turn.order for link in links if link is not None)
-    still = np.zeros(mechanism.rows)
+    still = np.zeros(next(link.turn.value.size for link in links if link is not None))
     x, t = [], []
     for k in range(order + 1):
         share = 1.0 / math.factorial(k)
-        x.append(np.stack([still + 0j if link is None else link.origin[k] * (share / size) for link in links], axis=1))
-        t.append(np.stack([still if link is None else link.turn[k] * share for link in links], axis=1))
+        places = [still + 0j if link is None else link.origin[k].ravel() * (share / size) for link in links]
+        x.append(np.stack(places, axis=1))
+        t.append(np.stack([still if link is None else link.turn[k].ravel() * share for link in links], axis=1))
     return Jets(x, t)
 
 

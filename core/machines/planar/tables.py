@@ -112,7 +112,7 @@ def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     columns: dict[str, tuple[Any, str]] = {table.columns[0]: (table.data[0], table.units[0])}
     q = _in_rad(design, table.data[0])
     for name in design.structure.names[1:]:
-        course = Course("mm", lambda links, name=name: [pole(links, name)])  # type: ignore[misc]
+        course = Course("mm", lambda links, name=name: [pole(links, name)])  # type: ignore[misc,arg-type]
         places = course.rates(design.moving, q, 1)[0]
         columns |= {f"{name}_pole_x": (places.real, "mm"), f"{name}_pole_y": (places.imag, "mm")}
     return Table.of("poles", columns)

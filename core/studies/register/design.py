@@ -39,6 +39,8 @@ class RegisterDesign(Design):
 
     default_at: ClassVar[str]
     turning: ClassVar[str] = "torque on the output"
+    has_outputs: ClassVar[bool] = False
+    """Whether the file may say whose error counts."""
     words: ClassVar[str] = "the output"
     """What its sources move."""
     outlines: ClassVar[dict[str, Outline]] = {
@@ -167,9 +169,21 @@ class RegisterDesign(Design):
 
     @cached_property
     def section(self) -> Register:
-        """The section `register`, empty where the file has none."""
+        """The section `register`, empty where the file has none.
+
+        Raises
+            NoSolution - for keys that this machine does not take
+        """
         given = self.spec.register_
-        return Register() if given is None else given
+        if given is None:
+            return Register()
+        if not self.has_outputs:
+            for key in ("output", "direction"):
+                if getattr(given, key) is not None:
+                    message = f"{key} belongs to machines with several outputs: here {self.words} counts, leave it out"
+                    raise NoSolution(message, key=f"register.{key}")
+        section: Register = given
+        return section
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.mechanism.joints import Pin, Toothed
+from gearlink.core.mechanism.motion import Course
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.loads.zeros import zeros
 from gearlink.core.studies.register.design import RegisterDesign, no_such_place
@@ -22,11 +23,25 @@ from gearlink.core.studies.tolerance.sources import Parts
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
     from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.mechanism.motion import Course, Motion
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.studies.register.gains import Off, Output
     from gearlink.core.studies.register.movable import Errors, Movable
 
 _RPM = math.pi / 30.0
+
+
+def _turned(x: Course, y: Course, angle: float) -> Course:
+    """A point along a direction, from its coordinates."""
+    if angle == 0.0:
+        return x
+    along, across = math.cos(angle), math.sin(angle)
+    return Course(
+        x.unit,
+        lambda mechanism: [
+            along * np.asarray(a) + across * np.asarray(b)
+            for a, b in zip(x.of(mechanism), y.of(mechanism), strict=True)
+        ],
+    )
 
 
 class MotionRegister(RegisterDesign):
@@ -38,6 +53,7 @@ class MotionRegister(RegisterDesign):
 
     kind = ""  # that of its design file
     default_at = "range"
+    has_outputs = True
 
     def __init__(self, spec: Any) -> None:
         kind = KINDS[spec.kind]
@@ -56,10 +72,25 @@ class MotionRegister(RegisterDesign):
         """The motion of the design."""
         return self.design.moving
 
-    @property
+    @cached_property
     def course(self) -> Course:
-        """The output."""
-        return self.motion.outputs[0].course
+        """The output: the first one, or that of `register.output`; of a point along its direction.
+
+        Raises
+            NoSolution - for an output that the machine does not have
+        """
+        found = {each.name.replace(", ", " "): each.course for each in self.motion.outputs}
+        names = list(dict.fromkeys(name.removesuffix(" x").removesuffix(" y") for name in found))
+        name = names[0] if self.section.output is None else self.section.output
+        if name not in names:
+            message = f"no output {named(name)} here: it has {', '.join(names)}"
+            raise NoSolution(message, key="register.output")
+        direction = self.section.direction
+        if f"{name} y" not in found:
+            if direction is not None:
+                raise NoSolution(f"direction belongs to a point: {name} is none", key="register.direction")
+            return found[name]
+        return _turned(found[f"{name} x"], found[f"{name} y"], math.radians(direction or 0.0))
 
     @property
     def _turns(self) -> bool:

@@ -202,6 +202,12 @@ class Register(Spec):
     radius: Length | None = Field(
         None, description="radius at which the output's error is measured; default its reference radius"
     )
+    output: str | None = Field(
+        None, description="whose error counts, where there are several outputs; default the first"
+    )
+    direction: Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="of an output that is a point: direction in which its error counts; default along x"
+    )
     backlash: Distance | dict[str, Distance] | None = Field(
         None, description="circumferential backlash of each mesh by its name, or one for all"
     )

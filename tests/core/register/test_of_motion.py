@@ -32,22 +32,43 @@ CASES: dict[str, tuple[str, ...]] = {
     "five_bar_function": ("links.coupler", "links.follower", "links.output", "phase", "centers.gears", "pins.D"),
     "gear_pair": ("centers.gears", "pins.gear1", "gears.gear1", "gears.gear2"),
     "wide_swing_cycle": ("centers.cam", "cam.profile", "cam.roller_radius", "pins.roller", "pins.D"),
+    "planar_watt": (
+        *("frame.D[0]", "frame.D[1]", "links.crank[2]", "links.coupler.E[0]", "links.coupler.E[1]", "pins.E"),
+        *("links.rocker.F[1]", "links.arm[2]"),
+    ),
+    "planar_five_bar": (
+        *("links.crank[2]", "links.coupler.C[0]", "links.coupler.C[1]", "links.coupler.M[1]", "links.follower[2]"),
+        *("frame.E[0]", "frame.E[1]", "pins.C", "gears.mesh_14_output"),
+    ),
+    "planar_bed_chain": (
+        *("links.gear2[2]", "links.CDE.E[0]", "links.CDE.E[1]", "links.EF[2]", "frame.D[0]"),
+        *("slides.guide_carriage.through[0]", "pins.D"),
+    ),
+    "planar_quick_return": (
+        *("links.crank[2]", "frame.C[0]", "frame.C[1]", "links.rod[2]", "links.lever.D[0]"),
+        *("slots.slot.through[1]", "slides.guide.through[0]", "pins.D"),
+    ),
 }
 REMADE = {
     "two_gear_drag_link": LINKS[1:],
     "two_gear_ring": LINKS[1:],
     "slider_crank_tolerances": ("crank", "rod", "offset"),
     "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame"),
+    "planar_watt": CASES["planar_watt"][:5] + CASES["planar_watt"][6:],
+    "planar_five_bar": CASES["planar_five_bar"][:5],
+    "planar_bed_chain": CASES["planar_bed_chain"][:6],
+    "planar_quick_return": CASES["planar_quick_return"][:7],
     "five_bar_path": CASES["five_bar_path"][:4] + CASES["five_bar_path"][6:8],
 }
 """Sizes that change nothing but themselves, so that a design may be made anew with another one."""
-WITHOUT_MESH = ("slider_crank_tolerances", "wide_swing_cycle")
+WITHOUT_MESH = ("slider_crank_tolerances", "wide_swing_cycle", "planar_watt", "planar_quick_return")
+RADIUS = ("wide_swing_cycle", "planar_watt")
 
 
 def register(name: str, sources: tuple[str, ...] = (), **keys: Any) -> MotionRegister:
     entries = {key: _entry(key) for key in sources or CASES[name]}
     given = {"backlash": 0.03} if name not in WITHOUT_MESH else {}
-    if name == "wide_swing_cycle":
+    if name in RADIUS:
         given["radius"] = 200.0
     made = factory.design(name, command="register", tolerance={"sources": entries}, register=given | keys)
     assert isinstance(made, MotionRegister)
@@ -87,11 +108,8 @@ def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
         if one.source not in REMADE[name]:
             continue
         value = number_at(made.spec, one.source)
-        places = [
-            made.radius
-            * made.course.rates(MotionRegister(changed(made.spec, [(one.source, value + way)])).motion, phi, 0)[0]
-            for way in (step, -step)
-        ]
+        others = [MotionRegister(changed(made.spec, [(one.source, value + way)])) for way in (step, -step)]
+        places = [made.radius * other.course.rates(other.motion, phi, 0)[0] for other in others]
         found = (places[0] - places[1]) / (2.0 * step)
         # a design counts its output from its own start: the changes over the motion are compared
         assert found - found[0] == pytest.approx(one.gain - one.gain[0], abs=2e-8), one.source
@@ -178,3 +196,27 @@ def test_tables_run_over_the_range_of_the_input() -> None:
     table = made.table_cycle()
     angles = table.data[table.columns.index("input_angle")]
     assert (min(angles), max(angles)) == pytest.approx((start, end), abs=1e-9)
+
+
+def test_a_point_counts_along_a_direction() -> None:
+    phi = np.array([0.4, 1.7, 4.0])
+    gains = [
+        {one.source: one.gain for one in register("planar_five_bar", direction=angle).contributions(phi, 1)}
+        for angle in (0.0, 90.0, 30.0)
+    ]
+    for source in gains[0]:
+        if source.startswith("links"):  # which flank carries depends on what is looked at
+            x, y, along = (each[source] for each in gains)
+            assert along == pytest.approx(math.cos(math.pi / 6.0) * x + 0.5 * y, abs=1e-12), source
+
+
+def test_another_output_counts_where_the_file_says_so() -> None:
+    made = register("planar_quick_return", output="lever", radius=100.0)
+    assert made.course.unit == "rad"
+    with pytest.raises(NoSolution, match="no output 'ram' here: it has guide, lever"):
+        _ = register("planar_quick_return", output="ram").worst
+    with pytest.raises(NoSolution, match="direction belongs to a point"):
+        _ = register("planar_quick_return", direction=10.0).worst
+    press = factory.design("ty460", command="register", register={"output": "bed"})
+    with pytest.raises(NoSolution, match="output belongs to machines with several outputs"):
+        _ = press.section
