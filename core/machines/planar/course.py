@@ -95,7 +95,7 @@ class _Refusals:
         else:
             low, high = sorted((here, shown(self.course.dead_centre(back))))
             free = f"between {low:.6g} and {high:.6g} {unit}"
-        ways = "keep range: {start, end} within" if ranged else "let the input swing"
+        ways = "keep range: {start, end}" if ranged else "let the input swing"
         return NoSolution(
             f"the mechanism meets a dead centre at input {here:.6g} {unit}, where it jams: {ways} {free}"
             f"{'' if ranged else ' (range: {start, end})'}, or change the lengths",
@@ -260,6 +260,10 @@ class Course:
         jets = self.system.onward(Jets([x], [t]), inside, order)
         jets.t[0] = jets.t[0] + gained[:, None] * self.gains if self.ends is None else jets.t[0]
         return jets
+
+    def floor(self, unit: str, order: int) -> float:
+        """What a derivative of a motion over 1 rad, or over the size of the mechanism, is about [rad, mm]."""
+        return (1.0 if unit == "rad" else self.structure.size) * self._scale**order
 
     def derivatives(self, of: Callable[[Jets, int], Reals], jets: Jets, order: int) -> list[Reals]:
         """Value and derivatives by the input [rad or mm] of a number, given its Taylor coefficients."""

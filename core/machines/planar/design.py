@@ -216,16 +216,19 @@ class PlanarMechanism(Design):
         return [self._found[key] for key in keys]
 
     def _search(self, keys: Iterable[tuple[str, int]]) -> None:
-        from gearlink.core.machines.planar.extremes import extremes
+        from gearlink.core.machines.planar.extremes import Wanted, extremes
 
-        moving = {each.output.name: each.output.coefficient for each in self.meanings.values()}
-        moving |= {f"dyad {i}": dyad.angle for i, dyad in enumerate(self.course.dyads)}
-        sought: dict[str, tuple[Any, list[int]]] = {}
+        moving: dict[str, tuple[Any, str]] = {
+            each.output.name: (each.output.coefficient, each.output.unit) for each in self.meanings.values()
+        }
+        moving |= {f"dyad {i}": (dyad.angle, "rad") for i, dyad in enumerate(self.course.dyads)}
+        orders: dict[str, list[int]] = {}
         for name, order in dict.fromkeys(keys):
             if (name, order) not in self._found:
-                sought.setdefault(name, (moving[name], []))[1].append(order)
-        if sought:
-            self._found.update(extremes(self.course, sought))
+                orders.setdefault(name, []).append(order)
+        if orders:
+            wanted = {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
+            self._found.update(extremes(self.course, wanted))
 
     def _turns_through(self, meaning: Meaning) -> bool:
         """Whether it is the direction of a link that turns on and on."""

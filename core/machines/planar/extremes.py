@@ -37,6 +37,14 @@ class Pair(NamedTuple):
     min: Extreme
 
 
+class Wanted(NamedTuple):
+    """A number, the derivatives of it whose extremes are wanted, and its unit, rad or mm."""
+
+    of: Coefficient
+    orders: Sequence[int]
+    unit: str
+
+
 class _Sought(NamedTuple):
     course: str
     order: int
@@ -45,30 +53,29 @@ class _Sought(NamedTuple):
     sign: float
 
 
-def extremes(course: Course, sought: Mapping[str, tuple[Coefficient, Sequence[int]]]) -> dict[tuple[str, int], Pair]:
+def extremes(course: Course, wanted: Mapping[str, Wanted]) -> dict[tuple[str, int], Pair]:
     """Extremes of courses and their derivatives.
 
     Parameters
-        sought : name -> (Taylor coefficients, orders of the derivatives)
+        wanted : by name
     Returns
         found : (name, order) -> Pair
     """
-    highest = max((max(orders) for _, orders in sought.values()), default=0)
+    highest = max((max(each.orders) for each in wanted.values()), default=0)
     grid = course.grid
     jets = course.jets(grid, highest + 1)
-    rows = {name: course.derivatives(of, jets, max(orders) + 1) for name, (of, orders) in sought.items()}
-    brackets = [
-        bracket
-        for name, (_, orders) in sought.items()
-        for order in orders
-        for bracket in _brackets(name, order, grid, rows[name])
-    ]
-    places, values = _refined(course, {name: of for name, (of, _) in sought.items()}, brackets, highest)
+    rows = {name: course.derivatives(each.of, jets, max(each.orders) + 1) for name, each in wanted.items()}
+    keys = [(name, order) for name, each in wanted.items() for order in each.orders]
+    noise = {
+        (name, order): _NOISE * max(_size(rows[name], order), course.floor(wanted[name].unit, order))
+        for name, order in keys
+    }
+    brackets = [each for key in keys for each in _brackets(*key, grid, rows[key[0]], noise[key])]
+    places, values = _refined(course, {name: each.of for name, each in wanted.items()}, brackets, highest)
     found = {}
-    for name, (_, orders) in sought.items():
-        for order in orders:
-            mine = [i for i, each in enumerate(brackets) if (each.course, each.order) == (name, order)]
-            found[name, order] = _pair(course, grid, rows[name], order, places[mine], values[mine])
+    for key in keys:
+        mine = [i for i, each in enumerate(brackets) if (each.course, each.order) == key]
+        found[key] = _pair(course, grid, rows[key[0]], key[1], noise[key], places[mine], values[mine])
     return found
 
 
@@ -89,11 +96,11 @@ def _size(rows: Sequence[Reals], order: int) -> float:
     return max(float(np.abs(each).max()) for each in rows[1 if order else 0 : order + 1])
 
 
-def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals]) -> list[_Sought]:
+def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals], noise: float) -> list[_Sought]:
     """Steps of the grid in which the next derivative changes its sign next to the greatest and the least values."""
     value, slope = rows[order], rows[order + 1]
     size = _size(rows, order)
-    if float(np.ptp(value)) <= _NOISE * size:
+    if float(np.ptp(value)) <= noise:
         return []
     width = np.diff(grid)
     changes = ((slope[:-1] > 0.0) != (slope[1:] > 0.0)) & (np.abs(slope[:-1]) + np.abs(slope[1:]) > 0.0)
@@ -160,11 +167,13 @@ def _pick(
     return found[0], found[1]
 
 
-def _pair(course: Course, grid: Reals, rows: Sequence[Reals], order: int, places: Reals, values: Reals) -> Pair:
+def _pair(
+    course: Course, grid: Reals, rows: Sequence[Reals], order: int, noise: float, places: Reals, values: Reals
+) -> Pair:
     size, value = _size(rows, order), rows[order]
     period = None if course.turns is None else course.end
-    if float(np.ptp(value)) <= _NOISE * size:
-        still = 0.0 if float(np.abs(value).max()) <= _NOISE * size and order else float(value[0])
+    if float(np.ptp(value)) <= noise:
+        still = 0.0 if float(np.abs(value).max()) <= noise else float(value[0])
         return Pair(Extreme(still, float(grid[0])), Extreme(still, float(grid[0])))
     if period is None:
         ends = np.array([grid[0], grid[-1]])
