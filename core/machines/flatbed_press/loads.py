@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.loads.base import Wanted
     from gearlink.core.studies.loads.cams.contact import RollerOnCam
+    from gearlink.core.studies.loads.design import Wanted
 
 _TURN = 2.0 * math.pi
 

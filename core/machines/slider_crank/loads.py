@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.slider_crank.design import SliderCrankDesign
-from gearlink.core.studies.loads.design import BALANCE, LoadsDesign, loads_outline
+from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.names import BALANCE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.spec import SliderCrankSpec

@@ -14,7 +14,7 @@ from gearlink.core.base.wording import amount
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
 from gearlink.core.studies.loads import codes
-from gearlink.core.studies.loads.base import RPM
+from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.joints import Connection

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.studies.loads.base import RPM
+from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy

@@ -13,7 +13,7 @@ from gearlink.core.studies.loads.panels import Panels
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.loads.base import LoadsBase
+    from gearlink.core.studies.loads.design import LoadsDesign
     from gearlink.core.studies.loads.motor import MotorRun
 
 RPM = 2.0 * math.pi / 60.0
@@ -23,10 +23,10 @@ class Running:
     """Flywheel, motor and the speed over the input angle of one design.
 
     Parameters
-        design : LoadsBase
+        design : LoadsDesign
     """
 
-    def __init__(self, design: LoadsBase) -> None:
+    def __init__(self, design: LoadsDesign) -> None:
         self.design = design
         self.flywheel, self.motor = design.section.flywheel, design.section.motor
 

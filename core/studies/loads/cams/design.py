@@ -14,8 +14,8 @@ from gearlink.core.studies.loads.design import LoadsDesign
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.studies.loads.base import Wanted
     from gearlink.core.studies.loads.cams.contact import LineContact, RollerOnCam
+    from gearlink.core.studies.loads.design import Wanted
 
 CONTACT = (
     "contact_force_max",
