@@ -62,6 +62,7 @@ REMADE = {
 }
 """Sizes that change nothing but themselves, so that a design may be made anew with another one."""
 WITHOUT_MESH = ("slider_crank_tolerances", "wide_swing_cycle", "planar_watt", "planar_quick_return")
+SLOW, FOLLOWED = pytest.mark.slow, ("planar_bed_chain", "planar_quick_return")
 RADIUS = ("wide_swing_cycle", "planar_watt")
 
 
@@ -100,7 +101,7 @@ def test_the_whole_chain_goes_as_the_gains_but_for_squares(name: str) -> None:
         assert off[1] < 0.02 * off[0] + 1e-12, name
 
 
-@pytest.mark.parametrize("name", REMADE)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=SLOW if name in FOLLOWED else ()) for name in REMADE])
 def test_gains_are_the_changes_of_designs_made_anew(name: str) -> None:
     made, step = register(name, REMADE[name]), 1e-4
     phi = some(made)
