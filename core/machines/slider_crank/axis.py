@@ -7,7 +7,7 @@ motion are sought for all designs at once.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -22,6 +22,7 @@ from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary import Elementary
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import bracketed_roots
+from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import TRANSMISSION_ANGLE
 from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 from gearlink.core.parts.linkages.slider_crank.sweep import slider
@@ -39,7 +40,6 @@ _DOMAIN = {
 """Keys that may vary: least and greatest value computed here, and one that stands in for others."""
 _CHECKS: dict[str, set[str]] = {"crank": set(), "analyze": {TRANSMISSION_ANGLE.name}}
 """Commands that are served, with the checks that are judged here."""
-_POOR = 5.0
 _NEAR = 1e-9
 _BARELY = 1e-6
 _BLOCK = 64
@@ -100,10 +100,8 @@ def _shown(designs: SliderCrankDesigns, name: str, there: Mask) -> Reals:
 def _transmission(designs: SliderCrankDesigns, limit: Any, there: Mask) -> Findings:
     """GL303."""
     value = np.broadcast_to(np.degrees(designs.min_transmission_angle), there.shape)
-    limit = np.broadcast_to(limit, there.shape)
-    fails = value < limit
-    warns = ~fails & (value < limit + _POOR)
-    return Findings(TRANSMISSION_ANGLE.code, value, limit, fails & there, warns & there, "deg")
+    found = transmission_judged(value, limit).of(there.size)
+    return replace(found, fails=found.fails & there, warns=found.warns & there)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from gearlink.core.base.report import Check, Remedy, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.three_gear import bodies, dwell_checks, motion, tables
-from gearlink.core.machines.three_gear.codes import ACHIEVED
 from gearlink.core.machines.three_gear.dwell import dwells
 from gearlink.core.machines.three_gear.dwell.momentary_dwell import crank_with_room
 from gearlink.core.machines.three_gear.idler_choice import idler_for_ratio
@@ -388,9 +387,6 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         asked = self.spec.gears.i3
         if asked is None:
             return
-        off = self.i3 - asked
-        same = abs(off) <= 1e-12 * abs(asked)
         text = f"i3 = {asked:g} becomes {self.i3:.9g} with {self.idler_teeth} idler teeth"
-        if not same:
-            text += "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
-        yield ACHIEVED.check("pass" if same else "warn", text, self.i3, asked, name="rounded-ratio")
+        remedy = "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
+        yield dwell_checks.ratio_judged(self.i3, asked).check(text, remedy, name="rounded-ratio")

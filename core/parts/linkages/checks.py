@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, Side, safely_above, without_noise
+from gearlink.core.base.judged import Judged, below
+from gearlink.core.base.report import Check, safely_above, without_noise
 from gearlink.core.parts.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
 
 if TYPE_CHECKING:
     from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 _POOR = math.radians(3.0)
+_LITTLE = 5.0
+"""So much above its limit a transmission angle is no longer called little [deg]."""
 EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
 _NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
 WINDOW_FIT = 1e-9
@@ -30,7 +33,12 @@ def transmission_check(
     if angle < _POOR:
         condition = 1.0 / math.sin(angle) if angle else math.inf
         remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
-    return TRANSMISSION_ANGLE.below(value, limit, limit + 5.0, "deg", subject, remedy)
+    return TRANSMISSION_ANGLE.below(value, limit, limit + _LITTLE, "deg", subject, remedy)
+
+
+def transmission_judged(value: Any, limit: Any) -> Judged:
+    """GL303 of least transmission angles [deg]."""
+    return below(TRANSMISSION_ANGLE, value, limit, limit + _LITTLE, "deg")
 
 
 def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:
@@ -43,19 +51,17 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)
 
 
-def window_met(window: float, asked: float) -> bool:
-    """Whether a window is as long as the one asked for, but for rounding."""
-    return window >= asked * (1.0 - WINDOW_FIT)
+def window_judged(window: Any, asked: Any) -> Judged:
+    """GL313 of windows [deg]: they are as long as those asked for, but for rounding."""
+    return Judged(DWELL_WINDOW, window, asked, (window >= asked * (1.0 - WINDOW_FIT)) ^ True, False, "deg")
 
 
 def dwell_window_check(window: float, asked: float, tolerance: float, remedy: str = "") -> Check:
     """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
     got, wanted, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
     text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
-    good = window_met(window, asked)
-    if not good:
-        text += f", {wanted:g} deg were asked for: {remedy or 'ask for less, or allow a greater tolerance'}"
-    return DWELL_WINDOW.check("pass" if good else "fail", text, got, wanted, "deg")
+    words = f", {wanted:g} deg were asked for: {remedy or 'ask for less, or allow a greater tolerance'}"
+    return window_judged(got, wanted).check(text, words)
 
 
 def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
@@ -71,14 +77,17 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     width = None if interval is None else interval[1] - interval[0]
     if width is not None:
         text += f"; the frame may lie within {width:.4g} mm"
-    near = EDGE < share <= 1.0 + WINDOW_FIT
-    if near:
-        text += ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
-    elif width is not None and width < _NARROW:
+    found = edge_judged(share)
+    if not found.warns and width is not None and width < _NARROW:
         text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
         return DWELL_EDGE.check("warn", text, width, _NARROW, "mm")
-    beyond: Side | None = ">=" if share > EDGE else None
-    return DWELL_EDGE.check("warn" if near else "pass", text, share, EDGE, side=beyond)
+    remedy = ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
+    return found.check(text, remedy, side=">=" if share > EDGE else None)
+
+
+def edge_judged(share: Any) -> Judged:
+    """GL314 of the shares of bands that back-steps take."""
+    return Judged(DWELL_EDGE, share, EDGE, False, (share > EDGE) & (share <= 1.0 + WINDOW_FIT), "1")
 
 
 def check_linkage(linkage: FourBar) -> str:

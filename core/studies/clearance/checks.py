@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Protocol
+from typing import Any, Protocol
 
+from gearlink.core.base.judged import Judged
 from gearlink.core.base.remedies.ways import down
-from gearlink.core.base.report import Check, Status
+from gearlink.core.base.report import Check
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.studies.clearance.bodies import Clearance, Gear, Layout, Seat, Shaft
 
@@ -29,14 +30,19 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
     if gap >= max(limit, 0.0):
         text = f"{names} keep {gap:.6g} mm between their tips at the closest{_place(pair)}: {why}"
         return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
-    if gap >= limit:
-        text = (
+    judged = collision_judged(gap, limit)
+    if judged.warns:
+        return judged.check(
             f"{names} overlap by {-gap:.6g} mm{_place(pair)}, as limits.gear_gap allows: they need planes of their own"
         )
-        return GEAR_COLLISION.check("warn", text, gap, limit, "mm")
     found = f"collide by {-gap:.6g} mm" if gap < 0.0 else f"keep only {gap:.6g} mm between their tips at the closest"
-    text = f"{names} {found}{_place(pair)}: {why}; {remedy}"
-    return GEAR_COLLISION.check("fail", text, gap, limit, "mm")
+    return judged.check(f"{names} {found}{_place(pair)}: {why}; {remedy}")
+
+
+def collision_judged(gap: Any, limit: Any) -> Judged:
+    """GL301 of gaps of gears that do not mesh [mm]."""
+    keeps = gap >= limit
+    return Judged(GEAR_COLLISION, gap, limit, keeps ^ True, keeps & (gap < 0.0), "mm")
 
 
 def shaft_checks(layout: Layout) -> Iterator[Check]:
@@ -49,13 +55,19 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
     for pair in layout.shaft_pairs:
         bare = pair.bare
         limit = layout.least_shaft * len(bare)
-        status: Status = "pass" if pair.gap >= limit else "warn" if bare else "fail"
+        judged = shaft_judged(pair.gap, limit, bool(bare))
         text = f"{_words(pair.one)} keeps {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}"
-        if status == "fail":
+        if judged.fails:
             text = _overlap(pair)
-        elif status == "warn":
+        elif judged.warns:
             text = _covered_axis(pair) if pair.gap < 0.0 else _narrow(pair, bare, limit)
-        yield SHAFT_CLEARANCE.check(status, text, pair.gap, limit, "mm")
+        yield judged.check(text)
+
+
+def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
+    """GL302 of gaps of gears and shafts [mm], at axes that are bare a warning."""
+    low = (gap >= limit) ^ True
+    return Judged(SHAFT_CLEARANCE, gap, limit, low & (bare ^ True), low & bare, "mm")
 
 
 class Placed(Protocol):

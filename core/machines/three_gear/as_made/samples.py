@@ -21,10 +21,10 @@ from gearlink.core.machines.three_gear.as_made.one import TolerancedDrive
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.linkages.checks import WINDOW_FIT
-from gearlink.core.parts.linkages.codes import DWELL_WINDOW
+from gearlink.core.parts.linkages.checks import transmission_judged, window_judged
 from gearlink.core.parts.linkages.fourbar.lengths import Lengths
 from gearlink.core.studies.clearance.bodies import Clearance
+from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
 
 _KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
@@ -219,17 +219,18 @@ class ThreeGearSamples:
         nominal, limits = self.nominal, self.nominal.spec.limits
         own = set(_OF_LINKS)
         if nominal.gear_gap is not None:
-            yield _below("GL301", samples.gear_gap, limits.gear_gap, "mm")
+            yield collision_judged(samples.gear_gap, limits.gear_gap).of(samples.count)
         else:  # a ring and its idler lie in a plane of their own
             own.remove("gear-collision")
-        angle = limits.transmission_angle
-        yield _below("GL303", np.degrees(samples.min_transmission_angle), angle, "deg", angle + 5.0)
+        angle = np.degrees(samples.min_transmission_angle)
+        yield transmission_judged(angle, limits.transmission_angle).of(samples.count)
         for pair in nominal.layout.shaft_pairs:
             yield self._shaft(pair, samples)
         if nominal.tolerance_dwell is None:  # no tolerance, or one that the output never leaves
             own.remove("dwell-window")
         elif nominal.spec.dwell_window is not None:
-            yield _window(np.degrees(samples.tolerance_dwell_angle), nominal.spec.dwell_window)
+            reached = np.degrees(samples.tolerance_dwell_angle)
+            yield window_judged(reached, nominal.spec.dwell_window).of(samples.count)
         for name in self._checks:
             if name not in own and name not in MESH_CHECKS:
                 yield from (_same(check, samples.count) for check in nominal.check(name))
@@ -251,8 +252,7 @@ class ThreeGearSamples:
         within = np.maximum(one.inner - (farthest + other.outer), other.inner - (farthest + one.outer))
         gap = np.maximum(nearest - (one.outer + other.outer), within)
         limit = self.nominal.layout.least_shaft * len(pair.bare)
-        low: Mask = gap < limit
-        return Findings("GL302", gap, np.full(gap.shape, limit), low & (not pair.bare), low & bool(pair.bare), "mm")
+        return shaft_judged(gap, limit, bool(pair.bare)).of(samples.count)
 
 
 def _four(links: Lengths) -> tuple[Reals, Reals, Reals, Reals]:
@@ -268,18 +268,6 @@ def _turns(lengths: list[Reals], kind: str) -> Mask:
         (shortest > 0.0) & (shortest < np.minimum(np.minimum(p, q), r)) & (shortest + 2.0 * longest < p + q + r)
     )
     return good
-
-
-def _below(code: str, value: Reals, limit: float, unit: str, warning: float | None = None) -> Findings:
-    fails: Mask = ~(value >= limit)
-    warns = np.zeros_like(fails) if warning is None else ~fails & (value < warning)
-    return Findings(code, np.asarray(value), np.full(value.shape, limit), fails, warns, unit)
-
-
-def _window(reached: Reals, asked: float) -> Findings:
-    """GL313, as `gearlink.core.parts.linkages.checks.dwell_window_check` has it."""
-    fails: Mask = ~(reached >= asked * (1.0 - WINDOW_FIT))
-    return Findings(DWELL_WINDOW.code, reached, np.full(fails.shape, asked), fails, np.zeros_like(fails), "deg")
 
 
 def _same(check: Check, count: int) -> Findings:

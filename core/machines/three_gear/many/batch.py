@@ -11,14 +11,15 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, Findings
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.machines.three_gear.codes import ACHIEVED, BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.machines.three_gear.codes import BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.machines.three_gear.dwell_checks import ratio_judged, tolerance_judged
 from gearlink.core.machines.three_gear.many.band import Dwells, Valleys, longest_in_band
 from gearlink.core.machines.three_gear.many.general import Drives
 from gearlink.core.machines.three_gear.many.idler import Tried
 from gearlink.core.machines.three_gear.motion import tip_radius
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.parts.gears.train.unshifted import Mesh, UnshiftedMeshes
-from gearlink.core.parts.linkages.checks import WINDOW_FIT
+from gearlink.core.parts.linkages.checks import transmission_judged, window_judged
 from gearlink.core.parts.linkages.codes import (
     DWELL_EDGE,
     DWELL_WINDOW,
@@ -28,11 +29,11 @@ from gearlink.core.parts.linkages.codes import (
 )
 from gearlink.core.parts.linkages.fourbar.loop import make_reading
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES
+from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
 LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dwell_window")
 SHAFTS = ("shafts.input_radius", "shafts.output_radius")
-_POOR, _SAME_RATIO = 5.0, 1e-12
 _NEAR, _POORLY_NEAR = 1e-9, 1e-5
 _JUDGED_HERE = {
     rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW, DWELL_EDGE)
@@ -308,9 +309,8 @@ class Batch:
         if self.command == "analyze" and np.isfinite(asked).any():
             width = np.degrees(self.band[1])
             got = np.where(self.given_tolerance < self._endless, width, 360.0)
-            yield Findings(DWELL_WINDOW.code, got, asked, got < asked * (1.0 - WINDOW_FIT), self.none, "deg")
-        given, limit = np.degrees(self.tolerance), np.degrees(self._endless)
-        yield Findings(DWELL_TOLERANCE.code, given, limit, given >= limit, self.none, "deg")
+            yield window_judged(got, asked).of(self.count)
+        yield tolerance_judged(np.degrees(self.tolerance), np.degrees(self._endless)).of(self.count)
 
     # Meshes and checks
 
@@ -331,19 +331,13 @@ class Batch:
 
     def findings(self) -> Iterator[Findings]:
         """Every finding of the command's checks."""
-        limit = self.key("limits.gear_gap")
-        overlap = (self.gap >= limit) & (self.gap < 0.0)
-        yield Findings(GEAR_COLLISION.code, self.gap, limit, self.gap < limit, overlap, "mm")
+        yield collision_judged(self.gap, self.key("limits.gear_gap")).of(self.count)
         yield from self._shafts()
-        mu, limit = np.degrees(self.mu), self.key("limits.transmission_angle")
-        warns = (mu >= limit) & (mu < limit + _POOR)
-        yield Findings(TRANSMISSION_ANGLE.code, mu, limit, mu < limit, warns, "deg")
+        yield transmission_judged(np.degrees(self.mu), self.key("limits.transmission_angle")).of(self.count)
         yield from self.of_task()
         yield from self._of_band()
         asked = self.key("gears.i3")
-        value = -self.z3 / self.z5
-        missed = np.abs(value - asked) > _SAME_RATIO * np.abs(asked)
-        yield Findings(ACHIEVED.code, np.where(np.isnan(asked), np.nan, value), asked, self.none, missed, "1")
+        yield ratio_judged(np.where(np.isnan(asked), np.nan, -self.z3 / self.z5), asked).of(self.count)
         for mesh in self._meshes.values():
             yield from mesh.findings()
 
@@ -369,8 +363,7 @@ class Batch:
         for gap, axes, exact in gaps:
             limit = least * axes
             self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
-            low = gap < limit
-            yield Findings(SHAFT_CLEARANCE.code, gap, limit, low & (axes == 0), low & (axes > 0), "mm")
+            yield shaft_judged(gap, limit, axes > 0).of(self.count)
         height = FULL_HEIGHT * self.module
         rim, limit = tips[2] - height - radii[1], 0.5 * height
         self._at_limit |= _near(rim, limit)

@@ -13,20 +13,19 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.design_axis import Findings
-from gearlink.core.machines.three_gear.codes import ACHIEVED, BACK_STEP
+from gearlink.core.machines.three_gear.dwell_checks import back_step_judged, target_judged
 from gearlink.core.machines.three_gear.many import symmetric as many
 from gearlink.core.machines.three_gear.many.batch import Batch
 from gearlink.core.machines.three_gear.many.general import wrapped
 from gearlink.core.machines.three_gear.symmetric import family
 from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle_limit, window_limit
+from gearlink.core.machines.three_gear.synthesis.dwell import PLAIN_TOLERANCE
 from gearlink.core.machines.three_gear.synthesis.dwell_task import MARGIN
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
-from gearlink.core.parts.linkages.checks import EDGE, WINDOW_FIT
-from gearlink.core.parts.linkages.codes import DWELL_EDGE
+from gearlink.core.parts.linkages.checks import edge_judged
 from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
 
-_PLAIN_TOLERANCE, _MISSED = 1.0, 0.5
 _SMALL, _STEEP = 1e-3, 1e-4
 
 
@@ -180,8 +179,8 @@ class Dwells(Symmetric):
     def of_task(self) -> Iterator[Findings]:
         """GL315: half of the back-step."""
         half = np.degrees(0.5 * self.back_step[0])
-        limit = np.where(np.isnan(self.given_tolerance), _PLAIN_TOLERANCE, np.degrees(self.given_tolerance))
-        yield Findings(BACK_STEP.code, half, limit, self.none, half > limit, "deg")
+        limit = np.where(np.isnan(self.given_tolerance), PLAIN_TOLERANCE, np.degrees(self.given_tolerance))
+        yield back_step_judged(half, limit).of(self.count)
 
 
 class Windows(Symmetric):
@@ -263,8 +262,7 @@ class Windows(Symmetric):
     def of_task(self) -> Iterator[Findings]:
         """GL314: the back-step's share of the band."""
         share = 0.5 * self.back_step[0] / self.given_tolerance
-        warns = (share > EDGE) & (share <= 1.0 + WINDOW_FIT)
-        yield Findings(DWELL_EDGE.code, share, np.full(self.count, EDGE), self.none, warns, "1")
+        yield edge_judged(share).of(self.count)
 
 
 class BackSteps(Symmetric):
@@ -299,7 +297,7 @@ class BackSteps(Symmetric):
         """GL304: the back-step that was asked for."""
         asked, got = self.key("back_step.angle"), np.degrees(np.where(self.h == 0.0, 0.0, self.back_step[0]))
         value = np.where(np.isnan(asked), np.nan, got)
-        yield Findings(ACHIEVED.code, value, asked, self.none, np.abs(value - asked) > _MISSED, "deg")
+        yield target_judged(value, asked).of(self.count)
 
 
 class Speeds(Symmetric):

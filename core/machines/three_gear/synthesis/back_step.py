@@ -11,8 +11,8 @@ from gearlink.core.base.design import Outline
 from gearlink.core.base.errors import NoSolution, at_key, section_of
 from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.three_gear.codes import ACHIEVED
 from gearlink.core.machines.three_gear.dwell import dwells
+from gearlink.core.machines.three_gear.dwell_checks import target_judged
 from gearlink.core.machines.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.machines.three_gear.names import CHECKS, QUANTITIES
@@ -125,8 +125,5 @@ class BackStepSynthesis(BackStepFamily):
         if asked is None:
             return
         got = math.degrees(self.back_step_angle or 0.0)
-        off = abs(got - asked)
         text = f"the back-step is {got:.6g} deg, {asked:g} deg were asked for"
-        if off > 0.5:
-            text += ": leave idler or crank_angle out, so that it can be chosen to fit"
-        yield ACHIEVED.check("warn" if off > 0.5 else "pass", text, got, asked, "deg")
+        yield target_judged(got, asked).check(text, ": leave idler or crank_angle out, so that it can be chosen to fit")

@@ -10,8 +10,8 @@ from gearlink.core.base.design import Found, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, anew, at_key
 from gearlink.core.base.report import Check, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.three_gear.codes import BACK_STEP
 from gearlink.core.machines.three_gear.dwell.momentary_dwell import wrap
+from gearlink.core.machines.three_gear.dwell_checks import back_step_judged
 from gearlink.core.machines.three_gear.families.forms import forms_for
 from gearlink.core.machines.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.machines.three_gear.motion import output_angle
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
 
 _ROUNDING = 1e-9
-_PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
+PLAIN_TOLERANCE = 1.0
+"""Of a dwell that names none [deg]."""
 
 _DWELL = (
     "dwell_tolerance",
@@ -251,15 +252,13 @@ class DwellSynthesis(DwellTask):
         step = self.back_step
         if self._request.angle is None or step is None:
             return
-        half, limit = 0.5 * step.angle, self.asked_tolerance or _PLAIN_TOLERANCE
+        half, limit = 0.5 * step.angle, self.asked_tolerance or math.radians(PLAIN_TOLERANCE)
         whole = math.degrees(step.angle)
         text = (
             f"over the dwell angle of {self._request.angle:g} deg the output steps back by {whole:.6g} deg and returns"
         )
-        bad = half > limit
-        if bad:
-            text += (
-                f", +-{math.degrees(half):.6g} deg about its middle: it does not stand. For one that stays within a "
-                "tolerance ask for dwell: {window: deg, tolerance: deg}"
-            )
-        yield BACK_STEP.check("warn" if bad else "pass", text, math.degrees(half), math.degrees(limit), "deg")
+        remedy = (
+            f", +-{math.degrees(half):.6g} deg about its middle: it does not stand. For one that stays within a "
+            "tolerance ask for dwell: {window: deg, tolerance: deg}"
+        )
+        yield back_step_judged(math.degrees(half), math.degrees(limit)).check(text, remedy)
