@@ -112,9 +112,10 @@ def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     columns: dict[str, tuple[Any, str]] = {table.columns[0]: (table.data[0], table.units[0])}
     q = _in_rad(design, table.data[0])
     for name in design.structure.names[1:]:
-        course = Course("mm", lambda links, name=name: [pole(links, name)])  # type: ignore[misc,arg-type]
-        places = course.rates(design.moving, q, 1)[0]
-        columns |= {f"{name}_pole_x": (places.real, "mm"), f"{name}_pole_y": (places.imag, "mm")}
+        # Two numbers in place of a number and its derivative: both take the first derivatives of the link.
+        both = Course("mm", lambda links, name=name: [pole(links, name).real, pole(links, name).imag])  # type: ignore[misc]
+        x, y = both.rates(design.moving, q, 1)
+        columns |= {f"{name}_pole_x": (x, "mm"), f"{name}_pole_y": (y, "mm")}
     return Table.of("poles", columns)
 
 

@@ -223,3 +223,18 @@ def test_samples_follow_the_keys_of_the_file_and_the_play() -> None:
     assert 0.0 < made_.raw("yield") < 1.0
     table = made_.table("contributions")
     assert {*table["source"]} == {"links.crank[2]", "pins.C"}
+
+
+def test_poles_are_where_a_link_stands_still() -> None:
+    """A point of each link at its pole has no velocity; the Watt coupler's pole is where crank and rocker meet."""
+    design_ = planar("watt")
+    table = design_.table("poles", samples=7)
+    links = design_.moving.at(np.radians(np.asarray(table.data[0])), 1).links
+    for name, link in links.items():
+        pole = np.asarray(table[f"{name}_pole_x"]) + 1j * np.asarray(table[f"{name}_pole_y"])
+        arm = pole - link.origin.value
+        assert np.abs(link.origin.first + 1j * link.turn.first * arm).max() < 1e-9
+    b, c = links["coupler"].at("B").value, links["coupler"].at("C").value
+    pole = np.asarray(table["coupler_pole_x"]) + 1j * np.asarray(table["coupler_pole_y"])
+    assert np.abs(((pole - b) * np.conj(b)).imag / np.abs(b)).max() < 1e-6  # on the line of the crank
+    assert np.abs(((pole - c) * np.conj(c - 110.0)).imag / 90.0).max() < 1e-6
