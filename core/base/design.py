@@ -127,6 +127,13 @@ class Design:
 
         return KINDS[self.kind].motion_of(self)
 
+    @property
+    def output_columns(self) -> Mapping[str, tuple[str, ...]]:
+        """Columns of the output over the cycle, by table: those of the kind."""
+        from gearlink.core.base.kinds import KINDS
+
+        return KINDS[self.kind].outputs
+
     def outline(self, command: str) -> Outline:
         """The outline of a command."""
         return self.outlines[command]

@@ -149,6 +149,13 @@ class PlanarMechanism(Design):
             return None
         return Quantity(name, math.degrees(found) if meaning.unit == "deg" else found, meaning.unit, "", words_of(name))
 
+    @property
+    def output_columns(self) -> dict[str, tuple[str, ...]]:
+        """The first output of the file."""
+        from gearlink.core.machines.planar.outputs import moved
+
+        return {"motion": tuple(part.columns[0] for part in moved(self.structure, self.spec.shown[0]))}
+
     # General quantities
 
     @property

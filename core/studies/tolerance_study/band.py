@@ -80,7 +80,7 @@ def courses(made: Problem) -> list[Course]:
 def outputs_of(made: Problem) -> tuple[str, tuple[str, ...]] | None:
     """Table and columns of the outputs of a design."""
     shown = made.nominal.outline("analyze").tables
-    return next((each for each in made.base.kind.outputs.items() if each[0] in shown), None)
+    return next((each for each in made.nominal.output_columns.items() if each[0] in shown), None)
 
 
 def _reference(made: Problem) -> float | None:

@@ -238,3 +238,13 @@ def test_poles_are_where_a_link_stands_still() -> None:
     pole = np.asarray(table["coupler_pole_x"]) + 1j * np.asarray(table["coupler_pole_y"])
     assert np.abs(((pole - b) * np.conj(b)).imag / np.abs(b)).max() < 1e-6  # on the line of the crank
     assert np.abs(((pole - c) * np.conj(c - 110.0)).imag / 90.0).max() < 1e-6
+
+
+def test_the_band_is_that_of_the_first_output() -> None:
+    """Links that may be longer alone: the rocker's band over the cycle, with its nominal angle."""
+    tolerance = {"seed": 3, "samples": 16, "sources": {"links.crank[2]": {"plus_minus": 0.05}}}
+    made_ = design("tolerance", kind="planar-mechanism", name="four", **ZOO["four-bar"], tolerance=tolerance)
+    table = made_.table("band")
+    assert {*table["output"]} == {"rocker_angle"}
+    nominal = planar("four-bar").table("motion", samples=120)
+    assert np.asarray(table["nominal"]) == pytest.approx(np.asarray(nominal["rocker_angle"]), abs=1e-12)
