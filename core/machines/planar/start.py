@@ -96,7 +96,8 @@ class Start:
                 if structure.freedoms < len(structure.drives):  # which says more
                     continue
                 raise NoSolution(
-                    f"both gears of {name} are driven or tied by a mesh before: leave the mesh or a drive out",
+                    f"the gears of {name} and their carrier are driven or tied by meshes before: leave the mesh or a "
+                    "drive out",
                     key=f"meshes.{name}",
                 )
             slide = structure.slides.get(own)

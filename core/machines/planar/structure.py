@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.planar.wiring import FRAME, tied
+from gearlink.core.machines.planar.wiring import FRAME, carrier_of, tied
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
@@ -195,7 +195,8 @@ class Structure:
         assert each.gears is not None, "the spec has seen to it"
         assert isinstance(each.teeth, list), "the same"
         points = tuple(each.at)
-        carrier = each.carrier or next(body for body, own in self.bodies.items() if {*points} <= {*own})
+        carrier = carrier_of(self.spec, each)
+        assert carrier is not None, "the same"
         one, other = (self.bodies[carrier][point] for point in points)
         distance, (z1, z2) = abs(other - one), each.teeth
         module = each.module or 2.0 * distance / abs(z1 + z2)

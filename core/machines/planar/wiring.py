@@ -130,7 +130,7 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
         yield from _body(spec, mesh.carrier, f"{key}.carrier")
         for point in mesh.at:
             yield from _point(spec, point, mesh.carrier, f"{key}.carrier")
-    holder = mesh.carrier or next((name for name, body in spec.bodies.items() if {*mesh.at} <= {*body}), None)
+    holder = carrier_of(spec, mesh)
     if holder is None:
         words = f"no body has both points {' and '.join(mesh.at)}, so nothing holds the gears at their distance"
         yield "GL111", f"{key}.at", f"{words}: add a link between them"
@@ -173,15 +173,22 @@ def _starts(spec: PlanarSpec) -> Iterator[Fault]:
             yield "GL106", f"start.{name}", words
 
 
+def carrier_of(spec: PlanarSpec, mesh: Teeth) -> str | None:
+    """The body that holds both centres of two gears: that of the file, or the first that has both points."""
+    return mesh.carrier or next((name for name, body in spec.bodies.items() if {*mesh.at} <= {*body}), None)
+
+
 def tied(spec: PlanarSpec) -> dict[str, str]:
-    """By mesh, what its start value makes exact: the second link, or the first where that is taken; a slide's place
-    of a link that slides. A mesh of which both are taken is left out.
+    """By mesh, what its start value makes exact: the second link, the first where that is taken, or then the carrier; a
+    slide's place of a link that slides. A mesh of which all are taken is left out.
     """
     taken = {spec.drive.main, *spec.drive.others}
     found = {}
     for name, mesh in spec.meshes.items():
-        pair = [mesh.rack or "", mesh.pinion or ""] if mesh.gears is None else mesh.gears
-        for link in (pair[1], pair[0]):
+        links = [mesh.pinion, mesh.rack] if mesh.gears is None else [*mesh.gears[::-1], carrier_of(spec, mesh)]
+        for link in links:
+            if link is None:
+                continue
             own = spec.slid.get(link, link)
             if own not in taken and own != FRAME:
                 found[name] = own

@@ -248,3 +248,18 @@ def test_the_band_is_that_of_the_first_output() -> None:
     assert {*table["output"]} == {"rocker_angle"}
     nominal = planar("four-bar").table("motion", samples=120)
     assert np.asarray(table["nominal"]) == pytest.approx(np.asarray(nominal["rocker_angle"]), abs=1e-12)
+
+
+def test_a_differential_of_two_drives() -> None:
+    """Willis: with sun and ring driven the arm runs at (z_s w_s + z_r w_r)/(z_s + z_r), all home after 80 turns."""
+    made_ = design(
+        "analyze", kind="planar-mechanism", name="differential", frame={"A": [0, 0]},
+        links={"sun": {"A": [0, 0]}, "arm": ["A", "B", 50], "planet": {"B": [0, 0]}, "ring": {"A": [0, 0]}},
+        meshes={"sp": {"gears": ["sun", "planet"], "at": ["A", "B"], "teeth": [30, 20]},
+                "pr": {"gears": ["planet", "ring"], "at": ["B", "A"], "teeth": [20, -70]}},
+        drive={"link": "sun", "with": {"ring": 0.25}}, outputs=["arm", "planet"],
+    )  # fmt: skip
+    arm = (30.0 + 70.0 * 0.25) / 100.0
+    assert made_.raw("arm.speed_ratio_max") == pytest.approx(arm, rel=1e-14)
+    assert made_.raw("planet.speed_ratio_min") == pytest.approx(arm - 1.5 * (1.0 - arm), rel=1e-13)
+    assert (made_.raw("period_turns"), made_.raw("arm.turns")) == (80, 38.0)
