@@ -263,3 +263,26 @@ def test_a_differential_of_two_drives() -> None:
     assert made_.raw("arm.speed_ratio_max") == pytest.approx(arm, rel=1e-14)
     assert made_.raw("planet.speed_ratio_min") == pytest.approx(arm - 1.5 * (1.0 - arm), rel=1e-13)
     assert (made_.raw("period_turns"), made_.raw("arm.turns")) == (80, 38.0)
+
+
+def test_a_certain_step_leads_where_many_small_ones_do() -> None:
+    """From every tenth certified place to the next, in one step and in thirty: the same to rounding."""
+    course = planar("watt").course
+    follower, rows = course.walk.follower, course.walk.rows
+    count = len(course.walk.start)
+    for here, there in zip(rows[::10], rows[1::10], strict=False):
+        u = tuple(here[1 : 1 + count])
+        for q in np.linspace(here[0], there[0], 31)[1:]:
+            u = follower.closed(float(q), u)
+        assert np.array(u) == pytest.approx(there[1 : 1 + count], abs=1e-12)
+
+
+def test_certified_steps_never_reach_beyond_a_dead_centre() -> None:
+    """Of a driven rocker: each reach ends before the dead centre that its linkage has in closed form."""
+    design_ = planar("cylinder", range={"start": -49.7, "end": 130.3})
+    low, high = design_.raw("free_range")
+    for q, *_ in design_.course.walk.rows:
+        place = design_.course.walk.follower.place(float(q), tuple(design_.course.walk.tangents(np.array([q]))[0]))
+        assert place is not None
+        assert low < (q - place.reach) * design_.structure.size
+        assert (q + place.reach) * design_.structure.size < high
