@@ -34,7 +34,7 @@ def build(design: Any, fraction: Reals) -> Scene:
     degree = np.degrees if motion.input.unit == "rad" else np.asarray
     measure = "deg" if output.course.unit == "rad" else output.course.unit
     return Scene(
-        parts=(*_gears(now), *_slots(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
+        parts=(*_gears(now), *_lines(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
         marks=_marks(now),
         chart=Chart(
             words + unit,
@@ -104,25 +104,40 @@ def _sliders(mechanism: Mechanism) -> list[Part]:
     return found
 
 
-def _slots(mechanism: Mechanism, whole: Mechanism) -> list[Part]:
-    """The lines of slots, as far as their pins run in them over all inputs, and from the link's own origin on."""
+def _lines(mechanism: Mechanism, whole: Mechanism) -> list[Part]:
+    """Slots and pitch lines of racks, as far as they are used over all inputs; a slot from its link's own origin on."""
     found: list[Part] = []
     for each, over in zip(mechanism.connections, whole.connections, strict=True):
-        if not isinstance(each, Contact) or not isinstance(over, Contact):
+        if isinstance(over, Contact) and isinstance(each, Contact):
+            places, along, color = over.at, -1j * over.normal, ORANGE
+        elif isinstance(over, Rack):
+            places, along, color = over.pitch_point, np.broadcast_to(over.along, over.center.shape), GREY
+        else:
             continue
         link, run = mechanism.link(each.first), whole.link(each.first)
-        seen = over.at if run is None else (over.at - run.origin.value) / run.unit
-        along = -1j * (over.normal[0] if run is None else over.normal[0] / run.unit[0])
-        places = (np.conj(along) * seen).real
-        ends = seen[[np.argmin(places), np.argmax(places)]]
-        outline = ends if run is None else np.array([0j, ends[np.argmin(np.abs(ends))], ends[np.argmax(np.abs(ends))]])
-        still = np.zeros(each.at.shape)
+        seen = places if run is None else (places - run.origin.value) / run.unit
+        way = along[0] if run is None else along[0] / run.unit[0]
+        order = np.argsort((np.conj(way) * seen).real)
+        ends = seen[order[[0, -1]]]
+        if isinstance(over, Rack):
+            outline = ends + over.mate_radius * way * np.array([-1.0, 1.0])
+        elif run is None:
+            outline = ends
+        else:
+            outline = np.array([0j, ends[np.argmin(np.abs(ends))], ends[np.argmax(np.abs(ends))]])
+        still = np.zeros(mechanism.rows)
         origin, turn = (still + 0j, still) if link is None else (link.origin.value, link.turn.value)
-        found.append(Body(outline=outline, place=origin, turn=turn, color=ORANGE, width=2.5, name=each.name))
-        square = 0.5 * _SLIDER * _size(mechanism) * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j])
-        across = np.asarray(np.angle(-1j * each.normal), dtype=np.float64)
-        found.append(Body(outline=square, place=each.at, turn=across, color=BLUE, fill=pale(BLUE, 0.3), width=1.2))
+        found.append(Body(outline=outline, place=origin, turn=turn, color=color, width=2.5, name=each.name))
+        if isinstance(each, Contact):
+            found.append(_block(each, _SLIDER * _size(mechanism)))
     return found
+
+
+def _block(slot: Contact, half: float) -> Part:
+    """The block about the pin of a slot."""
+    square = 0.5 * half * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j])
+    turn = np.asarray(np.angle(-1j * slot.normal), dtype=np.float64)
+    return Body(outline=square, place=slot.at, turn=turn, color=BLUE, fill=pale(BLUE, 0.3), width=1.2)
 
 
 def _gears(mechanism: Mechanism) -> list[Part]:
