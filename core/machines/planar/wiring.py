@@ -27,6 +27,16 @@ def faults(spec: PlanarSpec) -> Iterator[Fault]:
     yield from _starts(spec)
     yield from _outputs(spec)
     yield from _hanging(spec)
+    yield from _sizes(spec)
+
+
+def _sizes(spec: PlanarSpec) -> Iterator[Fault]:
+    """Sources of tolerances that are no sizes of parts."""
+    for key in () if spec.tolerance is None else spec.tolerance.sources:
+        section = key.partition(".")[0]
+        if section in ("start", "drive", "range", "limits", "input_speed"):
+            words = f"{section} is no size of a part: name a number of frame, links, slides or slots, or pins.PIN"
+            yield "GL170", f'tolerance.sources."{key}"', words
 
 
 def _names(spec: PlanarSpec) -> Iterator[Fault]:
