@@ -45,7 +45,7 @@ app = typer.Typer(
     cls=OrderOfWork,
     context_settings={"help_option_names": ["--help", "-h"]},
 )
-synth = typer.Typer(help="Size a geared four-bar for an output motion.", no_args_is_help=True, rich_markup_mode=None)
+synth = typer.Typer(help="Size a linkage for an output motion.", no_args_is_help=True, rich_markup_mode=None)
 app.add_typer(synth, name="synth")
 
 

@@ -185,5 +185,7 @@ COMMANDS = {
     "synth back-step": "Size the linkage for a back-step.",
     "synth variable-speed": "Size the linkage for an output speed that varies between two values.",
     "synth momentary-dwell": "Size the frame for one momentary standstill per turn.",
+    "synth swing": "Crank-rocker from swing and time ratio, with the best transmission angle.",
+    "synth function": "Crank-rocker through three pairs of crank and rocker angle.",
 }
 """The commands on one design file and what each does; `gearlink.core.base.kinds` says which kind understands which."""

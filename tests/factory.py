@@ -20,6 +20,7 @@ QUICK = {
     "ring_feed",
     "two_gear_drag_link",
     "wide_lever",
+    "crank_rocker",
     "hypocycloid_slider",
     "mutilated_gear_press",
     "five_bar_path",

@@ -11,6 +11,7 @@ LOADS: dict[str, tuple[str, dict[str, Any]]] = {
     "three-gear-four-bar": ("loaded_feed", {}),
     "gear-pair": ("gear_pair", {"speed": 500, "links": {"gear2": _MASSES}, "forces": [{"on": "gear2", "torque": 30}]}),
     "slider-crank": ("ty460_slider_crank", {"speed": 75, "links": {"rod": _MASSES, "slider": {"mass": 240}}}),
+    "crank-rocker": ("crank_rocker_links", {}),
     "flatbed-press": ("loaded_press", {}),
     "swing-gripper": ("loaded_gripper", {}),
     "wide-swing-cam": ("loaded_swing_cycle", {}),

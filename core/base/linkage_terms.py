@@ -93,3 +93,14 @@ SLIDER: dict[str, Term] = {
     "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
     "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
 }
+
+CRANK_ROCKER: dict[str, Term] = {
+    "outer_dead_center": Term("phi_o", "deg", "crank angle with crank and coupler stretched", "VDI 2130"),
+    "inner_dead_center": Term("phi_i", "deg", "crank angle with crank and coupler folded over each other", "VDI 2130"),
+    "crank_offset": Term("phi_0", "deg", "to be added to the given crank angles, 0 or 180", "own derivation"),
+    "rocker_offset": Term("psi_0", "deg", "to be added to the given rocker angles, 0 or 180", "own derivation"),
+    "rocker_speed_max": Term("w3_max", "rad/s", "greatest speed of the rocker at this input speed"),
+    "rocker_speed_min": Term("w3_min", "rad/s", "least speed of the rocker at this input speed"),
+    "rocker_acceleration_max": Term("e3_max", "rad/s^2", "greatest acceleration of the rocker at this input speed"),
+    "rocker_acceleration_min": Term("e3_min", "rad/s^2", "least acceleration of the rocker at this input speed"),
+}

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.gear_terms import GEAR_PAIR
-from gearlink.core.base.linkage_terms import GEAR_LINKAGE, REAL_SPEED, SLIDER
+from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
 from gearlink.core.base.motion_terms import MOTION_EXTREMES
 from gearlink.core.base.planar_terms import PLANAR
 from gearlink.core.base.term import Term as Term
 
 _SLIDER_CRANK = {
-    "quick_return_ratio": Term("K", "1", "time of the forward over the return stroke", "VDI 2142"),
+    "quick_return_ratio": Term(
+        "K", "1", "time of the forward over the return stroke; of a crank-rocker of the slow over the fast", "VDI 2142"
+    ),
     "dead_center_extended": Term("theta_e", "deg", "crank direction from the slide line, stretched: asin(e/(L+r))"),
     "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
     "dead_center_extended_at": Term("270 deg - theta_e", "deg", "input angle of the stretched dead centre"),
@@ -320,6 +322,7 @@ TERMS: dict[str, Term] = {
     **GEAR_LINKAGE,
     **REAL_SPEED,
     **SLIDER,
+    **CRANK_ROCKER,
     **GEAR_PAIR,
     **_SLIDER_CRANK,
     **_PRESS,

@@ -21,6 +21,7 @@ LINKS = [
     ("two_gear_ring", ["coupler", "rocker", "output"]),
     ("two_gear_drag_link", ["coupler", "rocker", "output"]),
     ("wide_lever", ["coupler", "rocker", "output"]),
+    ("crank_rocker_links", ["coupler", "rocker"]),
 ]
 RATES = ["angle", "speed_ratio", "acceleration_ratio", "jerk_ratio"]
 

@@ -200,7 +200,7 @@ def test_what_has_no_masses_computes_nothing(monkeypatch: pytest.MonkeyPatch) ->
     mostly_slow(
         ["ty460", "swing_gripper", "gear_pair", "wide_swing_twin_cam", "loaded_feed", "wide_lever",
          "two_gear_drag_link", "mutilated_gear_press", "hypocycloid_slider", "five_bar_path", "geared_six_bar",
-         "ty460_slider_crank"],
+         "ty460_slider_crank", "crank_rocker_links"],
         4,
     ),
 )  # fmt: skip

@@ -22,6 +22,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "two_gear_ring": (*LINKS[1:], "centers.planet_ring", "pins.C", "gears.ring"),
     "wide_lever": ("links.coupler", "links.frame", "centers.coupler_output", "pins.C", "pins.D_output"),
     "slider_crank_tolerances": ("crank", "rod", "offset", "pins.D", "pins.F"),
+    "crank_rocker_links": (*LINKS, "pins.A", "pins.B", "pins.C", "pins.D"),
     "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame", "centers.input", "pins.A"),
     "hypocycloid_slider": ("centers.planet_ring", "pins.M", "pins.planet", "gears.planet"),
     "mutilated_gear_press": ("links.crank", "links.coupler", "links.rocker", "pins.C", "gears.driven"),
@@ -53,6 +54,7 @@ REMADE = {
     "two_gear_drag_link": LINKS[1:],
     "two_gear_ring": LINKS[1:],
     "slider_crank_tolerances": ("crank", "rod", "offset"),
+    "crank_rocker_links": LINKS,
     "geared_six_bar": ("links.coupler_2", "links.coupler_3", "links.output", "links.frame"),
     "planar_watt": CASES["planar_watt"][:5] + CASES["planar_watt"][6:],
     "planar_five_bar": CASES["planar_five_bar"][:5],
@@ -61,7 +63,13 @@ REMADE = {
     "five_bar_path": CASES["five_bar_path"][:4] + CASES["five_bar_path"][6:8],
 }
 """Sizes that change nothing but themselves, so that a design may be made anew with another one."""
-WITHOUT_MESH = ("slider_crank_tolerances", "wide_swing_cycle", "planar_watt", "planar_quick_return")
+WITHOUT_MESH = (
+    "slider_crank_tolerances",
+    "crank_rocker_links",
+    "wide_swing_cycle",
+    "planar_watt",
+    "planar_quick_return",
+)
 SLOW, FOLLOWED = pytest.mark.slow, ("planar_bed_chain", "planar_quick_return")
 RADIUS = ("wide_swing_cycle", "planar_watt")
 

@@ -63,6 +63,9 @@ STUDIES = {
         "planar_watt", {"links.arm[2]": 4, "frame.D[0]": 1}, {"GL303"}, {"limits__transmission_angle": 11.2}
     ),
     "rocker": Study("wide_lever", {"links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 50.8}),
+    "crank-rocker": Study(
+        "crank_rocker_links", {"links.crank": 8, "links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 46.5}
+    ),
     "crank": Study("ty460_slider_crank", {"stroke": 60, "rod": 150, "offset": 60}, set()),
     "pair by shifts": Study(
         "gear_pair", {"profile_shift[0]": 0.5, "profile_shift[1]": 0.5}, {"GL203"}, {"limits__contact_ratio": 2.1}

@@ -22,6 +22,7 @@ NARROW = {"plus_minus": 0.003}
 STUDIES: dict[str, tuple[list[str], str]] = {
     "two_gear_standing": (["links.coupler", "links.frame"], "back_step_angle <= 90 deg"),
     "wide_lever": (["links.crank", "links.frame"], "min_transmission_angle >= 1 deg"),
+    "crank_rocker_links": (["links.crank", "links.frame"], "rocker_swing >= 1 deg"),
     "five_bar_path": (["links.input", "links.coupler", "phase"], "min_transmission_angle >= 1 deg"),
     "ty460_slider_crank": (["stroke", "rod", "offset"], "crank_length >= 1 mm"),
     "gear_pair": (["profile_shift[0]", "profile_shift[1]"], "center_distance >= 1 mm"),

@@ -1,0 +1,120 @@
+"""The design file of a crank-rocker."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    Deferred,
+    DrivenSpec,
+    Entries,
+    Length,
+    LoadLimits,
+    SignedLength,
+    Spec,
+)
+from gearlink.core.parts.linkages.spec_parts import TurnAngle
+from gearlink.core.parts.linkages.spec_sections import FourLinks
+
+_SIZES = ("crank", "coupler", "rocker", "frame")
+
+
+class RockerLimits(LoadLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+
+
+class Swing(Spec):
+    """Swing and time ratio of the rocker, and one or two lengths."""
+
+    angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] = Field(
+        description="swing of the rocker between its dead centres"
+    )
+    quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] = Field(
+        description="time of the slow over the fast stroke"
+    )
+    slow_stroke: Literal["same", "opposite"] = Field(
+        "same", description="sense of the rocker in the slow stroke: the crank's (same) or against it (opposite)"
+    )
+    crank: Length | None = Field(None, description="crank AB; alone it scales the best design")
+    coupler: Length | None = Field(None, description="coupler BC; it scales the best design")
+    rocker: Length | None = Field(None, description="rocker CD; it scales the best design")
+    frame: Length | None = Field(None, description="frame AD; alone it scales the best design, with crank it gives one")
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """The lengths that are given."""
+        return tuple(name for name in _SIZES if getattr(self, name) is not None)
+
+    @model_validator(mode="after")
+    def _lengths(self) -> Swing:
+        if not self.given:
+            message = "give one of crank, coupler, rocker and frame, or crank and frame"
+            raise PydanticCustomError("GL106", message, {"key": "frame"})
+        if len(self.given) > 1 and self.given != ("crank", "frame"):
+            message = "one length gives the design with the best transmission angle, crank and frame give another: "
+            key = next(name for name in self.given if name in ("coupler", "rocker"))
+            raise PydanticCustomError("GL111", message + "leave {key} out", {"key": key})
+        return self
+
+
+_Pair = Annotated[list[Angle], Field(min_length=2, max_length=2), Entries("[crank angle, rocker angle]", "[40, 50]")]
+
+
+class Function(Spec):
+    """Three pairs of crank and rocker angle that the linkage goes through."""
+
+    pairs: Annotated[
+        list[_Pair], Field(min_length=3, max_length=3), Entries("three pairs", "[[40, 50], [90, 80], [160, 110]]")
+    ] = Field(description="crank angle and rocker angle, three times")
+    frame: Length = Field(description="frame AD")
+
+
+class CrankRockerSpec(DrivenSpec):
+    """A four-bar whose rocker is the output: its links, or what they are found from."""
+
+    kind: Literal["crank-rocker"]
+    links: FourLinks | None = None
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    range: Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[from, to]", "[60, 120]")] | None = (
+        Field(None, description="crank angles between which it moves; left out: whole turns")
+    )
+    coupler_point: (
+        Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[55, 40]")] | None
+    ) = Field(None, description="point of the coupler whose path is wanted, from B along BC and to the left of it")
+    swing: Swing | None = Field(None, description="asked of `synth swing`")
+    function: Function | None = Field(None, description="asked of `synth function`")
+    limits: RockerLimits = RockerLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.crank_rocker.loads_spec:CrankRockerLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _range_goes_up(self) -> CrankRockerSpec:
+        if self.range is not None and self.range[1] <= self.range[0]:
+            message = "the range ends before it starts: give a greater end"
+            raise PydanticCustomError("GL111", message, {"key": "range"})
+        return self
+
+    def syntheses(self) -> tuple[str, ...]:
+        """The syntheses that the file has a section for."""
+        asked = {"synth swing": self.swing, "synth function": self.function}
+        return tuple(command for command, section in asked.items() if section is not None)
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for: a synthesis per section, an analysis of given links, the loads with theirs."""
+        analysis = ("analyze",) if self.links is not None else ()
+        loads = ("loads",) if self.loads is not None else ()
+        return (*((*self.syntheses(), *analysis) or ("analyze",)), *loads)
+
+    def sized_by(self, command: str) -> str:
+        """The one synthesis of a file that leaves out the links that an analysis needs."""
+        asked = self.syntheses()
+        return asked[0] if command == "analyze" and self.links is None and len(asked) == 1 else ""

@@ -1,0 +1,349 @@
+"""Syntheses of a crank-rocker: from swing and time ratio of the rocker, and through three pairs of angles.
+
+Frame of all equations: A at 0, D at (d, 0); crank a, coupler b, rocker c, frame d.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from gearlink.core.base.design import Found, Outline, placed
+from gearlink.core.base.errors import NoSolution, at_key, section_of
+from gearlink.core.base.remedies.ways import down, either
+from gearlink.core.base.report import Check
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.crank_rocker.codes import FULL_TURN
+from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+
+_FIT = 1e-7
+"""Of swing and time ratio, relative: what the dead centres of a linkage give back; rounding leaves far less."""
+_IN_LINE = 1e-9
+_SINGULAR = 1e-13
+
+
+# Swing and time ratio
+
+
+class Ratios(NamedTuple):
+    """Links in proportion: coupler, rocker and frame of a crank of length 1."""
+
+    coupler: float
+    rocker: float
+    frame: float
+
+
+def half_angles(swing: float, ratio: float, same: bool) -> tuple[float, float]:
+    """p, half of the angle by which the strokes of the crank differ from half a turn, and q, half of the swing [rad].
+
+    alpha = 180 deg (K - 1)/(K + 1),   p = alpha/2, negative where the rocker turns against the crank in the slow stroke
+
+    Parameters
+        swing : float [rad]
+        ratio : float - K, slow over fast stroke, 1 or more
+        same : bool - whether the rocker turns with the crank in the slow stroke
+    Example
+        >>> [round(math.degrees(angle), 9) for angle in half_angles(math.radians(80.0), 2.0, True)]
+        [30.0, 40.0]
+
+    Source
+        dead-position synthesis (H. Alt; VDI 2130)
+    """
+    p = 0.5 * math.pi * (ratio - 1.0) / (ratio + 1.0)
+    return (p if same else -p), 0.5 * swing
+
+
+def best_ratios(p: float, q: float) -> Ratios:
+    """Links with the greatest least transmission angle that a swing and a time ratio allow.
+
+    t^2 x^3 + 2 x^2 - x - (1 + 1/t^2) tan^2(q - p) = 0,   (b/a)^2 = 1/x,   t = cot p,   0 < x < 1
+    d^2 sin^2 q = a^2 cos^2(q - p) + b^2 sin^2(q - p),   c^2 sin^2 q = a^2 cos^2 p + b^2 sin^2 p
+
+    Parameters
+        p, q : float [rad] - of `half_angles`; p not 0
+    Raises
+        NoSolution - where no crank-rocker has this swing and ratio
+    Example
+        >>> found = best_ratios(*half_angles(math.radians(80.0), 10.0 / 9.0, True))
+        >>> [round(120.0 / found.frame * length, 4) for length in (1.0, *found)]
+        [46.6717, 116.161, 73.8832, 120.0]
+
+    Source
+        F. Freudenstein and E. J. F. Primrose, 1973: Q^3 + 2 Q^2 - t^2 Q - (t^2/u^2)(1 + t^2) = 0 with Q = t^2 x, here
+        found as the stationary point of the worse transmission angle over b/a; the triangles of both dead centres
+    """
+    t2, turned = 1.0 / math.tan(p) ** 2, math.tan(q - p) ** 2
+
+    def cubic(x: float) -> float:
+        return ((t2 * x + 2.0) * x - 1.0) * x - (1.0 + 1.0 / t2) * turned
+
+    if not cubic(1.0) > 0.0:
+        raise NoSolution(_nowhere(p, q))
+    if turned == 0.0:  # of q = p the root x = 0 is none of a linkage
+        return ratios_of(math.sqrt(1.0 + math.sqrt(1.0 + t2)), p, q)
+    return ratios_of(1.0 / math.sqrt(bracketed_root(cubic, 0.0, 1.0)), p, q)
+
+
+def ratios_of(coupler: float, p: float, q: float) -> Ratios:
+    """The links of one coupler over crank: the triangles A, C outer, C inner, and the same with the frame turned."""
+    rocker = math.hypot(math.cos(p), coupler * math.sin(p)) / math.sin(q)
+    frame = math.hypot(math.cos(q - p), coupler * math.sin(q - p)) / math.sin(q)
+    return Ratios(coupler, rocker, frame)
+
+
+def ratios_with_frame(frame: float, p: float, q: float) -> Ratios:
+    """The links of one frame over crank.
+
+    Raises
+        NoSolution - where no coupler gives that frame
+    Example
+        >>> found = ratios_with_frame(2.0, *half_angles(math.radians(80.0), 10.0 / 9.0, True))
+        >>> [round(60.0 * length, 3) for length in found]
+        [103.197, 93.965, 120.0]
+    """
+    room = (frame * math.sin(q) - math.cos(q - p)) * (frame * math.sin(q) + math.cos(q - p))
+    turn = abs(math.sin(q - p))
+    if room <= 0.0 or turn == 0.0:
+        least = abs(math.cos(q - p)) / math.sin(q)
+        raise NoSolution(
+            f"frame over crank is {frame:.6g}; with this swing and ratio it is above {least:.6g}: shorten the crank, "
+            "or lengthen the frame"
+        )
+    found = ratios_of(math.sqrt(room) / turn, p, q)
+    return found._replace(frame=frame)
+
+
+def _nowhere(p: float, q: float) -> str:
+    alpha = math.degrees(2.0 * abs(p))
+    return (
+        f"no crank-rocker swings by {math.degrees(2.0 * q):.6g} deg with strokes of {180.0 + alpha:.6g} and "
+        f"{180.0 - alpha:.6g} deg of the crank: ask for a quick_return_ratio nearer to 1, another swing, or the other "
+        "slow_stroke"
+    )
+
+
+def require_task(linkage: FourBar, swing: float, ratio: float, same: bool) -> None:
+    """Refuse links whose dead centres, on their one assembly, are not those that were asked for.
+
+    Raises
+        NoSolution
+    """
+    p, q = half_angles(swing, ratio, same)
+    if linkage.kind() == "crank-rocker":
+        dead = DeadCenters(linkage)
+        sense = ratio == 1.0 or dead.same is same
+        if sense and abs(dead.swing - swing) <= _FIT * swing and abs(dead.ratio - ratio) <= _FIT * ratio:
+            return
+    raise NoSolution(_nowhere(p, q))
+
+
+# Three pairs of angles
+
+
+class ThroughPairs(NamedTuple):
+    """A linkage through three pairs of angles.
+
+    crank, coupler, rocker : float [mm] - magnitudes
+    crank_offset, rocker_offset : float [rad] - 0 or pi, to be added to the given angles
+    assembly : +1 or -1 - of the linkage so turned
+    """
+
+    crank: float
+    coupler: float
+    rocker: float
+    crank_offset: float
+    rocker_offset: float
+    assembly: int
+
+
+def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPairs:
+    """The four-bar that goes through three pairs of crank and rocker angle.
+
+    k1 cos psi - k2 cos phi + k3 = cos(phi - psi),   a = d/k1,   c = d/k2,   b^2 = a^2 + c^2 + d^2 - 2 a c k3
+
+    Parameters
+        pairs : three of (phi, psi) [rad]
+        frame : float - d [mm]
+    Raises
+        NoSolution - where the equations are singular, the coupler is not real, the pairs lie on different assemblies,
+            or coupler and rocker are in line at one of them, so that it belongs to none
+    Example
+        >>> pairs = [[math.radians(angle) for angle in pair] for pair in ((40, 50), (90, 80), (160, 110))]
+        >>> found = through_pairs(pairs, 100.0)
+        >>> round(found.crank, 9), round(found.coupler, 9), round(found.rocker, 9), found.assembly
+        (17.489141449, 95.634157854, 28.557521937, -1)
+
+    Source
+        F. Freudenstein's equation; a negative length points the other way, hence the offsets
+    """
+    k1, k2, k3 = _constants(pairs)
+    a, c = frame / k1, frame / k2
+    square = math.fsum((a * a, c * c, frame * frame, -2.0 * a * c * k3))
+    if not square > 0.0 or math.isinf(square):
+        raise NoSolution("no linkage goes through these pairs: its coupler would have no real length; move one of them")
+    b = math.sqrt(square)
+    sides = set()
+    for number, (phi, psi) in enumerate(pairs, 1):
+        pin, joint = cmath.rect(a, phi), frame + cmath.rect(c, psi)
+        across = ((joint - pin).conjugate() * (joint - frame)).imag / (b * abs(c))
+        if abs(across) < _IN_LINE:
+            raise NoSolution(f"coupler and rocker are in line at pair {number}, which then is a dead point: move it")
+        sides.add(across > 0.0)
+    if len(sides) > 1:
+        raise NoSolution("the pairs lie on different assemblies of their linkage, which cannot pass over: move one")
+    crank_offset, rocker_offset = (math.pi if length < 0.0 else 0.0 for length in (a, c))
+    return ThroughPairs(abs(a), b, abs(c), crank_offset, rocker_offset, 1 if sides.pop() else -1)
+
+
+def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
+    """k1, k2, k3 of the equation; differences of cosines as products of sines, so that near pairs keep their digits."""
+    (phi, psi), *others = pairs
+    rows = []
+    for other_phi, other_psi in others:
+        first = _cosine_step(psi, other_psi)
+        rows.append((first, -_cosine_step(phi, other_phi), _cosine_step(phi - psi, other_phi - other_psi)))
+    (a1, b1, r1), (a2, b2, r2) = rows
+    det, size = a1 * b2 - a2 * b1, abs(a1 * b2) + abs(a2 * b1)
+    over, under = r1 * b2 - r2 * b1, a1 * r2 - a2 * r1
+    small = (
+        abs(det) <= _SINGULAR * size
+        or abs(over) <= _SINGULAR * (abs(r1 * b2) + abs(r2 * b1))
+        or abs(under) <= _SINGULAR * (abs(a1 * r2) + abs(a2 * r1))
+    )
+    if small:
+        raise NoSolution(
+            "these pairs give no linkage of finite length: two of them are alike, or rocker and crank turn in "
+            "proportion; move one of them"
+        )
+    k1, k2 = over / det, under / det
+    return k1, k2, math.cos(phi - psi) - k1 * math.cos(psi) + k2 * math.cos(phi)
+
+
+def _cosine_step(start: float, end: float) -> float:
+    """cos(end) - cos(start)."""
+    return -2.0 * math.sin(0.5 * (start + end)) * math.sin(0.5 * (end - start))
+
+
+# The designs
+
+_OF_PAIRS = Outline(
+    (*LENGTHS, "crank_offset", "rocker_offset", "assembly", *MOTION), ("full-turn", "transmission-angle"), ("motion",)
+)
+
+
+class _Synthesis(CrankRocker):
+    """Links that are found: they complete the file in place of the task."""
+
+    section = ""
+
+    def completion(self) -> Iterator[Found]:
+        """The links, their assembly, and none of the task."""
+        bar = self.linkage
+        links = {name: getattr(bar, name) for name in ("crank", "coupler", "rocker", "frame")}
+        yield Found("links", links, f"found by synth {self.section}")
+        yield Found("assembly", bar.assembly)
+        if self.crank_range is not None and self.spec.range is None:
+            yield Found("range", [math.degrees(angle) for angle in self.crank_range], "from function.pairs")
+        yield from (Found(section, None) for section in ("swing", "function"))
+
+
+class SwingSynthesis(_Synthesis):
+    """`synth swing`: swing and time ratio of the rocker, with the best transmission angle or a crank and a frame."""
+
+    section = "swing"
+    outlines = {"synth swing": CrankRocker.outlines["analyze"], "analyze": CrankRocker.outlines["analyze"]}
+    ways = {
+        "transmission-angle": (*either("swing.crank"), down("swing.quick_return_ratio"), down("swing.angle")),
+    }
+    remedy = "ask for a smaller swing, a quick_return_ratio nearer to 1, or the other slow_stroke"
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar with the dead centres that are asked for."""
+        task = section_of(self.spec, "swing", "angle (deg), quick_return_ratio, and a length (mm)")
+        swing, same = math.radians(task.angle), task.slow_stroke == "same"
+        ratio: float = task.quick_return_ratio
+        p, q = half_angles(swing, ratio, same)
+        if len(task.given) == 2:
+            with at_key("swing"):
+                found, crank = ratios_with_frame(task.frame / task.crank, p, q), task.crank
+        elif p == 0.0:
+            raise NoSolution(
+                "with a quick_return_ratio of 1 the transmission angle only gets better the shorter the crank is: "
+                "give crank and frame, or a ratio above 1",
+                key="swing.quick_return_ratio",
+            )
+        else:
+            with at_key("swing"):
+                found = best_ratios(p, q)
+            (name,) = task.given
+            crank = getattr(task, name) / (1.0 if name == "crank" else getattr(found, name))
+        lengths = {"crank": crank, **{name: crank * ratio for name, ratio in found._asdict().items()}}
+        lengths |= {name: getattr(task, name) for name in task.given}
+        with at_key("swing"):
+            linkage = FourBar(**lengths, assembly=self.spec.assembly)
+            require_task(linkage, swing, ratio, same)
+        return linkage
+
+
+class FunctionSynthesis(_Synthesis):
+    """`synth function`: the linkage through three pairs of angles."""
+
+    section = "function"
+    outlines = {"synth function": _OF_PAIRS, "analyze": _OF_PAIRS}
+    ways = {}
+    remedy = "ask for a smaller swing of the rocker, or move a pair"
+
+    @cached_property
+    def found(self) -> ThroughPairs:
+        """Lengths, offsets and assembly."""
+        task = section_of(self.spec, "function", "pairs (deg) and frame (mm)")
+        with at_key("function.pairs"):
+            return through_pairs([[math.radians(angle) for angle in pair] for pair in task.pairs], task.frame)
+
+    crank_offset: float = placed("found.crank_offset")
+    rocker_offset: float = placed("found.rocker_offset")
+    assembly: int = placed("found.assembly")
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar, with the offsets added to the given angles."""
+        found = self.found
+        assert self.spec.function is not None
+        return FourBar(found.crank, found.coupler, found.rocker, self.spec.function.frame, found.assembly)
+
+    @cached_property
+    def crank_range(self) -> tuple[float, float] | None:
+        """From the first to the last pair [rad], where the crank does not turn fully; None where it turns.
+
+        Raises
+            NoSolution - where the linkage opens between the pairs
+        """
+        if self.linkage.turns_fully() and self.linkage.kind() != "change-point":
+            return None
+        assert self.spec.function is not None
+        angles = [math.radians(pair[0]) + self.crank_offset for pair in self.spec.function.pairs]
+        start, end = min(angles), max(angles)
+        with at_key("function.pairs"):
+            for angle in inner_places(start, end):
+                solve(self.linkage, angle, order=1)
+        return start, end
+
+    def check_full_turn(self) -> Check:
+        """GL330: whether the crank turns fully."""
+        kind = self.linkage.kind()
+        if self.crank_range is None:
+            return FULL_TURN.check("pass", f"the linkage is a {kind}: its crank turns fully")
+        start, end = (math.degrees(angle) for angle in self.crank_range)
+        text = f"the linkage is a {kind}, its crank cannot turn fully: it moves from {start:.6g} to {end:.6g} deg"
+        return FULL_TURN.check("warn", text)
+
+
+def made(spec: Any) -> CrankRocker:
+    """The design of a file, its links given or found."""
+    designs = {"": CrankRocker, "synth swing": SwingSynthesis, "synth function": FunctionSynthesis}
+    return designs[spec.sized_by("analyze")](spec)

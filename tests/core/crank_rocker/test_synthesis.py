@@ -1,0 +1,230 @@
+"""Swing and time ratio, three pairs of angles: against brute force over the links, 40 digits, and published ones."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+from typing import Any
+
+import mpmath
+import pytest
+from factory import design
+from scipy.optimize import minimize_scalar
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.machines.crank_rocker.design import DeadCenters
+from gearlink.core.machines.crank_rocker.synthesis import best_ratios, half_angles, ratios_of, through_pairs
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+
+SWING: dict[str, Any] = {"kind": "crank-rocker", "name": "swing", "swing": {"angle": 80.0, "quick_return_ratio": 1.1}}
+FUNCTION: dict[str, Any] = {
+    "kind": "crank-rocker",
+    "name": "function",
+    "function": {"pairs": [[40.0, 50.0], [90.0, 80.0], [160.0, 110.0]], "frame": 100.0},
+}
+
+
+def swing(**keys: Any) -> Any:
+    return design({**SWING, "swing": {**SWING["swing"], **keys}}, command="synth swing")
+
+
+# Swing and time ratio
+
+
+@pytest.mark.parametrize("angle", [20.0, 55.0, 90.0, 120.0])
+@pytest.mark.parametrize("ratio", [1.001, 1.1, 1.3])
+@pytest.mark.parametrize("same", [True, False])
+def test_no_other_links_have_a_better_transmission_angle(angle: float, ratio: float, same: bool) -> None:
+    """The best of all couplers over crank, found by scipy on the linkages themselves."""
+    p, q = half_angles(math.radians(angle), ratio, same)
+    found = best_ratios(p, q)
+
+    def angle_of(coupler: float) -> float:
+        links = ratios_of(coupler, p, q)
+        linkage = FourBar(1.0, links.coupler, links.rocker, links.frame)
+        if linkage.kind() != "crank-rocker" or abs(DeadCenters(linkage).swing - 2.0 * q) > 1e-9:
+            return 0.0  # both dead centres are those that are asked for, but one of them on the other assembly
+        return linkage.min_transmission_angle()
+
+    best = minimize_scalar(
+        lambda log: -angle_of(math.exp(log)),
+        bounds=(math.log(0.5 * found.coupler), math.log(2.0 * found.coupler)), method="bounded",
+        options={"xatol": 1e-9},
+    )  # fmt: skip
+    assert angle_of(found.coupler) >= -best.fun - 1e-12
+    assert math.exp(best.x) == pytest.approx(found.coupler, rel=1e-5)
+    grid = [angle_of(math.exp(0.02 * i)) for i in range(1, 600)]
+    assert angle_of(found.coupler) >= max(grid) - 1e-12
+
+
+@pytest.mark.parametrize("length", ["crank", "coupler", "rocker", "frame"])
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("slow_stroke", ["same", "opposite"])
+def test_swing_ratio_and_sense_come_back(length: str, assembly: int, slow_stroke: str) -> None:
+    made = design(
+        {**SWING, "assembly": assembly, "swing": {**SWING["swing"], length: 90.0, "slow_stroke": slow_stroke}},
+        command="synth swing",
+    )
+    assert made.raw(f"{length}_length") == 90.0
+    assert math.degrees(made.rocker_swing) == pytest.approx(80.0, rel=1e-12)
+    assert made.quick_return_ratio == pytest.approx(1.1, rel=1e-11)
+    assert made.dead_centers.same is (slow_stroke == "same")
+    outer, inner = made.outer_dead_center, made.inner_dead_center
+    way = (inner - outer) % (2.0 * math.pi)
+    middle = outer + 0.5 * way if way > math.pi else inner + 0.5 * (2.0 * math.pi - way)
+    assert (made.speed(middle) > 0.0) is (slow_stroke == "same")
+
+
+def test_published_designs() -> None:
+    """goessner/crocker: the best with frame 120 mm, and that with a crank of 60 mm; printed to three digits."""
+    best = swing(quick_return_ratio=10.0 / 9.0, frame=120.0)
+    assert [best.crank_length, best.coupler_length, best.rocker_length] == pytest.approx([46.7, 116.0, 73.9], rel=2e-3)
+    assert math.degrees(best.min_transmission_angle) == pytest.approx(37.7, abs=0.05)
+    other = swing(quick_return_ratio=10.0 / 9.0, frame=120.0, crank=60.0)
+    assert [other.coupler_length, other.rocker_length] == pytest.approx([103.0, 94.0], abs=0.5)
+    assert math.degrees(other.min_transmission_angle) == pytest.approx(35.0, abs=0.5)
+    assert best.check("transmission-angle")[0].status == "fail"
+
+
+def test_forty_digits_of_the_best_design() -> None:
+    """The stationary point of the worse angle over b/a, by mpmath, without the cubic."""
+    with mpmath.workdps(40):
+        p, q = mpmath.pi * (mpmath.mpf("1.25") - 1) / (2 * mpmath.mpf("2.25")), mpmath.radians(35)
+
+        def cosine(ratio: Any) -> Any:
+            c2 = (mpmath.cos(p) ** 2 + (ratio * mpmath.sin(p)) ** 2) / mpmath.sin(q) ** 2
+            d2 = (mpmath.cos(q - p) ** 2 + (ratio * mpmath.sin(q - p)) ** 2) / mpmath.sin(q) ** 2
+            return (ratio**2 + c2 - (mpmath.sqrt(d2) - 1) ** 2) / (2 * ratio * mpmath.sqrt(c2))
+
+        expected = mpmath.findroot(lambda ratio: mpmath.diff(cosine, ratio), best_ratios(float(p), float(q)).coupler)
+        found = best_ratios(*half_angles(math.radians(70.0), 1.25, True)).coupler
+        assert abs(found - expected) < 1e-14 * expected
+
+
+def test_even_strokes_need_two_lengths() -> None:
+    made = swing(quick_return_ratio=1.0, crank=30.0, frame=100.0)
+    assert made.rocker_length == pytest.approx(30.0 / math.sin(math.radians(40.0)), rel=1e-14)
+    assert made.quick_return_ratio == pytest.approx(1.0, rel=1e-12)
+    assert math.degrees(made.rocker_swing) == pytest.approx(80.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("keys", "key"),
+    [
+        ({"quick_return_ratio": 1.0, "frame": 100.0}, "swing.quick_return_ratio"),
+        ({"angle": 20.0, "quick_return_ratio": 9.0, "frame": 100.0}, "swing"),
+        ({"angle": 170.0, "quick_return_ratio": 1.5, "slow_stroke": "opposite", "frame": 100.0}, "swing"),
+        ({"crank": 90.0, "frame": 100.0}, "swing"),
+        ({"crank": 1.0, "frame": 1.02}, "swing"),
+    ],
+)
+def test_refused_swings(keys: dict[str, Any], key: str) -> None:
+    with pytest.raises(NoSolution) as refused:
+        swing(**keys).report("synth swing")
+    assert refused.value.key == key
+
+
+def test_what_is_refused_does_not_exist() -> None:
+    """Swings and ratios drawn at random: where the closed form finds none, no coupler over crank gives one either."""
+    rng, refused = random.Random(5), 0
+    for _ in range(60):
+        angle, ratio, same = rng.uniform(5.0, 170.0), rng.uniform(1.01, 4.0), rng.random() < 0.5
+        p, q = half_angles(math.radians(angle), ratio, same)
+        try:
+            made = swing(angle=angle, quick_return_ratio=ratio, slow_stroke="same" if same else "opposite", crank=1.0)
+            linkage = made.linkage
+        except NoSolution:
+            refused += 1
+            for i in range(1, 400):
+                links = ratios_of(math.exp(0.03 * i), p, q)
+                other = FourBar(1.0, links.coupler, links.rocker, links.frame)
+                if other.kind() == "crank-rocker":
+                    dead = DeadCenters(other)
+                    there = abs(dead.swing - 2.0 * q) < 1e-9 and abs(dead.ratio - ratio) < 1e-9 and dead.same is same
+                    assert not there, (angle, ratio, same, i)
+        else:
+            assert linkage.kind() == "crank-rocker"
+    assert 5 < refused < 55
+
+
+# Three pairs
+
+
+def test_the_linkage_goes_through_its_pairs() -> None:
+    rng, found = random.Random(2), 0
+    while found < 40:
+        pairs = [[rng.uniform(-math.pi, math.pi), rng.uniform(-math.pi, math.pi)] for _ in range(3)]
+        try:
+            linkage = through_pairs(pairs, 100.0)
+        except NoSolution:
+            continue
+        found += 1
+        bar = FourBar(linkage.crank, linkage.coupler, linkage.rocker, 100.0, linkage.assembly)
+        for phi, psi in pairs:
+            state = solve(bar, phi + linkage.crank_offset)
+            error = cmath.rect(1.0, state.rocker_angle) - cmath.rect(1.0, psi + linkage.rocker_offset)
+            assert abs(error) < 1e-7
+
+
+def test_three_pairs_to_forty_digits() -> None:
+    with mpmath.workdps(40):
+        rows, right = [], []
+        for phi, psi in ((40, 50), (90, 80), (160, 110)):
+            phi, psi = mpmath.radians(phi), mpmath.radians(psi)
+            rows.append([mpmath.cos(psi), -mpmath.cos(phi), 1])
+            right.append(mpmath.cos(phi - psi))
+        k1, k2, k3 = mpmath.lu_solve(mpmath.matrix(rows), mpmath.matrix(right))
+        a, c = 100 / k1, 100 / k2
+        b = mpmath.sqrt(a**2 + c**2 + 10000 - 2 * a * c * k3)
+        made = design(FUNCTION, command="synth function")
+        expected = [float(abs(x)) for x in (a, b, c)]
+    assert [made.crank_length, made.coupler_length, made.rocker_length] == pytest.approx(expected, rel=1e-13)
+    assert (made.crank_offset, made.rocker_offset, made.assembly) == (math.pi, math.pi, -1)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "words"),
+    [
+        ([[40.0, 100.0], [110.0, 140.0], [180.0, 180.0]], "in line at pair 3"),
+        ([[40.0, 50.0], [40.0, 50.0], [160.0, 110.0]], "two of them are alike"),
+        ([[40.0, 40.0], [90.0, 90.0], [160.0, 160.0]], "no linkage"),
+        ([[10.0, 100.0], [120.0, 20.0], [200.0, 90.0]], "different assemblies"),
+    ],
+)
+def test_refused_pairs(pairs: list[list[float]], words: str) -> None:
+    with pytest.raises(NoSolution, match=words) as refused:
+        design(FUNCTION, command="synth function", function__pairs=pairs).report("synth function")
+    assert refused.value.key == "function.pairs"
+
+
+def test_a_crank_that_cannot_turn_is_warned_of() -> None:
+    rng = random.Random(4)
+    seen = set()
+    while seen != {"pass", "warn"}:
+        pairs = sorted([rng.uniform(0.0, 120.0), rng.uniform(0.0, 150.0)] for _ in range(3))
+        made = design(FUNCTION, command="synth function", function__pairs=pairs)
+        try:
+            report = made.report("synth function")
+        except NoSolution:
+            continue
+        (check,) = [each for each in report.checks if each.code == "GL330"]
+        kind = made.linkage.kind()
+        assert (check.status == "pass") is (kind in ("crank-rocker", "drag-link")), kind
+        seen.add(check.status)
+        spec = {key: value for key, value in FUNCTION.items() if key != "function"}
+        spec |= {found.path: found.value for found in made.completion() if found.value is not None}
+        again = design(spec)
+        assert again.speed_ratio_max == pytest.approx(made.speed_ratio_max, rel=1e-12)
+
+
+def test_what_is_found_completes_the_file() -> None:
+    made = swing(frame=120.0)
+    spec = {"kind": "crank-rocker", "name": "again"}
+    spec |= {found.path: found.value for found in made.completion() if found.value is not None}
+    again = design(spec)
+    assert again.linkage == made.linkage
+    kind = KINDS["crank-rocker"]
+    asked = kind.spec_model().model_validate({**SWING, "swing": {**SWING["swing"], "frame": 120.0}})
+    assert kind.design("analyze", asked).linkage == made.linkage
