@@ -36,7 +36,7 @@ def written(
         >>> print(written(KINDS["slider-crank"], {"kind": "slider-crank", "stroke": 310.0, "rod": 520}))
         kind: slider-crank   # an offset slider-crank given by its stroke or its crank
         stroke: 310          # mm: stroke of the slider; may be left out
-        rod: 520             # mm: connecting rod; yours to choose
+        rod: 520             # mm: connecting rod; may be left out
         <BLANKLINE>
     """
     keys = {key.path: key for key in spec_keys(kind)}

@@ -21,6 +21,7 @@ _SLIDER_CRANK = {
     "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
     "dead_center_extended_at": Term("270 deg - theta_e", "deg", "input angle of the stretched dead centre"),
     "dead_center_folded_at": Term("90 deg - theta_f", "deg", "input angle of the folded dead centre"),
+    "offset": Term("e", "mm", "offset of the line of travel", "VDI 2142"),
     "max_stroke": Term("S_max", "mm", "largest stroke of this rod and offset, 2 sqrt(L(L-|e|))", "own derivation"),
 }
 
@@ -183,7 +184,7 @@ _HYPOCYCLOID = {
     "ring_teeth": Term("z_r", "1", "teeth of the ring gear"),
     "carrier_length": Term("", "mm", "carrier, the centre distance of planet and ring gear"),
     "point_radius": Term("r", "mm", "pitch radius of the planet, on which the point lies"),
-    "rod_length": Term("L", "mm", "rod from the point to the slider"),
+    "rod_length": Term("L", "mm", "rod to the slider"),
     "tangent_circle_length": Term("", "mm", "rod of the circle through ends and middle of the dwell", "own derivation"),
     "osculating_length": Term("4 r (n-1)/(n-2)", "mm", "rod of the circle of curvature in mid-dwell"),
     "dwell_carrier_angle": Term("", "deg", "carrier angle of the dwell that is wanted"),

@@ -42,7 +42,7 @@ def dead_centers(design: SliderCrankDesign) -> tuple[float, float]:
 def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     """Both dead centres and the position half-way, with stroke and offset."""
     part, (folded, extended) = design.slider_crank, dead_centers(design)
-    panels.drawing(axes, f"Crank {part.crank_length:.6g}, rod {design.spec.rod:.6g}")
+    panels.drawing(axes, f"Crank {part.crank_length:.6g}, rod {part.rod:.6g}")
     scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / _TURN)
     ahead = build(design, np.array([0.5 * (folded + extended) / _TURN + scene_axes.AHEAD]))
     scene_axes.draw(axes, scene, ahead=ahead)
@@ -62,15 +62,15 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
 
 def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: complex) -> None:
     """Stroke beside the dead centres, offset above the crank."""
-    spec, crank = design.spec, design.slider_crank.crank_length
-    aside = max(0.2 * spec.rod, crank) if spec.offset >= 0.0 else -max(0.2 * spec.rod, crank)
-    start, end = (complex(-spec.offset - 1.1 * aside, point.imag) for point in (near, far))
+    part, crank = design.slider_crank, design.slider_crank.crank_length
+    aside = max(0.2 * part.rod, crank) if part.offset >= 0.0 else -max(0.2 * part.rod, crank)
+    start, end = (complex(-part.offset - 1.1 * aside, point.imag) for point in (near, far))
     stroke = f"stroke {design.slider_crank.stroke:.6g} mm"
     style.dimension(axes, start, end, stroke, from_points=(near, far), upright=True)
-    if spec.offset:
+    if part.offset:
         level = 1.25 * crank
-        feet = (complex(-spec.offset, level), complex(0.0, level))
-        style.dimension(axes, *feet, f"offset {style.number(spec.offset, scale=0.0)} mm", from_points=(near, 0j))
+        feet = (complex(-part.offset, level), complex(0.0, level))
+        style.dimension(axes, *feet, f"offset {style.number(part.offset, scale=0.0)} mm", from_points=(near, 0j))
 
 
 # The motion
@@ -78,10 +78,10 @@ def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: compl
 
 def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     """Travel of the slider from its nearest place, velocity per crank speed, over the direction of the crank."""
-    crank, spec = design.slider_crank.crank_length, design.spec
+    part, crank = design.slider_crank, design.slider_crank.crank_length
     folded, extended = (math.degrees(angle) % 360.0 for angle in dead_centers(design))
     degrees = np.unique(np.append(np.arange(721) * 0.5, (folded, extended)))
-    depth, speed = slider_crank_sweep.slider(np.radians(degrees), crank, spec.rod, spec.offset, 1)
+    depth, speed = slider_crank_sweep.slider(np.radians(degrees), crank, part.rod, part.offset, 1)
     panels.turn_panel(travel, "travel of the\nslider [mm]")
     panels.heading(travel, f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}")
     travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel")

@@ -17,7 +17,7 @@ import numpy as np
 from gearlink.core.base.design_axis import Evaluated, Findings, kept_inside
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.machines.slider_crank.design import SliderCrankDesign
+from gearlink.core.machines.slider_crank.design import FOUND, SliderCrankDesign
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary import Elementary
 from gearlink.core.numerics.elementary_sweep import ARRAYS
@@ -54,9 +54,10 @@ def axis(
         spec, command, paths, quantities, checks : as of `core.base.design_axis.Maker`
     """
     sizes = [name for name in ("stroke", "crank") if getattr(spec, name) is not None or name in paths]
-    served = command in _CHECKS and set(paths) <= _DOMAIN.keys() and len(sizes) == 1
+    served = spec.quick_return_ratio is None and "quick_return_ratio" not in paths
+    served = served and command in _CHECKS and set(paths) <= _DOMAIN.keys() and len(sizes) == 1
     served = served and set(checks) <= _CHECKS[command]
-    if not served or not set(quantities) <= {*SliderCrankDesign.outlines["analyze"].quantities}:
+    if not served or not set(quantities) <= {*SliderCrankDesign.outlines["analyze"].quantities} - {*FOUND}:
         return None
     return SliderCrankAxis(spec, command, tuple(quantities))
 
@@ -129,7 +130,8 @@ class SliderCrankDesigns(SliderCrankDesign):
     spec: Any
 
     def __init__(self, values: Mapping[str, Any], count: int) -> None:
-        super().__init__(SimpleNamespace(**{path: value for path, value in values.items() if "." not in path}))
+        keys = {path: value for path, value in values.items() if "." not in path}
+        super().__init__(SimpleNamespace(**keys, quick_return_ratio=None))
         self.count = count
 
     @cached_property

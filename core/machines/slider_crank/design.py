@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Table
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.linkages.standstills import Turning
 
 _SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES, "dead_center_extended_at", "dead_center_folded_at")
+FOUND = ("rod_length", "offset")
 _MOTION = (
     "forward_angle",
     "return_angle",
@@ -39,19 +41,19 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     kind = "slider-crank"
     spec: SliderCrankSpec
     outlines = {
-        "crank": Outline(_SIZES),
-        "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
+        "crank": Outline((*_SIZES, *FOUND)),
+        "analyze": Outline((*_SIZES, *FOUND, *_MOTION), ("transmission-angle",), ("motion",)),
     }
     extra_tables = ("candidates",)
-    requirements = Design.requirements | {"stroke"}
+    requirements = Design.requirements | {"stroke", "quick_return_ratio"}
     ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The stroke by other rods and offsets side by side."""
         from gearlink.core.base.candidates import Sought, nothing_sought, pairs, table
 
-        if self.spec.crank is not None:
-            raise nothing_sought("give stroke in place of crank")
+        if self.spec.crank is not None or self.spec.rod is None or self.spec.quick_return_ratio is not None:
+            raise nothing_sought("give stroke and rod in place of crank")
         rod, offset = self.spec.rod, self.spec.offset
         rods = [round(share * rod, 6) for share in (0.7, 0.85, 1.0, 1.2, 1.5)]
         keys = {"rod": ("rod", "mm"), "offset": ("offset", "mm")}
@@ -67,11 +69,44 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     @property
     def stroke(self) -> float | None:
         """Stroke of a given crank [mm]; None where the file gives it."""
-        return None if self.spec.crank is None else self.slider_crank.stroke
+        return None if self.spec.crank is None or self._found else self.slider_crank.stroke
+
+    @property
+    def _found(self) -> bool:
+        return self.spec.quick_return_ratio is not None
+
+    @property
+    def rod_length(self) -> float | None:
+        """The rod [mm], where it is found for a time ratio; None where the file gives it."""
+        return self.slider_crank.rod if self._found and self.spec.rod is None else None
+
+    @property
+    def offset(self) -> float | None:
+        """The offset [mm] that a time ratio needs; None where the file gives it."""
+        return self.slider_crank.offset if self._found else None
+
+    def outline(self, command: str) -> Outline:
+        """Where the rod is found, the transmission angle that it is found for stands beside it."""
+        found = self.outlines[command]
+        if command != "crank" or not self._found or self.spec.rod is not None:
+            return found
+        return found._replace(quantities=(*found.quantities, "min_transmission_angle"))
+
+    def completion(self) -> Iterator[Found]:
+        """Rod and offset, and the crank where it is given, in place of the time ratio."""
+        if self._found:
+            part = self.slider_crank
+            if self.spec.rod is None:
+                yield Found("rod", part.rod, "found for quick_return_ratio")
+            if self.spec.crank is not None:
+                yield Found("stroke", None)
+            yield Found("offset", part.offset, "found for quick_return_ratio")
+            yield Found("quick_return_ratio", None)
 
     def depth(self, angle: float, order: int) -> float:
         """Depth of the slider below D, or its derivative of an order up to 3 [mm/rad^order]."""
-        return slider(angle, self.crank_length, self.spec.rod, self.spec.offset, order)[order]
+        part = self.slider_crank
+        return slider(angle, self.crank_length, part.rod, part.offset, order)[order]
 
     @property
     def _dead_centers(self) -> tuple[float, float]:
@@ -124,7 +159,8 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     @property
     def min_transmission_angle(self) -> float:
         """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
-        return self.slider_crank.fn.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
+        part = self.slider_crank
+        return part.fn.acos((self.crank_length + abs(part.offset)) / part.rod)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.results import cached_property
@@ -32,7 +31,7 @@ class SliderCrankLoads(LoadsDesign):
     @property
     def transmission_angle(self) -> float:
         """Least angle between the rod and the normal to the guide [rad]: cos mu = (r + |e|)/L."""
-        return math.acos((self.design.slider_crank.crank_length + abs(self.spec.offset)) / self.spec.rod)
+        return self.design.min_transmission_angle
 
     def counterweights(self) -> dict[str, complex]:
         """One on the crank, for the rotating masses and a share of the reciprocating ones.
@@ -50,7 +49,7 @@ class SliderCrankLoads(LoadsDesign):
         from gearlink.core.mechanism.dynamics import Mass
 
         crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links)
-        part = rod.center / self.spec.rod
+        part = rod.center / self.design.slider_crank.rod
         reciprocating = slider.mass + rod.mass * part
         radius = self.design.slider_crank.crank_length
         return -(crank.mass * crank.center + radius * (rod.mass * (1.0 - part) + share * reciprocating))

@@ -31,9 +31,12 @@ class SliderCrankSpec(DrivenSpec):
 
     kind: Literal["slider-crank"]
     stroke: Length | None = Field(None, description="stroke of the slider")
-    crank: Length | None = Field(None, description="crank, in place of stroke")
-    rod: Length = Field(description="connecting rod")
+    crank: Length | None = Field(None, description="crank, in place of stroke; beside it with quick_return_ratio")
+    rod: Length | None = Field(None, description="connecting rod")
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
+    quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="slow over fast stroke in time: the offset is found for it, and the rod where it is left out"
+    )
     limits: SliderLimits = SliderLimits.model_construct()
 
     loads: Annotated[Any, Deferred("machines.slider_crank.loads_spec:SliderCrankLoads")] | None = Field(
@@ -41,7 +44,26 @@ class SliderCrankSpec(DrivenSpec):
     )
 
     @model_validator(mode="after")
+    def _of_time_ratio(self) -> SliderCrankSpec:
+        if self.quick_return_ratio is None:
+            if self.rod is None:
+                raise PydanticCustomError("GL106", "the key 'rod' is missing", {"key": "rod"})
+            return self
+        if self.stroke is None:
+            message = "quick_return_ratio goes with stroke: give it"
+            raise PydanticCustomError("GL106", message, {"key": "stroke"})
+        if "offset" in self.model_fields_set:
+            message = "the offset is found for quick_return_ratio: leave it out"
+            raise PydanticCustomError("GL111", message, {"key": "offset"})
+        if self.rod is not None and self.crank is not None:
+            message = "stroke and quick_return_ratio leave one of rod and crank free: leave crank out"
+            raise PydanticCustomError("GL111", message, {"key": "crank"})
+        return self
+
+    @model_validator(mode="after")
     def _one_size(self) -> SliderCrankSpec:
+        if self.quick_return_ratio is not None:
+            return self
         if (self.stroke is None) == (self.crank is None):
             if self.stroke is None:
                 raise PydanticCustomError("GL106", "give stroke, or crank in its place", {"key": "stroke"})
@@ -50,15 +72,30 @@ class SliderCrankSpec(DrivenSpec):
 
     def slider_crank(self) -> SliderCrank:
         """The mechanism."""
+        if self.quick_return_ratio is not None:
+            return self._quick_return()
+        assert self.rod is not None
         with at_key("stroke" if self.crank is None else "crank"):
             if self.crank is not None:
                 return SliderCrank.of_crank(self.crank, self.rod, self.offset)
             assert self.stroke is not None
             return SliderCrank(self.stroke, self.rod, self.offset)
 
+    def _quick_return(self) -> SliderCrank:
+        from gearlink.core.machines.slider_crank.quick_return import quick_return
+
+        assert self.stroke is not None
+        assert self.quick_return_ratio is not None
+        found = quick_return(self.stroke, self.quick_return_ratio, self.rod, self.crank)
+        with at_key("quick_return_ratio"):
+            if self.rod is not None:
+                return SliderCrank(self.stroke, found.rod, found.offset)
+            return SliderCrank.of_crank(*found)
+
     @model_validator(mode="after")
     def _reachable(self) -> SliderCrankSpec:
-        require_offset_below_rod(self.rod, self.offset, "offset")
+        if self.rod is not None and self.quick_return_ratio is None:
+            require_offset_below_rod(self.rod, self.offset, "offset")
         return self
 
     def commands(self) -> tuple[str, ...]:

@@ -165,7 +165,8 @@ def test_hyphen_for_underscore_finds_the_other_where_there_is_none(gearlink: Any
 def test_kind_names_its_commands_and_keys(gearlink: Any) -> None:
     out = gearlink("explain", "slider-crank").out
     assert "gearlink crank" in out
-    assert "Needs: rod" in out
+    assert "stroke, crank, rod, offset" in out
+    assert "Needs: gears, links" in gearlink("explain", "geared-rocker").out
 
 
 def test_law_gives_its_peaks(gearlink: Any) -> None:
