@@ -143,10 +143,24 @@ def complete(
         value, words = _rounded(found.value, found.path, units, step)
         notes |= {path: "; ".join(w for w in (found.why, word) if w) for path, word in words.items()}
         put(data, found.path, value)
+    _write_units(data, loaded)
     data["name"] = stem_of(file) if "name" not in loaded.data and file != STREAM else design.spec.name
     head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
     head += [f"asked for: {path}: {flow(value)}" for path, value in left_out]
     return written(kind, _ordered(data, dict.fromkeys(_KEY_ORDER) | dict(_with_links(loaded.data))), head, notes)
+
+
+def _write_units(data: dict[str, Any], loaded: LoadedFile) -> None:
+    """Put the texts of the file back where the numbers that its values with units gave still hold."""
+    for (*sections, last), (text, value) in loaded.as_written.items():
+        place: Any = data
+        try:
+            for step in sections:
+                place = place[step]
+            if place[last] == value:
+                place[last] = text
+        except (LookupError, TypeError):
+            continue
 
 
 def _with_links(order: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:

@@ -168,12 +168,17 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     Raises
         DesignFileError - with everything that is wrong with the data, and the duplicate keys of the file
     Notes
-        The data go in as JSON: in pydantic's strict mode a list then serves a tuple field and text an enum, while
-        a number stays a number. Floats survive, since both sides write and read shortest round-trip doubles.
+        Values with units become numbers first. The data go in as JSON: in pydantic's strict mode a list then serves a
+        tuple field and text an enum, while a number stays a number. Floats survive, since both sides write and read
+        shortest round-trip doubles.
     """
     from pydantic import ValidationError
 
     wrong = list(loaded.problems)
+    if _starts_with_a_number(loaded.data):
+        from gearlink.cli.reading.units import convert
+
+        wrong += convert(loaded, model)
     odd = list(_odd_values(loaded.data, _ROOT))
     sizes = {path for path, value in odd if not isinstance(value, bool)}
     spec: Model | None = None
@@ -190,7 +195,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     except NoSolution as error:
         found = [diagnose_no_solution(loaded, error)]
     wrong += [_no_size(loaded, model, path, value) for path, value in odd if path in sizes]
-    seen = {diagnostic.key for diagnostic in wrong if diagnostic.code == "GL108"}
+    seen = {diagnostic.key for diagnostic in wrong if diagnostic.code in ("GL108", "GL180", "GL181")}
     wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
         from gearlink.cli.reading.model_errors import diagnose_truth_values
@@ -200,6 +205,14 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     if wrong or spec is None:
         raise DesignFileError(wrong, omitted)
     return spec
+
+
+def _starts_with_a_number(node: Any) -> bool:
+    """Whether some text of the data begins as a number does, so that it may have a unit."""
+    if isinstance(node, str):
+        return node.lstrip()[:1] in {*"+-.0123456789"}
+    items = node.values() if isinstance(node, dict) else node if isinstance(node, list) else ()
+    return any(map(_starts_with_a_number, items))
 
 
 def _odd_values(node: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:

@@ -60,7 +60,7 @@ FILES: tuple[Rule, ...] = (
         "wrong type of value",
         "A number, a text, a list or a section stands where another of these is wanted, or a list has a wrong length.",
         "Numbers in quotation marks are text, 40:20 and no are text in YAML 1.2, and true is no number.",
-        "Write the value as the message asks: numbers plain, without unit and without quotation marks.",
+        "Write the value as the message asks: numbers plain or with a unit, without quotation marks.",
     ),
     Rule(
         "GL108",
@@ -299,7 +299,27 @@ TOLERANCES: tuple[Rule, ...] = (
 )
 
 
+# The codes GL180 and GL181: what can be wrong with the unit of a value
+
+VALUES: tuple[Rule, ...] = (
+    Rule(
+        "GL180",
+        "unknown unit",
+        "A value is written as NUMBER UNIT, and no unit has that name.",
+        "Read as if it had the key's own unit, the value would be another one.",
+        "Take one of the units that the message lists for this key, or a plain number in the key's own unit.",
+    ),
+    Rule(
+        "GL181",
+        "unit of another quantity",
+        "A value is written as NUMBER UNIT, and the unit measures something else than the key does.",
+        "Kilograms are no millimetres; a diametral pitch (DP) stands at `module` alone.",
+        "Take one of the units that the message lists for this key, or move the value to the key that it belongs to.",
+    ),
+)
+
+
 @cache
 def explanations() -> dict[str, Rule]:
     """Every code with its texts, in the order of the codes: those of files and command lines, then the checks'."""
-    return {rule.code: rule for rule in (*FILES, *STUDIES, *TOLERANCES)} | rules()
+    return {rule.code: rule for rule in (*FILES, *STUDIES, *TOLERANCES, *VALUES)} | rules()

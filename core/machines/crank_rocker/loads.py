@@ -9,7 +9,8 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.crank_rocker.design import CrankRocker
 from gearlink.core.machines.crank_rocker.synthesis import made
 from gearlink.core.parts.linkages.fourbar.mechanism import full_balance
-from gearlink.core.studies.loads.design import BALANCE, LoadsDesign, loads_outline
+from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.names import BALANCE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.crank_rocker.spec import CrankRockerSpec

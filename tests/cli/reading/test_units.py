@@ -1,0 +1,131 @@
+"""Values with units: exact conversions against their definitions in 60 digits, where they are taken, and refusals."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import pytest
+
+from gearlink.cli.reading.design_file import parse, validate
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.reading.units import UNITS, converted, split
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
+
+HEAD = b"kind: slider-crank\n"
+
+
+def spec(text: str, kind: str = "slider-crank") -> Any:
+    return validate(parse(f"kind: {kind}\n{text}".encode(), "x.yaml"), KINDS[kind].spec_model())
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "exact"),
+    [
+        ("4.5 in", "mm", "4.5 * 25.4"), ('1"', "mm", "25.4"), ("2 ft", "mm", "609.6"), ("3 thou", "mm", "0.0762"),
+        ("7 mil", "mm", "0.1778"), ("12.7 cm", "mm", "127"), ("0.3 m", "mm", "300"), ("5 um", "mm", "0.005"),
+        ("1 rad", "deg", "180/pi"), ("3 mrad", "deg", "0.54/pi"), ("30'", "deg", "0.5"), ("36 arcsec", "deg", "0.01"),
+        ("2 Hz", "1/min", "120"), ("1 rad/s", "1/min", "30/pi"), ("90 deg/s", "1/min", "15"),
+        ("8000 sheets/h", "1/min", "8000/mpf(60)"), ("100 sheets/min", "sheets/h", "6000"), ("2 1/h", "sheets/h", "2"),
+        ("1 lbf", "N", "mpf('4.4482216152605')"), ("1 kgf", "N", "mpf('9.80665')"),
+        ("1 lbf ft", "N m", "mpf('4.4482216152605') * mpf('0.3048')"), ("5 N mm", "N m", "mpf('0.005')"),
+        ("1 lbf/in", "N/mm", "mpf('4.4482216152605') / mpf('25.4')"), ("4 N/m", "N/mm", "mpf('0.004')"),
+        ("1 psi", "N/mm^2", "mpf('4.4482216152605') / mpf('25.4')**2"), ("3 bar", "N/mm^2", "mpf('0.3')"),
+        ("1 lb", "kg", "mpf('0.45359237')"), ("250 g", "kg", "0.25"),
+        ("1 lb in^2", "kg m^2", "mpf('0.45359237') * mpf('0.0254')**2"), ("2 kg cm²", "kg m^2", "mpf('0.0002')"),
+        ("1 lbf in s^2", "kg m^2", "mpf('4.4482216152605') * mpf('0.0254')"),
+        ("1 hp", "kW", "mpf('0.74569987158227022')"), ("1 PS", "kW", "mpf('0.73549875')"), ("2 g0", "m/s^2", "19.6133"),
+        ("5 %", "1", "mpf('0.05')"), ("8000/h", "1/min", "8000/mpf(60)"), ("75 rpm", "sheets/h", "4500"),
+        ("1.2 kN m", "N m", "1200"), ("20°", "deg", "20"),
+    ],
+)  # fmt: skip
+def test_conversions_are_the_nearest_numbers(text: str, unit: str, exact: str) -> None:
+    with mpmath.workdps(60):
+        expected = float(eval(exact, {"pi": mpmath.pi, "mpf": mpmath.mpf}))
+    found = split(text)
+    assert found is not None
+    assert converted(*found, unit) == pytest.approx(expected, rel=3e-16)
+
+
+@pytest.mark.parametrize(("text", "unit"), [("50 deg", "mm"), ("3 mm", "1"), ("3 mm", "teeth"), ("12 DP", "mm")])
+def test_units_that_do_not_belong_there(text: str, unit: str) -> None:
+    found = split(text)
+    assert found is not None
+    assert converted(*found, unit, "stroke") is None
+
+
+def test_a_value_is_rounded_once() -> None:
+    assert converted("0.3", "in", "mm") == 7.62 != 0.3 * 25.4
+    assert converted("4.5", "in", "mm") == 114.3
+    assert all(isinstance(factor, Fraction) for names in UNITS.values() for factor in names.values())
+
+
+def test_where_values_with_units_stand() -> None:
+    made = spec(
+        'stroke: "4.5 in"\nrod: 20 in\noffset: -1 in\ninput_speed: 7200 sheets/h\nlimits: {transmission_angle: 0.5 rad}'
+    )
+    assert (made.stroke, made.rod, made.offset, made.input_speed) == (114.3, 508.0, -25.4, 120.0)
+    assert made.limits.transmission_angle == pytest.approx(28.64788975654116, rel=1e-15)
+    pair = spec("module: 12 DP\nteeth: [24, 36]\nprofile_shift: [0.1, -0.1]", "gear-pair")
+    assert pair.module == 25.4 / 12
+    press = spec("links: {crank: 40, coupler: 4 in, rocker: 80, frame: 120}\ncoupler_point: [2 in, 5]", "crank-rocker")
+    assert press.coupler_point == [50.8, 5.0]
+    assert spec("name: 12 in press\nstroke: 1\nrod: 2").name == "12 in press"
+
+
+def test_units_are_those_of_the_keys() -> None:
+    made = spec(
+        "layout: twin-cam\nswing: 2 rad\ncycle_angle: 120\nspeed: 1 Hz\ninertia: 300 kg cm^2\n"
+        "unloader: {type: pneumatic, pivot_ratio: 2.5, arm: 12 cm}\ncam: {center_distance: 20 cm, roller_radius: 8}\n",
+        "wide-swing-cam",
+    )
+    found = (made.swing, made.speed, made.inertia, made.unloader.arm, made.cam.center_distance)
+    assert found == (pytest.approx(114.59155902616465, rel=1e-15), 60.0, 0.03, 120.0, 200.0)
+
+
+def test_loads_and_set_take_units() -> None:
+    loaded = parse(HEAD + b"stroke: 310\nrod: 520\nloads: {speed: 2 Hz, links: {slider: {mass: 10 lb}}}", "x.yaml",
+                   overrides=["stroke=0.31 m"])  # fmt: skip
+    made = validate(loaded, SliderCrankSpec)
+    assert (made.stroke, made.loads.speed, made.loads.links.slider.mass) == (310.0, 120.0, 4.5359237)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "key", "words"),
+    [
+        ("stroke: 4.5 kg\nrod: 520", "GL181", "stroke", "kg is a mass, stroke is in mm"),
+        ("stroke: 12 DP\nrod: 520", "GL181", "stroke", "goes with module"),
+        ("stroke: 310\nrod: 5 inh", "GL180", "rod", "no unit 'inh'"),
+        ("stroke: 310\nrod: 520\ninput_speed: 5 mm", "GL181", "input_speed", "mm is a length"),
+        ("stroke: 310\nrod: 520\nloads: {speed: 60, links: {slider: {mass: 3 stones}}}", "GL180",
+         "loads.links.slider.mass", "no unit 'stones'"),
+        ("stroke: 2O\nrod: 520", "GL107", "stroke", "must be a number"),
+        ("stroke: -4 in\nrod: 520", "GL108", "stroke", "greater than 0"),
+    ],
+)  # fmt: skip
+def test_refused(text: str, code: str, key: str, words: str) -> None:
+    with pytest.raises(DesignFileError) as refused:
+        spec(text)
+    (found,) = refused.value.diagnostics
+    assert (found.code, found.key) == (code, key)
+    assert words in found.message
+
+
+def test_teeth_take_no_unit() -> None:
+    with pytest.raises(DesignFileError) as refused:
+        spec("module: 2\nteeth: [24 in, 36]\nprofile_shift: [0, 0]", "gear-pair")
+    assert {found.code for found in refused.value.diagnostics} == {"GL107"}
+
+
+def test_save_keeps_the_text(gearlink: Any, tmp_path: Any) -> None:
+    file = tmp_path / "inch.yaml"
+    file.write_text('kind: slider-crank\nstroke: "4.5 in"\nrod: 20 in\noffset: 3\n')
+    out = gearlink("crank", file, "--save", "-", "--set", "offset=1 in", "--set", "rod=500").out
+    assert 'stroke: "4.5 in"' in out
+    assert 'offset: "1 in"' in out
+    assert "rod: 500" in out
+    value = gearlink("crank", file, "--set", "offset=1 in", "--quantity", "crank_length").out
+    assert value.split()[1] == "mm"
+    assert float(value.split()[0]) == pytest.approx(57.077600921053005, rel=1e-12)
