@@ -12,7 +12,7 @@ from gearlink.cli.files import CannotWrite, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.errors import show_refusal
-from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
+from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema
 from gearlink.core.base.kinds import FILES
 
 PATTERNS = ("designs/**/*.yaml", "*.gearlink.yaml")
@@ -56,4 +56,4 @@ def _text(kind_name: str | None) -> str | None:
         whole = kind_schema(kind)
     else:
         return None
-    return json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False)
+    return json.dumps(for_editors(whole), indent=2, ensure_ascii=False, allow_nan=False)

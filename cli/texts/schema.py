@@ -38,3 +38,24 @@ def all_kinds_schema(kinds: list[Kind]) -> Node:
         "allOf": branches,
         "definitions": definitions,
     }
+
+
+def for_editors(node: Any) -> Any:
+    """A schema in which numbers with a unit may be written as NUMBER UNIT, too.
+
+    Example
+        >>> for_editors({"type": "number", "unit": "mm"})["type"]
+        ['number', 'string']
+    """
+    if isinstance(node, list):
+        return [for_editors(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    found = {key: for_editors(value) for key, value in node.items()}
+    unit = node.get("unit", "")
+    if node.get("type") == "number" and isinstance(unit, str) and unit and not unit.startswith("the "):
+        found |= {"type": ["number", "string"], "pattern": _NUMBER_UNIT}
+    return found
+
+
+_NUMBER_UNIT = r"^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.,+-]"

@@ -247,7 +247,7 @@ class _Synthesis(CrankRocker):
         yield Found("links", links, f"found by synth {self.section}")
         yield Found("assembly", bar.assembly)
         if self.crank_range is not None and self.spec.range is None:
-            yield Found("range", [math.degrees(angle) for angle in self.crank_range], "from function.pairs")
+            yield Found("range", [math.degrees(angle) for angle in self.crank_range], f"from {self.section}")
         yield from (Found(section, None) for section in ("swing", "function"))
 
 
@@ -316,6 +316,35 @@ class FunctionSynthesis(_Synthesis):
         assert self.spec.function is not None
         return FourBar(found.crank, found.coupler, found.rocker, self.spec.function.frame, found.assembly)
 
+    def outline(self, command: str) -> Outline:
+        """Of a linkage that opens between the pairs there is no motion through them to show."""
+        found = super().outline(command)
+        if command not in self.outlines or self._turns or self._between is not None:
+            return found
+        shown = tuple(name for name in found.quantities if name not in MOTION)
+        return Outline(shown, ("full-turn",))
+
+    @cached_property
+    def _turns(self) -> bool:
+        return self.linkage.kind() in ("crank-rocker", "drag-link")
+
+    @cached_property
+    def _between(self) -> tuple[float, float] | None:
+        """First and last crank angle [rad] of a way through the pairs, the short one where it closes."""
+        assert self.spec.function is not None
+        given = [math.radians(pair[0]) + self.crank_offset for pair in self.spec.function.pairs]
+        short = given[:1]
+        for angle in given[1:]:
+            short.append(short[-1] + math.remainder(angle - short[-1], 2.0 * math.pi))
+        for angles in (short, given):
+            try:
+                for angle in inner_places(min(angles), max(angles)):
+                    solve(self.linkage, angle, order=1)
+            except NoSolution:
+                continue
+            return min(angles), max(angles)
+        return None
+
     @cached_property
     def crank_range(self) -> tuple[float, float] | None:
         """From the first to the last pair [rad], where the crank does not turn fully; None where it turns.
@@ -323,24 +352,25 @@ class FunctionSynthesis(_Synthesis):
         Raises
             NoSolution - where the linkage opens between the pairs
         """
-        if self.linkage.turns_fully() and self.linkage.kind() != "change-point":
+        if self._turns:
             return None
-        assert self.spec.function is not None
-        angles = [math.radians(pair[0]) + self.crank_offset for pair in self.spec.function.pairs]
-        start, end = min(angles), max(angles)
-        with at_key("function.pairs"):
-            for angle in inner_places(start, end):
-                solve(self.linkage, angle, order=1)
-        return start, end
+        if self._between is None:
+            raise NoSolution(f"{_APART}: move one of them", key="function.pairs")
+        return self._between
 
     def check_full_turn(self) -> Check:
         """GL330: whether the crank turns fully."""
         kind = self.linkage.kind()
-        if self.crank_range is None:
+        if self._turns:
             return FULL_TURN.check("pass", f"the linkage is a {kind}: its crank turns fully")
-        start, end = (math.degrees(angle) for angle in self.crank_range)
-        text = f"the linkage is a {kind}, its crank cannot turn fully: it moves from {start:.6g} to {end:.6g} deg"
-        return FULL_TURN.check("warn", text)
+        text = f"the linkage is a {kind}, its crank cannot turn fully"
+        if self._between is None:
+            return FULL_TURN.check("warn", f"{text}, and {_APART}: move one of them")
+        start, end = (math.degrees(angle) for angle in self._between)
+        return FULL_TURN.check("warn", f"{text}: it moves from {start:.6g} to {end:.6g} deg")
+
+
+_APART = "it opens between the pairs, which it reaches only when it is put together anew"
 
 
 def made(spec: Any) -> CrankRocker:

@@ -16,7 +16,7 @@ from pydantic import ValidationError
 
 from gearlink.cli.reading.design_file import load, parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
+from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import FILES as KINDS
@@ -65,7 +65,7 @@ def test_schema_is_draft_07(gearlink: Any, kind: str) -> None:
 
 def test_schema_of_all_kinds_is_draft_07(gearlink: Any) -> None:
     schema = gearlink("schema").json
-    assert schema == ALL
+    assert schema == for_editors(ALL)
     Draft7Validator.check_schema(schema)
     assert schema["properties"]["kind"]["enum"] == list(KINDS)
 
@@ -191,6 +191,18 @@ def test_every_key_has_words_and_every_number_a_unit(kind: str) -> None:
     law_numbers = {"scca", "half-scca", "velocity-scca", "quintic", "septic"}
     in_laws = [id(part) for n in properties if set(n.get("properties", ())) & law_numbers for part in nodes(n)]
     assert [node for node in numbers if "unit" not in node and id(node) not in in_laws] == []
+
+
+def test_editors_take_values_with_units(gearlink: Any) -> None:
+    schema = gearlink("schema", "slider-crank").json
+    reads = Draft7Validator(schema).is_valid
+    assert reads({"kind": "slider-crank", "stroke": "4.5 in", "rod": 520, "limits": {"transmission_angle": "0.5 rad"}})
+    assert not reads({"kind": "slider-crank", "stroke": "4.5", "rod": 520})
+    assert not reads({"kind": "slider-crank", "stroke": "in", "rod": 520})
+    assert not reads({"kind": "slider-crank", "stroke": -4.5, "rod": 520})
+    gears = Draft7Validator(gearlink("schema", "gear-pair").json).is_valid
+    assert not gears({"kind": "gear-pair", "module": "12 DP", "teeth": ["24 in", 36]})
+    assert gears({"kind": "gear-pair", "module": "12 DP", "teeth": [24, 36]})
 
 
 def test_unit_ends_the_description() -> None:

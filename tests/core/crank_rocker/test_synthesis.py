@@ -228,3 +228,28 @@ def test_what_is_found_completes_the_file() -> None:
     kind = KINDS["crank-rocker"]
     asked = kind.spec_model().model_validate({**SWING, "swing": {**SWING["swing"], "frame": 120.0}})
     assert kind.design("analyze", asked).linkage == made.linkage
+
+
+@pytest.mark.parametrize(
+    "pairs", [[[-70.0, 140.0], [120.0, -70.0], [-120.0, 100.0]], [[-120.0, -160.0], [-90.0, -50.0], [100.0, -20.0]]]
+)
+def test_pairs_between_which_the_linkage_opens(pairs: list[list[float]]) -> None:
+    """Its lengths are found, but it moves through no two of them without being put together anew."""
+    made = design(FUNCTION, command="synth function", function__pairs=pairs)
+    report = made.report("synth function")
+    assert [(check.code, check.status) for check in report.checks] == [("GL330", "warn")]
+    assert "opens between the pairs" in report.checks[0].message
+    assert made.crank_length > 0.0
+    with pytest.raises(NoSolution) as refused:
+        made.table("motion")
+    assert refused.value.key == "function.pairs"
+
+
+def test_pairs_on_both_sides_of_the_frame_are_gone_through_the_short_way() -> None:
+    pairs = [[340.0, 200.0], [0.0, 211.0], [25.0, 236.0]]
+    made = design(FUNCTION, command="synth function", function__pairs=pairs)
+    shifted = design(FUNCTION, command="synth function", function__pairs=[[-20.0, 200.0], *pairs[1:]])
+    (start, end), (first, last) = made.crank_range, shifted.crank_range
+    assert end - start == pytest.approx(math.radians(45.0), rel=1e-12)
+    assert last - first == pytest.approx(math.radians(45.0), rel=1e-12)
+    assert made.crank_length == pytest.approx(shifted.crank_length, rel=1e-12)
