@@ -58,7 +58,7 @@ TRANSMISSION_ANGLE = Rule(
     ("transmission-angle",),
     (
         *("links", "cylinder.double_crank", "bed.double_crank", "drive", "slider"),
-        *("back_step", "dwell", "speed", "momentary", "gears"),
+        *("back_step", "dwell", "speed", "momentary", "gears", "swing", "function"),
     ),
 )
 TARGET = Rule(

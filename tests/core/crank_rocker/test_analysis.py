@@ -143,3 +143,35 @@ def test_real_speed_and_loads_of_a_range() -> None:
     with pytest.raises(NoSolution) as refused:
         design(GIVEN, command="loads", range=[20.0, 60.0], loads=loads).report("loads")
     assert refused.value.key == "range"
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+def test_input_torque_is_the_power_of_the_masses(assembly: int) -> None:
+    """M = d/dphi of the kinetic energy per w^2, energies by the loop that scipy solves, differences of 1e-3 rad."""
+    masses = {
+        "crank": {"mass": 1.2, "center": [10.0, 4.0], "inertia": 0.001},
+        "coupler": {"mass": 0.8, "center": [55.0, -7.0], "inertia": 0.002},
+        "rocker": {"mass": 2.0, "center": [40.0, 3.0], "inertia": 0.02},
+    }
+    loads = design(GIVEN, command="loads", assembly=assembly, loads={"speed": 120.0, "links": masses})
+    table, w, h = loads.table("torque", samples=24), 4.0 * math.pi, 1e-3
+
+    def centers(phi: float) -> list[tuple[complex, float]]:
+        psi, pin = rocker_at(phi, assembly), cmath.rect(LINKS["crank"], phi)
+        joint = LINKS["frame"] + cmath.rect(LINKS["rocker"], psi)
+        coupler = cmath.phase(joint - pin)
+        frames = {"crank": (0j, phi), "coupler": (pin, coupler), "rocker": (LINKS["frame"], psi)}
+        return [
+            (origin + complex(*masses[name]["center"]) * cmath.rect(1.0, angle), angle)
+            for name, (origin, angle) in frames.items()
+        ]
+
+    def energy(phi: float) -> float:
+        total = 0.0
+        for body, (low, a), (high, b) in zip(masses.values(), centers(phi - h), centers(phi + h), strict=True):
+            turn = math.remainder(b - a, 2.0 * math.pi) / (2 * h)
+            total += 0.5 * body["mass"] * abs((high - low) / (2 * h) * 1e-3) ** 2 + 0.5 * body["inertia"] * turn**2
+        return total
+
+    expected = [(energy(phi + h) - energy(phi - h)) / (2 * h) * w**2 for phi in np.radians(table["input_angle"])]
+    assert table["input_torque"] == pytest.approx(expected, abs=2e-5 * max(map(abs, expected)))
