@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, Field, ValidationInfo, model_validator
+from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import (
@@ -26,17 +26,26 @@ class SliderLimits(LoadLimits):
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, 90 deg less the rod's lean")
 
 
+def _given_or_found(rod: float | None, keys: ValidationInfo) -> float | None:
+    """The rod, which only a time ratio leaves to be found."""
+    if rod is None and keys.data.get("quick_return_ratio", 0.0) is None:
+        raise PydanticKnownError("missing")
+    return rod
+
+
 class SliderCrankSpec(DrivenSpec):
     """An offset slider-crank given by its stroke or its crank."""
 
     kind: Literal["slider-crank"]
     stroke: Length | None = Field(None, description="stroke of the slider")
     crank: Length | None = Field(None, description="crank, in place of stroke; beside it with quick_return_ratio")
-    rod: Length | None = Field(None, description="connecting rod")
-    offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
     quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="slow over fast stroke in time: the offset is found for it, and the rod where it is left out"
     )
+    rod: Annotated[Length | None, AfterValidator(_given_or_found)] = Field(
+        None, validate_default=True, description="connecting rod"
+    )
+    offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
     limits: SliderLimits = SliderLimits.model_construct()
 
     loads: Annotated[Any, Deferred("machines.slider_crank.loads_spec:SliderCrankLoads")] | None = Field(
@@ -46,8 +55,6 @@ class SliderCrankSpec(DrivenSpec):
     @model_validator(mode="after")
     def _of_time_ratio(self) -> SliderCrankSpec:
         if self.quick_return_ratio is None:
-            if self.rod is None:
-                raise PydanticCustomError("GL106", "the key 'rod' is missing", {"key": "rod"})
             return self
         if self.stroke is None:
             message = "quick_return_ratio goes with stroke: give it"

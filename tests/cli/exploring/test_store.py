@@ -31,9 +31,9 @@ STUDY: dict[str, Any] = {
         "stroke": {"values": [280, 310]},
         "name": {"values": ["crank"]},  # a word, which no array form takes: chunks are those of design classes
     },
-    "minimize": {"rod_length": "20 mm", "crank_length": "1 mm"},
+    "minimize": {"half_reach": "20 mm", "crank_length": "1 mm"},
     "maximize": {"quick_return_ratio": 0.01},
-    "define": {"rod_length": "max_stroke / 2"},
+    "define": {"half_reach": "max_stroke / 2"},
     "checks": {"must_pass": "none"},
 }
 
