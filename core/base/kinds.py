@@ -343,6 +343,23 @@ KINDS: dict[str, Kind] = {
             parts=("planet", "ring"),
             rexs=("planet", "ring"),
         ),
+        Kind(
+            "disc-cam",
+            "disc cam with a translating or oscillating follower, roller or flat",
+            "machines.disc_cam",
+            "spec:DiscCamSpec",
+            {
+                "cam": "design:DiscCamDesign",
+                "analyze": "design:DiscCamDesign",
+                "loads": "loads:DiscCamLoads",
+                "tolerance": "",
+            },
+            motion="mechanism:motion",
+            outputs={"follower": ("lift",)},
+            picture="cli.views.figures.disc_cam:draw",
+            scene="cli.views.scenes.disc_cam:build",
+            worked="lift_cam",
+        ),
     )
 }
 

@@ -59,6 +59,35 @@ _CAM = {
     "return_min_radius": Term("r_min2", "mm", "smallest radius of the return cam"),
 }
 
+_DISC_CAM = {
+    "prime_radius": Term("r_p", "mm", "cam axis to roller centre at lift 0, given or the least", "VDI 2142"),
+    "offset": Term("e", "mm", "how far the line of travel passes the cam axis on its right"),
+    "start_angle": Term("Psi_0", "deg", "angle of the follower from the line pivot to cam axis at lift 0"),
+    "lift_max": Term("s_max", "mm", "greatest lift (oscillating: deg)", "VDI 2143"),
+    "lift_max_at": Term("", "deg", "cam angle of the greatest lift"),
+    "jerk_max": Term("j'_max", "mm/rad^3", "greatest third derivative of the lift (oscillating: 1/rad^2)", "VDI 2143"),
+    "jerk_max_at": Term("", "deg", "cam angle of the greatest jerk"),
+    "jerk_min": Term("j'_min", "mm/rad^3", "least third derivative of the lift (oscillating: 1/rad^2)", "VDI 2143"),
+    "jerk_min_at": Term("", "deg", "cam angle of the least jerk"),
+    "follower_velocity_max": Term("v_max", "mm/s", "greatest velocity of the follower (oscillating: rad/s)"),
+    "follower_velocity_min": Term("v_min", "mm/s", "least velocity of the follower (oscillating: rad/s)"),
+    "follower_acceleration_max": Term("a_max", "mm/s^2", "greatest acceleration (oscillating: rad/s^2)"),
+    "follower_acceleration_min": Term("a_min", "mm/s^2", "least acceleration (oscillating: rad/s^2)"),
+    "pressure_angle_rise": Term("alpha_r", "deg", "greatest pressure angle of the rises", "VDI 2142"),
+    "pressure_angle_return": Term("alpha_f", "deg", "greatest pressure angle of the returns", "VDI 2142"),
+    "min_concave_radius": Term("rho_c", "mm", "least radius of the hollow flanks of the profile", "VDI 2142"),
+    "contact_place_max": Term("t_max", "mm", "greatest place of the contact along a flat face", "own derivation"),
+    "contact_place_min": Term("t_min", "mm", "least place of the contact along a flat face", "own derivation"),
+    "face_length": Term("t_max - t_min", "mm", "length of a flat face that the contact takes", "own derivation"),
+    "spring_preload": Term("F_0", "N", "force of the spring at lift 0, given or the least (oscillating: N m)"),
+    "lift_error_worst": Term("", "mm", "greatest sum of the lift's errors (oscillating: deg)", "own derivation"),
+    "lift_error_rss": Term("", "mm", "greatest root of the sum of their squares (oscillating: deg)", "own derivation"),
+    "acceleration_error": Term("", "mm/s^2", "acceleration that the waves of the profile make", "own derivation"),
+    "face_width_needed": Term("b", "mm", "width that keeps the allowed contact pressure", "Hertz, line contact"),
+    "servo_rows": Term("", "1", "rows of the table of a servo drive, both ends"),
+    "servo_error": Term("", "mm", "greatest error of position between the rows (oscillating: deg)", "own derivation"),
+}
+
 _GRIPPER = {
     "handover_speed": Term("v_F", "mm/s", "gripper speed at the handover", "swing-gripper paper 2"),
     "handover_mismatch": Term("dv", "mm/s", "gripper speed less the cylinder's surface speed"),
@@ -328,6 +357,7 @@ TERMS: dict[str, Term] = {
     **_SLIDER_CRANK,
     **_PRESS,
     **_CAM,
+    **_DISC_CAM,
     **_GRIPPER,
     **_SWING,
     **_MOBILITY,

@@ -36,6 +36,7 @@ UNITS = {
     "mm^6",
     "mm/rad",
     "mm/rad^2",
+    "mm/rad^3",
     "rad/s",
     "rad/s^2",
     "1/min",

@@ -13,7 +13,7 @@ from gearlink.core.base.report import Check, Rule, safely_above
 from gearlink.core.base.wording import amount
 from gearlink.core.machines.flatbed_press import codes
 from gearlink.core.machines.flatbed_press.bodies import return_overlap
-from gearlink.core.parts.cams.codes import ACCELERATION_STEP, LARGER, VELOCITY_STEP
+from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CONSTANT_SUM, LARGER, VELOCITY_STEP
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
@@ -227,4 +227,4 @@ def constant_sum(design: FlatbedPress) -> Check:
     text = f"the two pitch radii in contact add up to {distance:.6g} mm within {off:.2g} mm"
     if off > limit:
         text += ": the return cam's roller would pass the cam axis; raise cam.base_radius"
-    return codes.CONSTANT_SUM.check("fail" if off > limit else "pass", text, off, limit, "mm")
+    return CONSTANT_SUM.check("fail" if off > limit else "pass", text, off, limit, "mm")

@@ -4,18 +4,6 @@ from __future__ import annotations
 
 from gearlink.core.base.report import Rule
 
-CONSTANT_SUM = Rule(
-    "GL405",
-    "rollers of the cam pair do not keep their distance",
-    "The pitch radii of main and return cam at opposite rollers do not add up to the distance of the rollers.",
-    "The rigid follower would jam or have play.",
-    "Raise cam.base_radius so that both rollers stay on their own side of the cam axis.",
-    "r1(t) + r2(t) = L_s1s2 within 1e-9 of it, at every degree of cam angle",
-    "TY-460 report 3.6",
-    ("constant-sum",),
-    ("cam.base_radius", "cam"),
-    side="<=",
-)
 SYNC_SPEED = Rule(
     "GL501",
     "bed and cylinder differ in speed at the start of the zone",

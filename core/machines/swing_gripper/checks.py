@@ -279,16 +279,16 @@ def lift_off(design: SwingGripper) -> Check:
     """
     if design.closure.refusal is not None:
         text = design.closure.refusal.message
-        return codes.LIFT_OFF.check("fail", text, None, design.spec.speed, "sheets/h")
+        return cam_codes.LIFT_OFF.check("fail", text, None, design.spec.speed, "sheets/h")
     if design.spec.spring is None:
         rollers = "either roller on its cam" if len(design.cams.discs) > 1 else "the roller on its cam"
         text = f"nothing presses {rollers}: give the spring between the rockers, spring.torque or its levers"
-        return codes.LIFT_OFF.check("warn", text, None, design.spec.speed, "sheets/h")
+        return cam_codes.LIFT_OFF.check("warn", text, None, design.spec.speed, "sheets/h")
     torque, speed, reserve = design.closure.closing_torque, design.closure.lift_off_speed, design.closure.spring.reserve
     names = [cam.name.removesuffix(" cam") for cam in design.cams.discs]
     roller, worst = max(zip(names, design.closure.worst_unloading, strict=True), key=lambda item: item[1].value)
     if speed is None:
-        return codes.LIFT_OFF.check("pass", "no inertia ever unloads a roller", None, None, "sheets/h")
+        return cam_codes.LIFT_OFF.check("pass", "no inertia ever unloads a roller", None, None, "sheets/h")
     left = torque - worst.value
     status: Status = "fail" if left <= reserve else "warn" if speed < 1.1 * design.spec.speed else "pass"
     text = (
@@ -301,4 +301,4 @@ def lift_off(design: SwingGripper) -> Check:
         # of a check that fails the value is tried, and said behind
         remedy = design.closure.spring_remedy(1.21 * worst.value + reserve, tells=status == "warn")
         text += f": {remedy} for a tenth of speed in reserve, or lower the speed"
-    return codes.LIFT_OFF.check(status, text, speed, design.spec.speed, "sheets/h")
+    return cam_codes.LIFT_OFF.check(status, text, speed, design.spec.speed, "sheets/h")

@@ -19,21 +19,6 @@ CONDITIONING = Rule(
     ("limits.condition_number", "links", "pivots"),
     side="<=",
 )
-LIFT_OFF = Rule(
-    "GL406",
-    "roller leaves its cam",
-    "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
-    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
-    "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
-    "presses the two on their cams.",
-    "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
-    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
-    "past the cam axis.",
-    "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
-    "own derivation: virtual work of links and coupler",
-    ("lift-off",),
-    ("spring.torque", "spring", "cam.return_roller", "cam", "speed"),
-)
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",

@@ -72,3 +72,30 @@ JERK_STEP = Rule(
     ("limits.jerk_step", "laws"),
     side="<=",
 )
+CONSTANT_SUM = Rule(
+    "GL405",
+    "rollers of the cam pair do not keep their distance",
+    "The pitch radii of main and return cam at opposite rollers do not add up to the distance of the rollers.",
+    "The rigid follower would jam or have play.",
+    "Raise cam.base_radius so that both rollers stay on their own side of the cam axis.",
+    "r1(t) + r2(t) = L_s1s2 within 1e-9 of it, at every degree of cam angle",
+    "TY-460 report 3.6",
+    ("constant-sum",),
+    ("cam.base_radius", "cam"),
+    side="<=",
+)
+LIFT_OFF = Rule(
+    "GL406",
+    "roller leaves its cam",
+    "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
+    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
+    "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
+    "presses the two on their cams.",
+    "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
+    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
+    "past the cam axis.",
+    "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
+    "own derivation: virtual work of links and coupler",
+    ("lift-off",),
+    ("spring.torque", "spring", "cam.return_roller", "cam", "speed"),
+)

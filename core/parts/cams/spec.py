@@ -25,3 +25,23 @@ class _LawNames:
 
 
 MotionLaw = Annotated[str | dict[str, Any], _LawNames()]
+
+
+class _SegmentLaws(_LawNames):
+    """The same for a segment of a follower's motion, which has laws of its own as well."""
+
+    def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
+        found = super().__get_pydantic_json_schema__(core_schema, handler)
+        blend = {"type": {"const": "blend"}, "laws": {"type": "array"}, "share": {"type": "number"}}
+        shifted = {"type": {"const": "shifted"}, "law": {"type": "string"}, "inflection": {"type": "number"}}
+        own = [
+            {"enum": ["constant-velocity", "polynomial"]},
+            *(
+                {"type": "object", "properties": each, "additionalProperties": False, "required": [*each]}
+                for each in (blend, shifted)
+            ),
+        ]
+        return {"anyOf": [*own, *found["anyOf"]]}
+
+
+SegmentLaw = Annotated[str | dict[str, Any], _SegmentLaws()]

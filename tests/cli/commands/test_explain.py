@@ -135,7 +135,7 @@ def test_check_name_leads_to_its_code(gearlink: Any) -> None:
 
 def test_kinds_of_an_optional_check(gearlink: Any) -> None:
     """The lift-off check is shown only where a file has spring and masses, but the kind has it."""
-    assert gearlink("explain", "lift-off", "--format", "json").json["topics"][0]["kinds"] == "swing-gripper"
+    assert gearlink("explain", "lift-off", "--format", "json").json["topics"][0]["kinds"] == "swing-gripper, disc-cam"
 
 
 def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> None:

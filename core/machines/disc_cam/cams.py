@@ -1,0 +1,303 @@
+"""The cams of a follower: what the file gives, or the least that keep its limits."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.disc_cam.spec import ROLLER_SHARE, OscillatingFlat, OscillatingRoller, TranslatingRoller
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.parts.cams import least_cam, profile
+from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
+from gearlink.core.parts.cams.flat_cam import FlatCam, rocking_face, sliding_face
+from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
+from gearlink.core.parts.cams.profile import RollerPath
+from gearlink.core.parts.cams.size import RockingRoller, smallest_cam_of_rollers
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+
+DEGREE = math.pi / 180.0
+_WIDEST = 50.0  # of the arm and the distance of a rocker: how far a search of its base radius goes
+
+
+class Place(NamedTuple):
+    """How cam and follower stand.
+
+    Fields
+        radius : float [mm] - prime radius (flat: base radius)
+        offset : float [mm] - of a translating roller
+        distance : float [mm] - cam axis to pivot; 0 of a slide
+        start : float [rad] - Psi_0; 0 of a slide
+    """
+
+    radius: float
+    offset: float = 0.0
+    distance: float = 0.0
+    start: float = 0.0
+
+
+class FollowerCams:
+    """Motion, place and cams of a design file."""
+
+    def __init__(self, spec: DiscCamSpec) -> None:
+        self.spec, self.sense = spec, spec.cam.sense
+        self.follower: Any = spec.follower
+
+    @cached_property
+    def motion(self) -> FollowerMotion:
+        """Lift over the cam angle [mm or rad]."""
+        with at_key("motion"):
+            return motion_of(self.spec.motion, self.spec.initial_lift, unit=DEGREE if self.spec.oscillates else 1.0)
+
+    @cached_property
+    def lifts(self) -> tuple[float, float]:
+        """Least and greatest lift [mm or rad]."""
+        course, joints = (lambda phi: self.motion.evaluate(phi, 0)[0]), self.motion.joints
+        low, high = (
+            minimum_over(course, joints=joints, samples=SAMPLES),
+            maximum_over(course, joints=joints, samples=SAMPLES),
+        )
+        return low.value, high.value
+
+    @cached_property
+    def limits(self) -> tuple[float, float, float]:
+        """Greatest pressure angle of rise, return and dwell [rad], of the size where it gives one."""
+        size = self.spec.cam.size
+        given = None if size is None else size.pressure_angle
+        rise, back = given if isinstance(given, list) else (given, given) if given else self.spec.pressure_limits()
+        return math.radians(rise), math.radians(back), math.radians(max(rise, back))
+
+    @property
+    def _least_radius(self) -> float:
+        """Curvature radius that a size keeps [mm]."""
+        size = self.spec.cam.size
+        assert size is not None, "asked for with a size alone"
+        if size.curvature_radius is not None:
+            return size.curvature_radius
+        return float(self.follower.roller_radius) / ROLLER_SHARE
+
+    # Where cam and follower stand
+
+    @cached_property
+    def place(self) -> Place:
+        """The place, given or the least."""
+        if self.spec.oscillates:
+            return self._rocking_place()
+        return self._sliding_place()
+
+    def _sliding_place(self) -> Place:
+        follower, cam = self.follower, self.spec.cam
+        if not isinstance(follower, TranslatingRoller):
+            radius = cam.base_radius or least_cam.flat_base_radius(self.motion, self._least_radius)
+            if not radius > 0.0:
+                message = f"the least base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
+                raise NoSolution(message, key="cam.size")
+            return Place(radius)
+        if cam.prime_radius is not None:
+            return Place(cam.prime_radius, float(follower.offset))
+        lines = least_cam.wedge(self.motion, self.limits, self.sense)
+        offset = least_cam.nearest(lines).offset if follower.offset == "best" else float(follower.offset)
+        height = least_cam.height_at(lines, offset)
+        height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius, offset, self.sense))
+        if height + self.lifts[0] <= 0.0:
+            message = "these limits ask for no cam at all, the motion being so slow: give cam.prime_radius"
+            raise NoSolution(message, key="cam.size")
+        return Place(math.hypot(offset, height), offset)
+
+    def _rocking_place(self) -> Place:
+        follower, cam = self.follower, self.spec.cam
+        if isinstance(follower, OscillatingFlat):
+            return self._rocking_face_place(follower)
+        assert isinstance(follower, OscillatingRoller), "no other follower rocks"
+        if follower.center_distance is None:
+            return self._found_pivot(follower)
+        if cam.prime_radius is not None:
+            return self._triangle(follower.arm, follower.center_distance, cam.prime_radius)
+        rocker = least_cam.Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
+        low, high = rocker.start_angles(self.limits)
+        start = least_cam.first_from_which(lambda psi: self._room(psi, follower.center_distance), low, high, "cam.size")
+        return Place(rocker.prime_radius(start), 0.0, follower.center_distance, start)
+
+    def _triangle(self, arm: float, distance: float, radius: float) -> Place:
+        share = (distance**2 + arm**2 - radius**2) / (2.0 * distance * arm)
+        if not -1.0 < share < 1.0:
+            message = (
+                f"arm {arm:g} mm, center_distance {distance:g} mm and prime_radius {radius:g} mm make no triangle: "
+                f"take a prime_radius between {abs(distance - arm):.6g} and {distance + arm:.6g} mm"
+            )
+            raise NoSolution(message, key="cam.prime_radius")
+        return Place(radius, 0.0, distance, math.acos(share))
+
+    def _room(self, start: float, distance: float | None) -> float:
+        """Least convex curvature radius less what is asked for [mm], of a start angle."""
+        assert distance is not None
+        cam = DiscCam(
+            "main cam", self._rocking_path(Place(0.0, 0.0, distance, start)), self.sense, 0.0, self.motion.joints
+        )
+        return cam.min_curvature_radius.value - self._least_radius
+
+    def _found_pivot(self, follower: OscillatingRoller) -> Place:
+        """The pivot of the smallest cam, all limits of the pressure angle taken as the lesser of the strokes'."""
+
+        def law(phi: Reals) -> tuple[Reals, Reals]:
+            s, s1 = self.motion.evaluate(phi, 1)
+            return -follower.side * s, -follower.side * s1
+
+        roller = RockingRoller(law, 0j, follower.arm, follower.side)
+        with at_key("cam.size"):
+            center = smallest_cam_of_rollers([roller], min(self.limits), sense=self.sense, joints=self.motion.joints)
+        at_zero = follower.arm * 1.0 + 0j
+
+        def placed(share: float) -> Place:
+            moved = at_zero + share * (center - at_zero)
+            return Place(abs(moved - at_zero), 0.0, abs(moved), abs(cmath.phase(moved / at_zero)))
+
+        def room(share: float) -> float:
+            place = placed(share)
+            return self._room(place.start, place.distance)
+
+        return placed(least_cam.first_from_which(room, 1.0, _WIDEST, "cam.size"))
+
+    def _rocking_face_place(self, follower: OscillatingFlat) -> Place:
+        distance, offset = follower.center_distance, follower.face_offset
+        low, high = self.lifts
+        given = self.spec.cam.base_radius
+        if given is None:
+            start = least_cam.first_from_which(
+                lambda psi: self._face_room(psi, follower),
+                max(1e-9, 1e-9 - low),
+                0.5 * math.pi - high - 1e-9,
+                "cam.size",
+            )
+            return Place(offset + distance * math.sin(start), 0.0, distance, start)
+        share = (given - offset) / distance
+        if not 0.0 < share < 1.0:
+            message = f"base_radius {given:g} mm stands between {offset:g} and {offset + distance:g} mm here"
+            raise NoSolution(message, key="cam.base_radius")
+        return Place(given, 0.0, distance, math.asin(share))
+
+    def _face_room(self, start: float, follower: OscillatingFlat) -> float:
+        return (
+            self._flat(Place(0.0, 0.0, follower.center_distance, start)).min_curvature_radius.value - self._least_radius
+        )
+
+    # The cams
+
+    @property
+    def direction(self) -> complex:
+        """u: direction of the travel."""
+        return cmath.exp(1j * math.radians(self.follower.direction))
+
+    @cached_property
+    def start_height(self) -> float:
+        """y_0 of a translating roller [mm]."""
+        return math.sqrt((self.place.radius - self.place.offset) * (self.place.radius + self.place.offset))
+
+    @cached_property
+    def pivot(self) -> complex:
+        """The pivot of a rocker [mm]."""
+        return self.place.distance * cmath.exp(1j * math.radians(self.follower.pivot_direction))
+
+    def arm_angle(self, place: Place, phi: Reals, order: int, side: int = 1) -> list[Reals]:
+        """psi, direction of the arm from the pivot, and its derivatives [rad]."""
+        follower = self.follower
+        s, *rates = self.motion.evaluate(phi, order, side=side)
+        start = math.radians(follower.pivot_direction) + math.pi
+        return [start - follower.side * (place.start + s), *(-follower.side * rate for rate in rates)]
+
+    def _rocking_path(self, place: Place, arm: float = 0.0, ahead: float = 0.0) -> Callable[[Reals, int], RollerPath]:
+        follower = self.follower
+        pivot = place.distance * cmath.exp(1j * math.radians(follower.pivot_direction))
+        length = arm or follower.arm
+
+        def path(phi: Reals, order: int) -> RollerPath:
+            psi, *rates = self.arm_angle(place, phi, max(order, 1))
+            return profile.oscillating(pivot, length, psi + ahead, *rates[:2])
+
+        return path
+
+    def _sliding_path(self, back: float = 0.0) -> Callable[[Reals, int], RollerPath]:
+        height, offset, u = self.start_height - back, self.place.offset, self.direction
+
+        def path(phi: Reals, order: int) -> RollerPath:
+            s, *rates = self.motion.evaluate(phi, max(order, 1))
+            return profile.translating(height + s, *rates[:2], direction=u, offset=offset)
+
+        return path
+
+    def _flat(self, place: Place) -> FlatCam:
+        follower = self.follower
+        if isinstance(follower, OscillatingFlat):
+            direction = math.radians(follower.pivot_direction)
+            where = (place.start, place.distance, direction, follower.face_offset, follower.side, self.sense)
+            touch = rocking_face(self.motion, *where)
+        else:
+            touch = sliding_face(self.motion, place.radius, self.direction, self.sense)
+        return FlatCam("cam", touch, self.sense, self.motion.joints)
+
+    @cached_property
+    def flat(self) -> FlatCam:
+        """The cam under a flat face."""
+        return self._flat(self.place)
+
+    @cached_property
+    def main(self) -> DiscCam:
+        """The cam of the roller."""
+        path = self._rocking_path(self.place) if self.spec.oscillates else self._sliding_path()
+        key = "cam" if self.spec.cam.prime_radius is None else "cam.prime_radius"
+        radius = self.follower.roller_radius
+        return DiscCam("main cam", path, self.sense, radius, self.motion.joints, key)
+
+    @cached_property
+    def back(self) -> DiscCam | None:
+        """The cam of the return roller; None without one."""
+        roller = self.spec.return_roller
+        if roller is None:
+            return None
+        if self.spec.oscillates:
+            path = self._rocking_path(self.place, roller.arm or 0.0, math.radians(roller.angle or 0.0))
+        else:
+            path = self._sliding_path(self.roller_distance)
+        return DiscCam("return cam", path, self.sense, roller.radius, self.motion.joints, "return_roller")
+
+    @cached_property
+    def roller_distance(self) -> float:
+        """Distance of both rollers of a slide [mm]; by default that of cams which reach equally far."""
+        roller = self.spec.return_roller
+        assert roller is not None
+        return roller.distance or 2.0 * self.start_height + sum(self.lifts)
+
+    @cached_property
+    def outer_wall(self) -> DiscCam:
+        """The outer wall of a groove, as a roller of negative radius leaves it."""
+        main = self.main
+        return DiscCam("outer wall", main.path, main.sense, -main.roller_radius, main.joints, main.key)
+
+    @cached_property
+    def hollow(self) -> tuple[float, float] | None:
+        """Least hollow radius of the main cam's profile [mm] and its cam angle [rad]; None where it is convex."""
+        return self.hollow_of(self.main)
+
+    def hollow_of(self, cam: DiscCam) -> tuple[float, float] | None:
+        """Least hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad]."""
+        lowest = minimum_over(cam.curvature, joints=self.motion.joints, samples=SAMPLES)
+        if lowest.value >= -1e-12 / self.place.radius:
+            return None
+        return cam.roller_radius - 1.0 / lowest.value, lowest.place
+
+    def most_in_strokes(self, sense: int) -> float | None:
+        """Greatest magnitude of the pressure angle in rises (+1), returns (-1) or dwells (0) [rad]."""
+        cams = (self.flat,) if self.spec.is_flat else tuple(c for c in (self.main, self.back) if c)
+        found = [
+            least_cam.most_in_strokes(self.motion, lambda phi, cam=cam: np.abs(cam.pressure_angle(phi)), sense)  # type: ignore[misc]
+            for cam in cams
+        ]
+        return max((value for value in found if value is not None), default=None)

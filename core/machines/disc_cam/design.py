@@ -1,0 +1,363 @@
+"""A disc cam with its follower: motion, size, profile, limits, making."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Outline, in_unit, placed
+from gearlink.core.base.errors import MissingSection
+from gearlink.core.base.nomenclature import term
+from gearlink.core.base.report import Quantity, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.disc_cam import checks
+from gearlink.core.numerics.motion_extremes import WithExtremes
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.disc_cam.cams import FollowerCams
+    from gearlink.core.machines.disc_cam.closing import Closing
+    from gearlink.core.machines.disc_cam.making import Making
+    from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.flat_cam import FlatCam
+
+_CURVES = ("lift", "velocity", "acceleration", "jerk")
+_EXTREMES = (
+    "lift_max",
+    "lift_max_at",
+    "velocity_max",
+    "velocity_max_at",
+    "velocity_min",
+    "velocity_min_at",
+    "acceleration_max",
+    "acceleration_max_at",
+    "acceleration_min",
+    "acceleration_min_at",
+    "jerk_max",
+    "jerk_max_at",
+    "jerk_min",
+    "jerk_min_at",
+)
+_SPEEDS = tuple(f"follower_{curve}_{side}" for curve in ("velocity", "acceleration") for side in ("max", "min"))
+_QUANTITIES = (
+    "prime_radius",
+    "base_radius",
+    "offset",
+    "start_angle",
+    "center_distance",
+    *_EXTREMES,
+    *_SPEEDS,
+    "max_pressure_angle",
+    "pressure_angle_rise",
+    "pressure_angle_return",
+    "min_curvature_radius",
+    "min_concave_radius",
+    "max_radius",
+    "min_radius",
+    "contact_place_max",
+    "contact_place_min",
+    "face_length",
+    "roller_center_distance",
+    "spring_preload",
+    "lift_off_speed",
+    "lift_error_worst",
+    "lift_error_rss",
+    "acceleration_error",
+    "face_width_needed",
+    "servo_rows",
+    "servo_error",
+)
+_ROCKING: dict[str, str] = {
+    "lift_max": "deg",
+    **{f"velocity_{side}": "1" for side in ("max", "min")},
+    **{f"acceleration_{side}": "1/rad" for side in ("max", "min")},
+    **{f"jerk_{side}": "1/rad^2" for side in ("max", "min")},
+    **{f"follower_velocity_{side}": "rad/s" for side in ("max", "min")},
+    **{f"follower_acceleration_{side}": "rad/s^2" for side in ("max", "min")},
+    "spring_preload": "N m",
+    "lift_error_worst": "deg",
+    "lift_error_rss": "deg",
+    "acceleration_error": "rad/s^2",
+    "servo_error": "deg",
+}
+_CHECKS = (
+    "pressure-angle",
+    "cam-undercut",
+    "velocity-step",
+    "acceleration-step",
+    "jerk-step",
+    "shaft-clearance",
+    "constant-sum",
+    "lift-off",
+    "face-length",
+    "outer-wall",
+    "cutter-radius",
+)
+_OUTLINE = Outline(_QUANTITIES, _CHECKS, ("follower", "main_cam", "return_cam"))
+
+
+class DiscCamDesign(WithExtremes, Design):
+    """The cam of a design file; cam axis at 0, the cam's frame is the machine's at cam angle 0."""
+
+    kind = "disc-cam"
+    spec: DiscCamSpec
+    outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
+    extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo")
+    extreme_names = _EXTREMES
+    advises = False
+
+    @cached_property
+    def cams(self) -> FollowerCams:
+        """Motion, place and cams."""
+        from gearlink.core.machines.disc_cam.cams import FollowerCams
+
+        return FollowerCams(self.spec)
+
+    @cached_property
+    def closing(self) -> Closing:
+        """What holds the follower on the cam."""
+        from gearlink.core.machines.disc_cam.closing import Closing
+
+        return Closing(self.spec, self.cams)
+
+    @cached_property
+    def making(self) -> Making:
+        """Cutter path, radii, errors and servo table."""
+        from gearlink.core.machines.disc_cam.making import Making
+
+        return Making(self.spec, self.cams)
+
+    def outline(self, command: str) -> Outline:
+        """Without the table of a return cam where there is none."""
+        found = super().outline(command)
+        if self.spec.return_roller is None:
+            found = found._replace(tables=tuple(name for name in found.tables if name != "return_cam"))
+        return found
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Those of an oscillating follower in its own units, the speed of lift-off in that of the cam."""
+        unit = _ROCKING.get(name) if self.spec.oscillates else None
+        unit = "1/min" if name == "lift_off_speed" else unit
+        if unit is None:
+            return super().quantity(name)
+        value, entry = self.raw(name), term(name)
+        return None if value is None else Quantity(name, in_unit(value, unit), unit, entry.symbol, entry.words)
+
+    # Sizes
+
+    @property
+    def prime_radius(self) -> float | None:
+        """Cam axis to roller centre at lift 0 [mm]; None of a flat face."""
+        return None if self.spec.is_flat else self.cams.place.radius
+
+    @property
+    def base_radius(self) -> float:
+        """Cam axis to the surface at lift 0 [mm]."""
+        return self.cams.place.radius - getattr(self.spec.follower, "roller_radius", 0.0)
+
+    @property
+    def offset(self) -> float | None:
+        """Offset of a translating roller [mm]."""
+        return self.cams.place.offset if self.spec.follower.type == "translating-roller" else None
+
+    @property
+    def start_angle(self) -> float | None:
+        """Angle of a rocker at lift 0 from the line pivot -> cam axis [rad]."""
+        return self.cams.place.start if self.spec.oscillates else None
+
+    @property
+    def center_distance(self) -> float | None:
+        """Cam axis to pivot [mm]."""
+        return self.cams.place.distance if self.spec.oscillates else None
+
+    @property
+    def roller_center_distance(self) -> float | None:
+        """Distance of both rollers of a slide [mm]."""
+        return None if self.spec.return_roller is None or self.spec.oscillates else self.cams.roller_distance
+
+    # Motion
+
+    @cached_property
+    def motion_extremes(self) -> Mapping[str, float]:
+        """Extremes of the lift and its derivatives."""
+        from gearlink.core.numerics.motion_extremes import extremes
+
+        motion = self.cams.motion
+        curves = {
+            name: (lambda phi, order=order: motion.evaluate(phi, order)[order]) for order, name in enumerate(_CURVES)
+        }
+        return extremes(curves, 0.0, 2.0 * math.pi, joints=motion.joints)
+
+    @property
+    def speed(self) -> float | None:
+        """Speed of the cam [rad/s]."""
+        return None if self.spec.speed is None else self.spec.speed * math.pi / 30.0
+
+    def _in_time(self, name: str, order: int) -> float | None:
+        return None if self.speed is None else self.motion_extremes[name] * self.speed**order
+
+    @property
+    def follower_velocity_max(self) -> float | None:
+        """Greatest velocity of the follower [mm/s or rad/s]."""
+        return self._in_time("velocity_max", 1)
+
+    @property
+    def follower_velocity_min(self) -> float | None:
+        """Least velocity of the follower."""
+        return self._in_time("velocity_min", 1)
+
+    @property
+    def follower_acceleration_max(self) -> float | None:
+        """Greatest acceleration of the follower [mm/s^2 or rad/s^2]."""
+        return self._in_time("acceleration_max", 2)
+
+    @property
+    def follower_acceleration_min(self) -> float | None:
+        """Least acceleration of the follower."""
+        return self._in_time("acceleration_min", 2)
+
+    # Profile
+
+    @property
+    def profiles(self) -> tuple[DiscCam | FlatCam, ...]:
+        """Main cam, and the return cam where there is one."""
+        if self.spec.is_flat:
+            return (self.cams.flat,)
+        return (self.cams.main,) if self.cams.back is None else (self.cams.main, self.cams.back)
+
+    @staticmethod
+    def _one_or_both(values: list[Any]) -> Any:
+        return values[0] if len(values) == 1 else values
+
+    @property
+    def max_pressure_angle(self) -> Any:
+        """Greatest pressure angle [rad]."""
+        return self._one_or_both([cam.max_pressure_angle.value for cam in self.profiles])
+
+    @cached_property
+    def pressure_angle_rise(self) -> float | None:
+        """Greatest pressure angle of the rises [rad]."""
+        return self.cams.most_in_strokes(1)
+
+    @cached_property
+    def pressure_angle_return(self) -> float | None:
+        """Greatest pressure angle of the returns [rad]."""
+        return self.cams.most_in_strokes(-1)
+
+    @property
+    def min_curvature_radius(self) -> Any:
+        """Least convex radius of the pitch curve (flat: of the profile) [mm]."""
+        return self._one_or_both([cam.min_curvature_radius.value for cam in self.profiles])
+
+    @property
+    def min_concave_radius(self) -> Any:
+        """Least radius of the hollow flanks of the profile [mm]; None where there are none."""
+        if self.spec.is_flat:
+            return None
+        found = [self.cams.hollow_of(cam) for cam in (self.cams.main, self.cams.back) if cam is not None]
+        values = [None if each is None else each[0] for each in found]
+        return None if all(each is None for each in values) else self._one_or_both(values)
+
+    @property
+    def max_radius(self) -> Any:
+        """Largest radius of the profile [mm]; of a groove [inner, outer wall]."""
+        return self._one_or_both([cam.max_radius for cam in self.walls])
+
+    @property
+    def min_radius(self) -> Any:
+        """Smallest radius of the profile [mm]; of a groove [inner, outer wall]."""
+        return self._one_or_both([cam.min_radius for cam in self.walls])
+
+    @property
+    def walls(self) -> tuple[DiscCam | FlatCam, ...]:
+        """The profiles that are cut."""
+        return (self.cams.main, self.cams.outer_wall) if self.spec.closure == "groove" else self.profiles
+
+    def _contact_place(self, k: int) -> float | None:
+        return self.cams.flat.contact_places[k] if self.spec.is_flat else None
+
+    @property
+    def contact_place_max(self) -> float | None:
+        """Greatest place of the contact along a flat face [mm]."""
+        return self._contact_place(1)
+
+    @property
+    def contact_place_min(self) -> float | None:
+        """Least place of the contact along a flat face [mm]."""
+        return self._contact_place(0)
+
+    @property
+    def face_length(self) -> float | None:
+        """Length of the flat face that the contact takes [mm]."""
+        if not self.spec.is_flat:
+            return None
+        low, high = self.cams.flat.contact_places
+        return high - low
+
+    spring_preload: float | None = placed("closing.preload")
+    lift_off_speed: float | None = placed("closing.lift_off_speed")
+    face_width_needed: float | None = placed("closing.face_width")
+    lift_error_worst: float | None = placed("making.lift_error_worst")
+    lift_error_rss: float | None = placed("making.lift_error_rss")
+    acceleration_error: float | None = placed("making.acceleration_error")
+    servo_rows: int | None = placed("making.servo_rows")
+    servo_error: float | None = placed("making.servo_error")
+
+    def require_table(self, name: str, /) -> None:
+        """Refuse a table whose key the file does not have."""
+        spec = self.spec
+        needs = {
+            "cutter": (spec.cam.cutter_radius is not None, "cam", "cam.cutter_radius"),
+            "errors": (spec.errors is not None, "errors", "errors: {profile: 0.01}"),
+            "servo": (spec.servo is not None, "servo", "servo: {rows: 73}"),
+            "return_cam": (spec.return_roller is not None, "closure", "closure: conjugate and return_roller"),
+            "outer_wall": (spec.closure == "groove", "closure", "closure: groove"),
+        }
+        given, key, words = needs.get(name, (True, "", ""))
+        if not given:
+            raise MissingSection(f"the table {name} needs {words}", key=key)
+
+    def table_follower(self, samples: int | None = None) -> Table:
+        """Lift and its derivatives over the cam angle."""
+        return self.making.follower_table(samples)
+
+    def table_main_cam(self, samples: int | None = None) -> Table:
+        """The main cam; of a groove its inner wall."""
+        return self.profiles[0].table("main_cam", samples)
+
+    def table_return_cam(self, samples: int | None = None) -> Table:
+        """The return cam."""
+        self.require_table("return_cam")
+        return self.profiles[1].table("return_cam", samples)
+
+    def table_outer_wall(self, samples: int | None = None) -> Table:
+        """The outer wall of a groove."""
+        self.require_table("outer_wall")
+        return self.making.wall_table(samples)
+
+    def table_cutter(self, samples: int | None = None) -> Table:
+        """The cutter's centre over the cam angle."""
+        self.require_table("cutter")
+        return self.making.cutter_table(samples)
+
+    def table_radius(self, samples: int | None = None) -> Table:
+        """Radius of the profile over its polar angle."""
+        return self.making.radius_table(samples)
+
+    def table_errors(self, samples: int | None = None) -> Table:
+        """Errors of the lift over the cam angle."""
+        self.require_table("errors")
+        return self.making.errors_table(samples)
+
+    def table_servo(self, _samples: int | None = None) -> Table:
+        """The table of a drive in place of the cam."""
+        self.require_table("servo")
+        return self.making.servo_table()
+
+    check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
+    check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
+    check_jerk_step, check_shaft_clearance = checks.jerk_step, checks.shaft_clearance
+    check_constant_sum, check_lift_off = checks.constant_sum, checks.lift_off
+    check_face_length, check_outer_wall = checks.face_length, checks.outer_wall
+    check_cutter_radius = checks.cutter_radius

@@ -1,0 +1,229 @@
+"""The loads of a disc cam: cam and follower, which a spring, a groove or a second roller holds on it."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import placed
+from gearlink.core.base.errors import MissingSection
+from gearlink.core.base.report import Quantity
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.disc_cam.design import DiscCamDesign
+from gearlink.core.machines.disc_cam.mechanism import roller_on
+from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
+from gearlink.core.studies.loads.cams.contact import positive_drive
+from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.design import loads_outline
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.disc_cam.closing import Closing
+    from gearlink.core.machines.disc_cam.loads_spec import DiscCamLoads as Section
+    from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+    from gearlink.core.mechanism.dynamics import Force, Mass, Torque
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.studies.loads.machine import Machine
+
+_SHOWN = (*CONTACT, "spring_preload", "lift_off_speed", "face_width_needed")
+_OF_ROLLERS = ("roller_speed_max", "roller_acceleration_max", "traction_needed", "entrainment_speed_max")
+_EACH = (*_OF_ROLLERS, "contact_force_max", "contact_force_min", "hertz_pressure_max", "shear_depth")
+
+
+class DiscCamLoads(CamLoadsDesign):
+    """Input angle: that of the cam; O is its bearing, A the pivot of a rocker."""
+
+    kind = "disc-cam"
+    spec: DiscCamSpec
+    section: Section
+    section_example = "roller: {width: 20}"
+    links, output = ("cam", "follower"), "follower"
+    pins, meshes = ("O", "A"), ()
+    stands = True
+    outlines = loads_outline(pins, meshes, _SHOWN, CAM_CHECKS)
+
+    @cached_property
+    def design(self) -> DiscCamDesign:
+        """The geometry."""
+        return DiscCamDesign(self.spec)
+
+    @property
+    def closing(self) -> Closing:
+        """Spring, preload and lift-off."""
+        return self.design.closing
+
+    @property
+    def sliding(self) -> tuple[str, ...]:  # type: ignore[override]
+        """A follower that slides."""
+        return () if self.spec.oscillates else ("follower",)
+
+    @property
+    def given_speed(self) -> float:
+        """Speed of the cam [1/min]."""
+        if self.spec.speed is None:
+            raise MissingSection("`loads` needs the speed of the cam: give speed", key="speed")
+        return self.spec.speed
+
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """Those of the follower; a rocker's centre of mass is its pivot."""
+        from gearlink.core.mechanism.dynamics import Mass
+
+        mass = float(getattr(self.spec.follower, "mass", None) or 0.0)
+        inertia = float(getattr(self.spec.follower, "inertia", None) or 0.0)
+        return {"follower": Mass(mass, inertia)} if mass or inertia else {}
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything, with the spring."""
+        from dataclasses import replace
+
+        from gearlink.core.studies.loads.machine import Machine
+        from gearlink.core.studies.loads.sources import Sources, gravity_of
+
+        sources = Sources(self.section, self.own_links, self.sliding)
+        if not self.masses and not sources.any and self.spec.spring is None:
+            message = "without a mass, a spring or a force there is no load: give follower.mass or spring"
+            raise MissingSection(message, key="follower")
+        made = Machine(
+            self.moving, self.masses, sources, gravity_of(self.section), self.speed, self.turns, self.friction,
+            tuple(self.own_joints),
+        )  # fmt: skip
+        return replace(made, more=self._spring)
+
+    def _spring(self, mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:
+        """The spring presses the follower on the cam."""
+        import numpy as np
+
+        from gearlink.core.mechanism.dynamics import Force, Torque
+        from gearlink.core.mechanism.joints import NEWTON_METER
+
+        if self.spec.spring is None:
+            return []
+        lift = self.design.cams.motion.evaluate(phi, 0)[0]
+        press = (self.closing.preload or 0.0) + self.closing.rate * lift
+        if self.spec.oscillates:
+            side = float(getattr(self.spec.follower, "side", 1))
+            return [Torque("follower", np.asarray(side * press * NEWTON_METER))]
+        push = np.asarray(-press * self.design.cams.direction, dtype=np.complex128)
+        return [Force("follower", push, mechanism.links["follower"].origin)]
+
+    @property
+    def own_joints(self) -> list[float]:
+        """Cam angles at which the law changes [rad]."""
+        return list(self.design.cams.motion.joints)
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwells."""
+        found: list[tuple[float, float]] = []
+        for stroke in self.design.cams.motion.strokes:
+            if stroke.sense == 0:
+                found.append((stroke.start, stroke.end - stroke.start))
+        if len(found) > 1 and found[0][0] == 0.0 and math.isclose(sum(found[-1]), 2.0 * math.pi):
+            (_, first), (start, last) = found[0], found.pop()
+            found[0] = (start, first + last)
+        return found
+
+    @property
+    def transmission_angle(self) -> float | None:
+        """None: the pressure angle of the cam stands in its place."""
+        return None
+
+    # Rollers, and the flat face
+
+    @cached_property
+    def own_rollers(self) -> tuple[str, ...]:
+        """Main, and return where the file has one."""
+        return ("main",) if self.spec.return_roller is None else ("main", "return")
+
+    @property
+    def on_two_sides(self) -> bool:  # type: ignore[override]
+        """A groove or a conjugate pair takes the force of either sense."""
+        return self.spec.closure != "spring"
+
+    def _cam(self, name: str) -> DiscCam:
+        back = self.design.cams.back
+        return back if name == "return" and back is not None else self.design.cams.main
+
+    def roller_at(self, name: str, phi: Reals) -> Any:
+        """A roller from the cam axis; a flat face gives what its contact has."""
+        if self.spec.is_flat:
+            return FaceOnCam(self, phi)
+        return roller_on(self._cam(name), phi)
+
+    def side_force(self, phi: Reals) -> Reals:
+        """Force along the normal of the main roller [N], positive on the main cam."""
+        found: Reals = self.machine.reactions(phi).unknowns["main"][0]
+        return found
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Out of the reactions; of a positive drive what the preload leaves on each roller."""
+        import numpy as np
+
+        found = self.side_force(phi)
+        if self.spec.closure == "spring":
+            return found
+        if self.spec.closure == "groove":
+            return np.abs(found)
+        preload = 0.0 if self.section.roller is None else self.section.roller.preload
+        one, other = positive_drive(found, preload, (1.0, 1.0))
+        return one if name == "main" else other
+
+    @property
+    def preload_needed(self) -> float | None:
+        """Least preload that keeps both rollers of a conjugate pair on their cams [N]: half the greatest force."""
+        if self.spec.closure != "conjugate":
+            return None
+        return 0.5 * max(abs(self.extreme(self.side_force, greatest).value) for greatest in (True, False))
+
+    def cam_torque(self, phi: Reals) -> Reals:
+        """Torque that drives the cam about its axis, counter-clockwise [N m]: eps T s'."""
+        cams = self.design.cams
+        return cams.sense * self.closing.force(phi) * cams.motion.evaluate(phi, 1)[1] * self._lever
+
+    @property
+    def _lever(self) -> float:
+        return 1.0 if self.spec.oscillates else 1e-3
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """That of the file."""
+        import numpy as np
+
+        return np.full_like(phi, self.speed)
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """The cam angle is the input's."""
+        import numpy as np
+
+        return np.degrees(phi)
+
+    @property
+    def closing_remedy(self) -> str:
+        """What presses the follower harder."""
+        return "raise spring.preload" if self.spec.spring is not None else "give spring: {preload: N, rate: N/mm}"
+
+    spring_preload: float | None = placed("closing.preload")
+    lift_off_speed: float | None = placed("closing.lift_off_speed")
+    face_width_needed: float | None = placed("closing.face_width")
+
+    def raw(self, name: str) -> Any:
+        """Single numbers with one roller; a face has no roller."""
+        if self.spec.is_flat and name in _OF_ROLLERS:
+            return None
+        found = super().raw(name)
+        return found[0] if name in _EACH and isinstance(found, list) and len(found) == 1 else found
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Spring and lift-off in the units of the geometry."""
+        if name in ("spring_preload", "lift_off_speed"):
+            return self.design.quantity(name)
+        return super().quantity(name)
+
+
+class FaceOnCam:
+    """The contact of a flat face, in the words of a roller."""
+
+    def __init__(self, loads: DiscCamLoads, phi: Reals) -> None:
+        self.relative_radius = loads.design.cams.flat.touch(phi).radius

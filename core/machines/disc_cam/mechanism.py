@@ -1,0 +1,104 @@
+"""The mechanism of a disc cam: cam, follower, and the contacts between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Course, Input, Motion, Output
+from gearlink.core.mechanism.rates import Point, Turn, fixed, standing, steady
+from gearlink.core.studies.loads.cams.contact import RollerOnCam
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.disc_cam.cams import FollowerCams
+    from gearlink.core.machines.disc_cam.design import DiscCamDesign
+    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+
+
+def motion(design: DiscCamDesign) -> Motion:
+    """Links and joints over the cam angle, the cam axis at 0."""
+    cams, sense = design.cams, float(design.spec.cam.sense)
+    _ = cams.place
+
+    def make(phi: Reals, order: int, side: int) -> Mechanism:
+        axis = fixed(0j, phi, order=order)
+        follower = _rocker(cams, phi, order, side) if design.spec.oscillates else _slide(cams, phi, order, side)
+        links = {"cam": Link(axis, steady(phi, sense, order=order)), "follower": follower}
+        joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value), _guided(cams, follower)]
+        made = Mechanism(
+            links, joints, "cam", sense, travel={} if design.spec.oscillates else {"follower": cams.direction}
+        )
+        joints += _contacts(cams, phi, made)
+        return made
+
+    return Motion(
+        make, Input("cam_angle", joints=cams.motion.joints), (Output("Follower", lift(design), _phases(cams)),)
+    )
+
+
+def lift(design: DiscCamDesign) -> Course:
+    """The lift of the follower [mm or rad]."""
+    cams = design.cams
+    if design.spec.oscillates:
+        start = float(cams.arm_angle(cams.place, np.zeros(1), 0)[0][0]) + cams.follower.side * float(
+            cams.motion.evaluate(np.zeros(1), 0)[0][0]
+        )
+        sense = -float(cams.follower.side)
+        return turned("follower", sense=sense).less(sense * start)
+    start = cams.place.radius if design.spec.is_flat else cams.start_height
+    return coordinate("follower", along=cams.direction).less(start)
+
+
+def _slide(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
+    """Origin at the roller's centre, or where the line of travel meets the face."""
+    u, flat = cams.direction, cams.spec.is_flat
+    start = cams.place.radius if flat else cams.start_height
+    across = 0.0 if flat else -1j * cams.place.offset
+    value, *rates = cams.motion.evaluate(phi, order, side=side)
+    place = [np.asarray(u * each, dtype=np.complex128) for each in (start + value + across, *rates)]
+    return Link(Point(*place), standing(0.0, phi, order=order))
+
+
+def _rocker(cams: FollowerCams, phi: Reals, order: int, side: int) -> Link:
+    """Origin at the pivot, x to the roller or along the face."""
+    turn = Turn(*cams.arm_angle(cams.place, phi, order, side))
+    points = {"A": 0.0} if cams.spec.is_flat else {"A": 0.0, "B": float(cams.follower.arm)}
+    return Link(fixed(cams.pivot, phi, order=order), turn, points)
+
+
+def _guided(cams: FollowerCams, follower: Link) -> Connection:
+    at = follower.origin.value
+    return (
+        Pin("A", FRAME, "follower", at)
+        if cams.spec.oscillates
+        else Guide("guide", FRAME, "follower", at, cams.direction)
+    )
+
+
+def _contacts(cams: FollowerCams, phi: Reals, made: Mechanism) -> list[Contact]:
+    """The contact that carries; of a conjugate pair one that pushes either way, of a groove one of both walls."""
+    if cams.spec.is_flat:
+        touch = cams.flat.touch(phi)
+        return [Contact("main", "cam", "follower", touch.point, touch.normal)]
+    roller = made.once("roller main", lambda: roller_on(cams.main, phi))
+    back: tuple[Points, Points] | None = None
+    if cams.back is not None:
+        other = made.once("roller return", lambda: roller_on(cams.back, phi))  # type: ignore[arg-type]
+        back = other.position, -other.normal
+    return [Contact("main", "cam", "follower", roller.position, roller.normal, back, roller.curvature)]
+
+
+def roller_on(cam: DiscCam, phi: Reals) -> RollerOnCam:
+    """A roller from the cam axis."""
+    path = cam.path(phi, 2)
+    return RollerOnCam(path.position, path.first, path.second, cam.sense, cam.roller_radius)
+
+
+def _phases(cams: FollowerCams) -> tuple[tuple[str, float, float], ...]:
+    """The segments with their laws."""
+    return tuple((piece.name, piece.start, piece.end) for piece in cams.motion.pieces)

@@ -1,0 +1,279 @@
+"""The design file of a disc cam."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    Angle,
+    Assembly,
+    Deferred,
+    Distance,
+    Entries,
+    Length,
+    LoadLimits,
+    SignedLength,
+    Spec,
+    Speed,
+    TolerancedSpec,
+)
+from gearlink.core.parts.cams.motion_spec import FollowerMotion, Lift, require_closed
+
+SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
+Strokes = Annotated[list[SteepAngle], Field(min_length=2, max_length=2), Entries("[rise, return]")]
+Kilograms = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
+Inertia = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})]
+Reach = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[from, to]")]
+ROLLER_SHARE = 0.8
+"""Of the least curvature radius of the pitch curve: the usual greatest roller."""
+
+
+def _refuse(key: str, message: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
+
+
+class Translating(Spec):
+    """A follower that slides."""
+
+    direction: Angle = Field(90.0, description="direction of its travel, away from the cam, from +x")
+    mass: Kilograms | None = Field(None, description="moved mass, for lift-off and loads")
+
+
+class Oscillating(Spec):
+    """A follower that rocks about a pivot."""
+
+    pivot_direction: Angle = Field(0.0, description="direction from the cam axis to the pivot, from +x")
+    side: Assembly = Field(1, description="+1: roller or face left of the vector cam axis -> pivot; -1: right")
+    inertia: Inertia | None = Field(None, description="moment of inertia about the pivot, for lift-off and loads")
+
+
+class TranslatingRoller(Translating):
+    """A roller on a slide."""
+
+    type: Literal["translating-roller"]
+    roller_radius: Length = Field(description="radius of the roller")
+    offset: SignedLength | Literal["best"] = Field(
+        0.0, description="how far the line of travel passes the cam axis on its right; best: of the smallest cam"
+    )
+
+
+class TranslatingFlat(Translating):
+    """A flat face across the travel."""
+
+    type: Literal["translating-flat"]
+    face: Reach | None = Field(None, description="reach of the face to the left and to the right of the travel")
+
+
+class OscillatingRoller(Oscillating):
+    """A roller on a rocking arm."""
+
+    type: Literal["oscillating-roller"]
+    roller_radius: Length = Field(description="radius of the roller")
+    arm: Length = Field(description="pivot to roller centre")
+    center_distance: Length | None = Field(
+        None, description="cam axis to pivot; left out with cam.size: that of the smallest cam"
+    )
+
+
+class OscillatingFlat(Oscillating):
+    """A flat face on a rocking arm."""
+
+    type: Literal["oscillating-flat"]
+    center_distance: Length = Field(description="cam axis to pivot")
+    face_offset: SignedLength = Field(0.0, description="distance of the face from the pivot, away from the cam")
+    face: Reach | None = Field(None, description="from where to where the face reaches, from the pivot along it")
+
+
+Follower = Annotated[
+    TranslatingRoller | TranslatingFlat | OscillatingRoller | OscillatingFlat, Field(discriminator="type")
+]
+
+
+class Size(Spec):
+    """What the smallest cam keeps."""
+
+    pressure_angle: SteepAngle | Strokes | None = Field(
+        None, description="greatest pressure angle, or [rise, return]; left out: limits.pressure_angle"
+    )
+    curvature_radius: Length | None = Field(
+        None, description="least curvature radius of the pitch curve (flat: of the profile); roller_radius/0.8"
+    )
+
+
+class CamBody(Spec):
+    """The cam."""
+
+    sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise; -1: clockwise")
+    prime_radius: Length | None = Field(None, description="cam axis to roller centre at lift 0")
+    base_radius: Length | None = Field(None, description="of a flat face: cam axis to the surface at lift 0")
+    size: Size | None = Field(None, description="the smallest cam that keeps these limits, in place of a radius")
+    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not judged")
+    cutter_radius: Length | None = Field(None, description="radius of the cutter or grinding wheel")
+
+
+class ReturnRoller(Spec):
+    """The second roller of a conjugate pair."""
+
+    radius: Length = Field(description="radius of the roller")
+    distance: Length | None = Field(None, description="of a slide: distance of both rollers; left out: of equal cams")
+    arm: Length | None = Field(None, description="of a rocker: pivot to roller centre")
+    angle: Angle | None = Field(None, description="of a rocker: from the first roller's arm to the second's")
+
+
+class Spring(Spec):
+    """The spring that holds the follower on the cam."""
+
+    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="force at lift 0 (oscillating: N m)"
+    )
+    rate: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N/mm"})] = Field(
+        0.0, description="rate (oscillating: N m/rad)"
+    )
+    least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="least force that is to stay (oscillating: N m), in place of preload"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Spring:
+        if (self.preload is None) == (self.least_force is None):
+            key = "preload" if self.preload is None else "least_force"
+            raise _refuse(key, "give preload, or least_force in its place")
+        return self
+
+
+class Errors(Spec):
+    """Errors of the cam as made."""
+
+    profile: Distance = Field(0.0, description="error of the profile along its normal")
+    run_out: Distance = Field(0.0, description="total indicator reading of the cam on its shaft")
+    key: Annotated[float, Field(ge=0, json_schema_extra={"unit": "deg"})] = Field(
+        0.0, description="angular error of the cam on its shaft"
+    )
+    roller_radius: Distance = Field(0.0, description="error of the roller's radius")
+    waves: Annotated[int, Field(ge=1, le=10_000)] | None = Field(None, description="waves of the profile a turn")
+
+
+class Servo(Spec):
+    """The table of a drive that makes the motion in place of a cam."""
+
+    rows: Annotated[int, Field(ge=2, le=100_000)] | None = Field(None, description="rows of the table, both ends")
+    tolerance: Length | None = Field(None, description="greatest position error between rows, in place of rows")
+
+    @model_validator(mode="after")
+    def _one(self) -> Servo:
+        if (self.rows is None) == (self.tolerance is None):
+            raise _refuse("rows" if self.rows is None else "tolerance", "give rows, or tolerance in its place")
+        return self
+
+
+class DiscCamLimits(LoadLimits):
+    """Limits of the checks."""
+
+    pressure_angle: SteepAngle | Strokes | None = Field(
+        None, description="greatest pressure angle, or [rise, return]; 30 translating, 45 oscillating"
+    )
+    curvature_radius: Distance = Field(0.0, description="of a flat face: radius of the profile below which it warns")
+    jerk_step: Distance | None = Field(None, description="greatest jump of the jerk, lift per rad^3")
+
+
+class DiscCamSpec(TolerancedSpec):
+    """A disc cam with its follower."""
+
+    kind: Literal["disc-cam"]
+    speed: Speed | None = Field(None, description="speed of the cam")
+    motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
+    initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
+    follower: Follower
+    cam: CamBody
+    closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
+    return_roller: ReturnRoller | None = None
+    spring: Spring | None = None
+    errors: Errors | None = None
+    servo: Servo | None = None
+    limits: DiscCamLimits = DiscCamLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
+        None, description="forces, roller and vibration, for the command loads"
+    )
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether the follower has a flat face."""
+        return self.follower.type.endswith("flat")
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the follower rocks."""
+        return self.follower.type.startswith("oscillating")
+
+    @model_validator(mode="after")
+    def _runs(self) -> DiscCamSpec:
+        require_closed(self.motion, self.initial_lift)
+        return self
+
+    @model_validator(mode="after")
+    def _one_radius(self) -> DiscCamSpec:
+        cam, wanted, other = self.cam, "prime_radius", "base_radius"
+        if self.is_flat:
+            wanted, other = other, wanted
+        if (given := getattr(cam, other)) is not None:
+            message = f"a flat face has base_radius: {given:g} mm"
+            if not self.is_flat:
+                whole = given + getattr(self.follower, "roller_radius", 0.0)
+                message = f"a roller has prime_radius, {given:g} mm and its radius: {whole:g}"
+            raise _refuse(f"cam.{other}", message)
+        if (getattr(cam, wanted) is None) == (cam.size is None):
+            both = cam.size is not None
+            raise _refuse("cam", f"{wanted} and size exclude each other" if both else f"give cam.{wanted}, or cam.size")
+        return self
+
+    @model_validator(mode="after")
+    def _size_of_follower(self) -> DiscCamSpec:
+        size, follower = self.cam.size, self.follower
+        if size is not None and self.is_flat:
+            if size.curvature_radius is None:
+                raise _refuse("cam.size", "a flat face is sized by curvature_radius: give it")
+            if size.pressure_angle is not None:
+                raise _refuse("cam.size", "a flat face is sized by curvature_radius alone: leave out pressure_angle")
+        if isinstance(follower, TranslatingRoller):
+            if follower.offset == "best":
+                if size is None:
+                    raise _refuse("follower.offset", "offset: best goes with cam.size")
+            elif self.cam.prime_radius is not None and abs(follower.offset) >= self.cam.prime_radius:
+                message = f"offset {follower.offset:g} mm is not below prime_radius {self.cam.prime_radius:g} mm"
+                raise _refuse("follower.offset", message)
+        if isinstance(follower, OscillatingRoller) and follower.center_distance is None and size is None:
+            raise _refuse("follower", "give follower.center_distance, or cam.size that finds the pivot")
+        return self
+
+    @model_validator(mode="after")
+    def _closed(self) -> DiscCamSpec:
+        roller = self.return_roller
+        if self.is_flat and self.closure != "spring":
+            raise _refuse("closure", f"{self.closure} goes with a roller")
+        if (roller is not None) != (self.closure == "conjugate"):
+            message = (
+                "give return_roller: {radius: ...}" if roller is None else "return_roller needs closure: conjugate"
+            )
+            raise _refuse("closure" if roller is None else "return_roller", message)
+        if roller is not None:
+            own, foreign = (("arm", "angle"), ("distance",)) if self.oscillates else ((), ("arm", "angle"))
+            for key in foreign:
+                if getattr(roller, key) is not None:
+                    raise _refuse(f"return_roller.{key}", f"this follower's return roller has no {key}")
+            if any(getattr(roller, key) is None for key in own):
+                raise _refuse("return_roller", "the return roller of a rocker has arm and angle")
+        return self
+
+    def pressure_limits(self) -> tuple[float, float]:
+        """Greatest pressure angle of rise and return [deg], of the limits, the size or the usual."""
+        size = None if self.cam.size is None else self.cam.size.pressure_angle
+        given = self.limits.pressure_angle or size or (45.0 if self.oscillates else 30.0)
+        rise, back = given if isinstance(given, list) else (given, given)
+        return rise, back
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("cam", *(("loads",) if self.loads is not None else ()))

@@ -1,0 +1,92 @@
+"""The motion of a cam follower over a turn, as a key of design files."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.parts.cams.spec import SegmentLaw
+
+Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
+Row = Annotated[list[Lift], Field(min_length=2, max_length=2), Entries("[cam angle, lift]")]
+FEWEST_POINTS = 4
+
+
+class Segment(Spec):
+    """A stretch of the cam angle with one law of motion; it begins where the one before ends."""
+
+    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="cam angle at which it ends; that of the last segment is 360"
+    )
+    lift: Lift | None = Field(None, description="lift at its end (oscillating follower: deg); left out: a dwell")
+    law: SegmentLaw | None = Field(None, description="law of motion; left out: modified-sine, or a dwell")
+    mirrored: bool = Field(False, description="run a law from rest to speed backwards: from speed to rest")
+    return_: Literal["mirrored"] | None = Field(
+        None, alias="return", description="mirrored: the last rise backwards over this segment"
+    )
+    end_velocity: Lift | None = Field(None, description="of a polynomial: velocity at its end, lift per rad")
+    end_acceleration: Lift | None = Field(None, description="of a polynomial: acceleration at its end, lift per rad^2")
+
+    @model_validator(mode="after")
+    def _one_meaning(self) -> Segment:
+        if self.return_ is not None:
+            for key in ("lift", "law"):
+                if getattr(self, key) is not None:
+                    message = "return: mirrored takes lift and law from the rise: leave them out"
+                    raise PydanticCustomError("GL111", message, {"key": key})
+        if self.law != "polynomial":
+            for key in ("end_velocity", "end_acceleration"):
+                if getattr(self, key) is not None:
+                    raise PydanticCustomError("GL111", "only law: polynomial takes end values", {"key": key})
+        return self
+
+
+class MotionTable(Spec):
+    """Measured or computed lifts, through which the periodic quintic spline is laid."""
+
+    table: Annotated[list[Row], Field(min_length=FEWEST_POINTS, max_length=2000)] = Field(
+        description="pairs [cam angle, lift], ascending from 0 to 360"
+    )
+
+
+FollowerMotion = Annotated[list[Segment], Field(min_length=1, max_length=200)] | MotionTable
+
+
+def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> None:
+    """Refuse a motion that does not run over one turn and come back.
+
+    Raises
+        PydanticCustomError - at the key `motion`
+    """
+    if isinstance(motion, MotionTable):
+        _require_table(motion.table)
+        return
+    ends = [segment.to for segment in motion]
+    for before, after in pairwise(ends):
+        if after <= before:
+            raise _refused(f"the segments must ascend: one ends at {after:.9g} deg, after {before:.9g} deg")
+    if ends[-1] != 360.0:
+        raise _refused(f"the last segment ends at {ends[-1]:.9g} deg: the motion takes a whole turn, to: 360")
+    if motion[-1].return_ is None:
+        last = next((each.lift for each in reversed(motion) if each.lift is not None), initial_lift)
+        if any(each.return_ for each in motion):
+            return  # the lift after a mirrored rise is known with the laws
+        if last != initial_lift:
+            raise _refused(f"the lift ends at {last:.9g} and starts at {initial_lift:.9g}: let it return")
+
+
+def _require_table(rows: list[list[float]]) -> None:
+    if any(after[0] <= before[0] for before, after in pairwise(rows)):
+        raise _refused("the cam angles of a table must ascend")
+    if rows[0][0] != 0.0 or rows[-1][0] != 360.0:
+        raise _refused("a table runs from cam angle 0 to 360")
+    if rows[0][1] != rows[-1][1]:
+        raise _refused("a table ends with the lift that it starts with")
+
+
+def _refused(message: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message, "key": "motion"})

@@ -1,0 +1,60 @@
+"""A follower's motion as the table of a servo drive that lays polynomials of degree 5 between its rows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.parts.cams.follower_motion import HERMITE, TURN, FollowerMotion
+
+STEPS = (15.0, 10.0, 7.5, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.1)
+"""Steps of the table that a tolerance may take [deg]."""
+_BETWEEN = 17
+
+
+def servo_rows(motion: FollowerMotion, rows: int) -> tuple[Reals, list[Reals]]:
+    """Angles [deg] and the lift with three derivatives at equal steps, both ends; joints as the segment after them."""
+    degrees = 360.0 * np.arange(rows) / (rows - 1)
+    return degrees, motion.evaluate(np.radians(degrees), 3)
+
+
+def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
+    """Lift less the polynomial through value, velocity and acceleration of the rows about it [mm or rad]."""
+    places = np.radians(360.0 * np.arange(rows) / (rows - 1))
+    at = np.clip(np.searchsorted(places, phi, side="right") - 1, 0, rows - 2)
+    after = motion.evaluate(places[:-1], 2)
+    before = motion.evaluate(places[1:], 2, side=-1)
+    b = places[at + 1] - places[at]
+    values = np.stack([*(after[n][at] * b**n for n in range(3)), *(before[n][at] * b**n for n in range(3))])
+    powers, x, found = HERMITE @ values, (phi - places[at]) / b, np.zeros_like(phi)
+    for power in powers[::-1]:
+        found = found * x + power
+    return motion.evaluate(phi, 0)[0] - found
+
+
+def greatest_error(motion: FollowerMotion, rows: int) -> float:
+    """Greatest error of the position between the rows [mm or rad], refined."""
+    places = [TURN * k / (rows - 1) for k in range(1, rows - 1)]
+    apart = sorted({*places, *motion.joints})
+    joints = [b for a, b in zip([-1.0, *apart], apart, strict=False) if b - a > 1e-9]
+    return maximum_over(lambda phi: np.abs(deviation(motion, rows, phi)), joints=joints, fewest=_BETWEEN).value
+
+
+def rows_for(motion: FollowerMotion, tolerance: float) -> int:
+    """Rows of the first step whose error is within a tolerance [mm or rad].
+
+    Raises
+        NoSolution - at `servo.tolerance`, where no step is fine enough
+    """
+    for step in STEPS:
+        rows = round(360.0 / step) + 1
+        near = (np.arange(16.0 * (rows - 1)) + 0.5) * (TURN / (16.0 * (rows - 1)))
+        if (
+            float(np.abs(deviation(motion, rows, near)).max()) <= tolerance
+            and greatest_error(motion, rows) <= tolerance
+        ):
+            return rows
+    message = f"no step of the table keeps {tolerance:g}, not even {STEPS[-1]:g} deg: raise the tolerance"
+    raise NoSolution(message, key="servo.tolerance")

@@ -1,0 +1,191 @@
+"""Cams of followers against envelopes, differences and searches that share nothing with the closed forms."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.base.errors import NoSolution
+
+MOTION = [
+    {"to": 80, "lift": 30, "law": "modified-sine"},
+    {"to": 150},
+    {"to": 240, "lift": 0, "law": "polynomial-4567"},
+    {"to": 360},
+]
+SWING = [
+    {"to": 100, "lift": 25, "law": "modified-sine"},
+    {"to": 160},
+    {"to": 280, "lift": 0, "law": "cycloidal"},
+    {"to": 360},
+]
+ROLLER = {"type": "translating-roller", "roller_radius": 12}
+ROCKER = {"type": "oscillating-roller", "roller_radius": 15, "arm": 100, "center_distance": 140}
+CLOSE = np.linspace(0.0, 2.0 * math.pi, 20_001)
+
+
+def cam(motion: Any, follower: dict[str, Any], body: dict[str, Any], **more: Any) -> Any:
+    data = {"kind": "disc-cam", "name": "cam", "motion": motion, "follower": follower, "cam": body, **more}
+    return factory.design(data, command="cam")
+
+
+def radius_by_differences(points: Any, phi: np.ndarray, h: float = 1e-4) -> np.ndarray:
+    """Curvature radius of a curve over its parameter."""
+    low, mid, high = points(phi - h), points(phi), points(phi + h)
+    d1, d2 = (high - low) / (2.0 * h), (high - 2.0 * mid + low) / h**2
+    return np.abs(d1) ** 3 / (np.conj(d1) * d2).imag
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("rocks", [False, True])
+def test_a_flat_face_touches_its_cam_and_cuts_it_nowhere(sense: int, side: int, rocks: bool) -> None:
+    follower = {
+        "type": "oscillating-flat",
+        "center_distance": 120,
+        "side": side,
+        "face_offset": 6,
+        "pivot_direction": 20,
+    }
+    swing = [{**each, "lift": 0.4 * each["lift"]} if "lift" in each else each for each in SWING]
+    design = cam(swing, follower, {"base_radius": 60, "sense": sense})
+    if not rocks:
+        design = cam(MOTION, {"type": "translating-flat", "direction": 70}, {"base_radius": 80, "sense": sense})
+    flat = design.cams.flat
+    phi = np.linspace(0.01, 6.27, 400)
+    points, normals = flat.points(phi)
+    # the face is a tangent: the contact moves along it
+    slope = (flat.points(phi + 1e-6)[0] - flat.points(phi - 1e-6)[0]) / 2e-6
+    assert np.abs((slope * np.conj(normals)).real).max() < 1e-6 * np.abs(slope).max()
+    # no point of the cam lies beyond any face
+    beyond = ((flat.points(CLOSE[::20])[0][:, None] - points[None, :]) * np.conj(normals)[None, :]).real
+    assert beyond.max() < 1e-9
+    measured = -sense * radius_by_differences(lambda each: flat.points(each)[0], phi)
+    assert flat.touch(phi).radius == pytest.approx(measured, rel=2e-4, abs=1e-3)
+    assert flat.min_curvature_radius.value == pytest.approx(flat.touch(CLOSE).radius.min(), rel=1e-5)
+
+
+def test_published_flat_cam() -> None:
+    """A lift of one inch in 90 deg by the cycloidal law, least radius a quarter inch: base circle 1.893 in."""
+    motion = [{"to": 90}, {"to": 180, "lift": 25.4, "law": "cycloidal"}, {"to": 270}]
+    motion.append({"to": 360, "lift": 0, "law": "cycloidal"})
+    design = cam(motion, {"type": "translating-flat"}, {"size": {"curvature_radius": 6.35}})
+    assert design.base_radius == pytest.approx(48.0822, abs=0.0127)
+    assert design.face_length == pytest.approx(64.77, abs=0.127)
+    assert design.min_curvature_radius == pytest.approx(6.35, rel=1e-12)
+    assert design.max_pressure_angle == 0.0
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("limits", [30, [25, 45], [50, 20]])
+@pytest.mark.parametrize("offset", [0, 7.5, "best"])
+def test_a_sized_cam_lies_on_its_limit_and_no_smaller_one_keeps_it(sense: int, limits: Any, offset: Any) -> None:
+    size = {"pressure_angle": limits, "curvature_radius": 1}
+    design = cam(MOTION, {**ROLLER, "roller_radius": 1, "offset": offset}, {"size": size, "sense": sense})
+    e, r = design.offset, design.prime_radius
+    rise, back = limits if isinstance(limits, list) else (limits, limits)
+
+    def excess(offset: float, radius: float) -> float:
+        at = CLOSE[::2]  # off by 1e-5 deg at most from the extremes between its places
+        s, s1 = design.cams.motion.evaluate(at, 1)
+        alpha = np.degrees(np.abs(np.arctan2(sense * s1 - offset, math.sqrt(radius**2 - offset**2) + s)))
+        limit = np.where(s1 > 1e-9, rise, np.where(s1 < -1e-9, back, max(rise, back)))
+        return float(np.max(alpha - limit))
+
+    assert excess(e, r) == pytest.approx(0.0, abs=1e-4)
+    assert all(check.status == "pass" for check in design.check("pressure-angle"))
+    assert excess(e, 0.999 * r) > 0.0
+    if offset == "best":
+        rng = np.random.default_rng(2)
+        for _ in range(40):
+            smaller = r * rng.uniform(0.9, 0.9995)
+            assert excess(smaller * math.sin(rng.uniform(-1.4, 1.4)), smaller) > 0.0
+
+
+@pytest.mark.parametrize("offset", [0.0, 6.0])
+def test_the_curvature_of_a_sized_cam_is_its_limit(offset: float) -> None:
+    size = {"pressure_angle": 60, "curvature_radius": 40}
+    design = cam(MOTION, {**ROLLER, "offset": offset}, {"size": size})
+    assert design.min_curvature_radius == pytest.approx(40.0, rel=1e-9)
+    for share in (1.001, 1.1, 1.5):
+        larger = cam(MOTION, {**ROLLER, "offset": offset}, {"prime_radius": share * design.prime_radius})
+        assert larger.min_curvature_radius > 40.0
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_least_cam_of_a_rocker_by_a_search(sense: int, side: int) -> None:
+    follower = {**ROCKER, "side": side}
+    size = {"pressure_angle": 40, "curvature_radius": 1}
+    design = cam(SWING, follower, {"sense": sense, "size": size})
+    assert math.degrees(design.max_pressure_angle) == pytest.approx(40.0, abs=1e-9)
+    smaller = cam(SWING, follower, {"sense": sense, "prime_radius": 0.999 * design.prime_radius})
+    assert math.degrees(smaller.max_pressure_angle) > 40.0
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_found_pivot_needs_the_smallest_cam(sense: int) -> None:
+    free = {key: value for key, value in ROCKER.items() if key != "center_distance"}
+    design = cam(SWING, free, {"sense": sense, "size": {"pressure_angle": 40, "curvature_radius": 1}})
+    assert math.degrees(design.max_pressure_angle) == pytest.approx(40.0, abs=1e-8)
+    for step in (-4.0, -0.5, 0.5, 4.0):
+        there = {**free, "center_distance": design.center_distance + step}
+        try:
+            other = cam(SWING, there, {"sense": sense, "size": {"pressure_angle": 40, "curvature_radius": 1}})
+            radius = other.prime_radius
+        except NoSolution:
+            continue
+        assert math.degrees(other.max_pressure_angle) < 40.0 + 1e-9
+        assert radius > design.prime_radius
+
+
+def test_groove_and_cutter_stand_off_the_pitch_curve() -> None:
+    design = cam(MOTION, ROLLER, {"prime_radius": 60, "cutter_radius": 30}, closure="groove")
+    phi = CLOSE[::50]
+    pitch, inner = design.cams.main.points(phi)
+    outer, cutter = design.cams.outer_wall.points(phi)[1], design.making.cutter_points(phi)
+    assert np.abs(outer - pitch) == pytest.approx(12.0)
+    assert outer - pitch == pytest.approx(pitch - inner, abs=1e-12)
+    assert np.abs(cutter - inner) == pytest.approx(30.0)
+    assert design.max_radius == pytest.approx([78.0, 102.0], rel=1e-12)
+    assert design.min_radius == pytest.approx([48.0, 72.0], rel=1e-12)
+    # the least hollow radius, where the profile bends inwards
+    measured = radius_by_differences(lambda each: design.cams.main.points(each)[1], np.linspace(0.02, 6.26, 20_001))
+    assert design.min_concave_radius == pytest.approx(measured[measured > 0.0].min(), rel=1e-3)
+
+
+def test_radii_over_the_polar_angle_lie_on_the_profile() -> None:
+    design = cam(MOTION, ROLLER, {"prime_radius": 60, "sense": -1})
+    table = design.table("radius")
+    rows = {name: np.array([row[k] for row in table.rows()]) for k, name in enumerate(table.columns)}
+    points = design.cams.main.points(np.radians(rows["cam_angle"]))[1]
+    assert np.abs(points) == pytest.approx(rows["radius"], rel=1e-12)
+    assert np.mod(np.degrees(np.angle(points)) - rows["polar_angle"] + 180.0, 360.0) == pytest.approx(180.0, abs=1e-9)
+
+
+def test_errors_of_the_profile_by_a_cam_made_so() -> None:
+    """The roller of another radius on the same cam lifts by delta/cos alpha to first order."""
+    errors = {"profile": 0.01, "run_out": 0.02, "key": 0.03, "roller_radius": 0.005, "waves": 40}
+    design = cam(MOTION, ROLLER, {"prime_radius": 60}, errors=errors, speed=300)
+    alpha = design.cams.main.pressure_angle(CLOSE)
+    slope = design.cams.motion.evaluate(CLOSE, 1)[1]
+    worst = 0.025 / np.cos(alpha) + np.abs(slope) * math.radians(0.03)
+    assert design.lift_error_worst == pytest.approx(worst.max(), rel=1e-6)
+    assert design.acceleration_error == pytest.approx((40 * 10.0 * math.pi) ** 2 * 0.01 / np.cos(alpha).min(), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("key", "follower", "body"),
+    [
+        ("cam.prime_radius", ROCKER, {"prime_radius": 300}),
+        ("cam.size", ROCKER, {"size": {"pressure_angle": 3}}),
+    ],
+)
+def test_cams_that_cannot_be_say_at_which_key(key: str, follower: dict[str, Any], body: dict[str, Any]) -> None:
+    with pytest.raises(NoSolution) as refused:
+        _ = cam(SWING, follower, body).prime_radius
+    assert refused.value.key == key

@@ -1,0 +1,144 @@
+"""The motion of a follower: derivatives by differences, the spline and joined polynomials by other ways."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import make_interp_spline
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of, spline
+from gearlink.core.parts.cams.motion_spec import Segment
+from gearlink.core.parts.cams.servo import deviation, greatest_error, rows_for
+
+LAWS: list[Any] = [
+    "modified-sine",
+    "mcv-33",
+    {"scca": [0.25, 0, 0.75, 0]},
+    {"type": "blend", "laws": ["cycloidal", "polynomial-345"], "share": 0.3},
+    {"type": "shifted", "law": "modified-sine", "inflection": 0.4},
+]
+
+
+def made(*segments: dict[str, Any], initial: float = 0.0) -> FollowerMotion:
+    return motion_of([Segment.model_validate(segment) for segment in segments], initial)
+
+
+def holds_derivatives(motion: FollowerMotion) -> None:
+    """Each derivative is the one before by differences, away from the joints."""
+    phi, h = np.linspace(0.013, 6.27, 997), 1e-5
+    phi = phi[np.min(np.abs(phi[:, None] - np.array(motion.joints)[None, :]), axis=1) > 3.0 * h]
+    below, above, at = (motion.evaluate(phi + shift, 3) for shift in (-h, h, 0.0))
+    for order in range(3):
+        slope = (above[order] - below[order]) / (2.0 * h)
+        assert slope == pytest.approx(at[order + 1], abs=1e-6 * (1.0 + np.abs(at[order + 1]).max()))
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_derivatives_of_laws(law: Any) -> None:
+    motion = made({"to": 100, "lift": 20, "law": law}, {"to": 150}, {"to": 360, "lift": 0, "law": law})
+    holds_derivatives(motion)
+    assert motion.evaluate(np.radians([100.0, 149.0]), 0)[0] == pytest.approx([20.0, 20.0], rel=1e-15)
+
+
+def test_from_rest_to_speed_and_back() -> None:
+    motion = made(
+        {"to": 60, "lift": 10, "law": "half-cycloidal"},
+        {"to": 120, "lift": 30, "law": "constant-velocity"},
+        {"to": 180, "lift": 40, "law": "half-cycloidal", "mirrored": True},
+        {"to": 300, "return": "mirrored"},
+        {"to": 360},
+    )
+    holds_derivatives(motion)
+    assert [jump for _, jump in motion.steps(1)] == pytest.approx([0.0] * 7, abs=1e-12)
+    phi = np.linspace(0.0, math.pi, 50)[1:-1]
+    rise, back = motion.evaluate(phi, 2), motion.evaluate(math.pi + (math.pi - phi) * 2.0 / 3.0, 2)
+    assert back[0] == pytest.approx(rise[0], abs=1e-11)
+    assert back[1] == pytest.approx(-1.5 * rise[1], abs=1e-11)
+    assert back[2] == pytest.approx(2.25 * rise[2], abs=1e-10)
+
+
+def test_a_symmetric_reversal_has_its_closed_form() -> None:
+    """a = -20 h/(3 b^2), and no jerk there."""
+    motion = made({"to": 90, "lift": 10, "law": "polynomial"}, {"to": 180, "lift": 0, "law": "polynomial"}, {"to": 360})
+    values = motion.evaluate(np.array([0.5 * math.pi]), 3)
+    assert float(values[2][0]) == pytest.approx(-200.0 / (3.0 * (0.5 * math.pi) ** 2), rel=1e-14)
+    assert float(values[1][0]) == 0.0
+    assert float(values[3][0]) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_free_values_have_the_least_integral_of_the_squared_jerk() -> None:
+    keys = {"law": "polynomial"}
+    ends = ({"to": 40}, {"to": 100, "lift": 10, **keys})
+    rest = ({"to": 180, "lift": 35, **keys}, {"to": 260, "lift": 0, "law": "cycloidal"}, {"to": 360})
+
+    def cost(v: float, a: float) -> float:
+        motion = made(ends[0], {**ends[1], "end_velocity": v, "end_acceleration": a}, *rest)
+        x, w = np.polynomial.legendre.leggauss(8)
+        total = 0.0
+        for piece in motion.pieces[1:3]:
+            phi = piece.start + 0.5 * (x + 1.0) * piece.width
+            total += 0.5 * piece.width * float(w @ motion.evaluate(phi, 3)[3] ** 2)
+        return total
+
+    v, a = (float(each[0]) for each in made(*ends, *rest).evaluate(np.radians([100.0]), 2)[1:])
+    least = cost(v, a)
+    for dv, da in ((1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3), (1e-3, 1e-3)):
+        assert cost(v + dv, a + da) > least
+
+
+def test_given_end_values_hold() -> None:
+    segments = [{"to": 90, "lift": 10, "law": "polynomial", "end_velocity": 7.0, "end_acceleration": -3.0}]
+    motion = made(*segments, {"to": 200, "lift": 20, "law": "polynomial"}, {"to": 360, "lift": 0, "law": "polynomial"})
+    assert [float(each[0]) for each in motion.evaluate(np.array([0.5 * math.pi]), 2)] == pytest.approx(
+        [10.0, 7.0, -3.0]
+    )
+
+
+def test_the_spline_is_the_periodic_quintic_one() -> None:
+    rng = np.random.default_rng(4)
+    angles = np.radians(np.concatenate(([0.0], np.sort(rng.uniform(5.0, 355.0, 17)), [360.0])))
+    lifts = np.concatenate((values := rng.uniform(0.0, 20.0, 18), values[:1]))
+    ours, theirs = spline(angles.tolist(), lifts.tolist()), make_interp_spline(angles, lifts, 5, bc_type="periodic")
+    phi = np.linspace(0.0, 6.28, 999)
+    for order, values in enumerate(ours.evaluate(phi, 3)):
+        wanted = theirs(phi, nu=order)
+        assert values == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize(
+    "segment",
+    [
+        {"law": {"type": "shifted", "law": "mcv-33", "inflection": 2.0}},
+        {"law": {"type": "twist"}},
+        {"law": "no-such-law"},
+        {"law": "cycloidal", "mirrored": True},
+    ],
+)
+def test_refusals_stand_at_the_motion(segment: dict[str, Any]) -> None:
+    with pytest.raises(NoSolution, match="segment 1") as refused:
+        made({"to": 180, "lift": 5, **segment}, {"to": 360, "lift": 0})
+    assert refused.value.key.startswith("motion[0]")
+
+
+def test_strokes_divide_a_polynomial_where_it_turns() -> None:
+    keys = {"law": "polynomial"}
+    motion = made({"to": 120, "lift": 10, **keys, "end_velocity": -30.0}, {"to": 360, "lift": 0, **keys})
+    for stroke in motion.strokes:
+        inside = np.linspace(stroke.start, stroke.end, 60)[1:-1]
+        assert np.all(np.sign(motion.evaluate(inside, 1)[1]) == stroke.sense)
+    assert motion.strokes[0].end < math.radians(120.0)
+
+
+def test_a_servo_table_errs_as_much_between_its_rows_as_close_places_show() -> None:
+    motion = made({"to": 100, "lift": 20}, {"to": 160}, {"to": 360, "lift": 0, "law": "simple-harmonic"})
+    for rows in (25, 73):
+        close = np.abs(deviation(motion, rows, np.linspace(1e-9, 6.28318, 200_001))).max()
+        assert greatest_error(motion, rows) == pytest.approx(close, rel=1e-6)
+    rows = rows_for(motion, 1e-3)
+    assert greatest_error(motion, rows) <= 1e-3
+    with pytest.raises(NoSolution, match="tolerance"):
+        rows_for(motion, 1e-18)

@@ -1,0 +1,85 @@
+"""Forces on a follower: equilibrium by the joints against the closed forms along the lift."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+MOTION = [
+    {"to": 120, "lift": 10, "law": "cycloidal"},
+    {"to": 180},
+    {"to": 300, "lift": 0, "law": "cycloidal"},
+    {"to": 360},
+]
+SLIDE = {
+    "kind": "disc-cam",
+    "name": "cam",
+    "speed": 400,
+    "motion": MOTION,
+    "follower": {"type": "translating-roller", "roller_radius": 10, "mass": 1.8, "offset": 6, "direction": 60},
+    "cam": {"prime_radius": 40},
+    "spring": {"preload": 60, "rate": 15},
+    "loads": {"roller": {"width": 15}, "gravity": [0, -9.81], "forces": [{"on": "follower", "force": -12}]},
+}
+FLAT = {"type": "translating-flat", "mass": 1.8, "direction": 60}
+ROCKING_FLAT = {"type": "oscillating-flat", "center_distance": 120, "face_offset": 4, "inertia": 0.02}
+PHI = np.linspace(0.0, 2.0 * math.pi, 361)[:-1]
+
+
+def loads(**keys: Any) -> Any:
+    return factory.design({**SLIDE, **keys}, command="loads")
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("follower", [SLIDE["follower"], FLAT], ids=["roller", "flat"])
+def test_the_force_of_the_joints_is_that_along_the_lift(sense: int, follower: dict[str, Any]) -> None:
+    body = {"base_radius": 40} if follower is FLAT else {"prime_radius": 40}
+    design = loads(follower=follower, cam={**body, "sense": sense})
+    assert design.contact_force("main", PHI) == pytest.approx(design.closing.contact_force(PHI), rel=1e-11)
+    torque = sense * design.machine.torque(PHI)
+    assert torque == pytest.approx(design.cam_torque(PHI), abs=1e-11)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("flat", [False, True])
+def test_the_same_of_a_rocker(side: int, flat: bool) -> None:
+    follower = {"type": "oscillating-roller", "roller_radius": 10, "arm": 90, "center_distance": 120, "inertia": 0.02}
+    body = {"prime_radius": 60}
+    if flat:
+        follower, body = ROCKING_FLAT, {"base_radius": 45}
+    spring, section = {"preload": 6, "rate": 9}, {"forces": [{"on": "follower", "torque": 0.7}]}
+    design = loads(follower={**follower, "side": side}, cam=body, spring=spring, loads=section)
+    assert design.contact_force("main", PHI) == pytest.approx(design.closing.contact_force(PHI), rel=1e-10)
+    assert design.machine.torque(PHI) == pytest.approx(design.cam_torque(PHI), abs=1e-11)
+
+
+def test_the_follower_leaves_its_cam_at_the_speed_of_lift_off() -> None:
+    speed = loads().lift_off_speed
+    below, above = (loads(speed=share * speed).raw("contact_force_min") for share in (0.999, 1.001))
+    assert above < 0.0 < below
+    assert loads(speed=speed).raw("contact_force_min") == pytest.approx(0.0, abs=1e-8)
+
+
+def test_the_least_preload_keeps_the_least_force() -> None:
+    design = loads(spring={"rate": 15, "least_force": 40})
+    along = design.contact_force("main", PHI) * np.cos(design.design.cams.main.pressure_angle(PHI))
+    assert along.min() == pytest.approx(40.0, rel=1e-4)
+    assert design.closing.force(np.linspace(0.0, 6.283, 20_001)).min() == pytest.approx(40.0, rel=1e-7)
+
+
+def test_the_width_that_is_needed_has_the_allowed_pressure() -> None:
+    design = loads(loads={"roller": {"width": 15}, "material": {"allowed_pressure": 300}})
+    wide = loads(loads={"roller": {"width": design.face_width_needed}, "material": {"allowed_pressure": 300}})
+    assert wide.raw("hertz_pressure_max") == pytest.approx(300.0, rel=1e-9)
+
+
+def test_a_conjugate_pair_carries_either_sense() -> None:
+    keys: dict[str, Any] = {"closure": "conjugate", "return_roller": {"radius": 10}, "spring": None}
+    design = loads(**keys, loads={"roller": {"width": 15, "preload": 200}}, follower={**SLIDE["follower"], "offset": 0})
+    one, other = (design.contact_force(name, PHI) for name in ("main", "return"))
+    assert one - other == pytest.approx(design.side_force(PHI))
+    assert [len(design.raw(name)) for name in ("contact_force_max", "hertz_pressure_max")] == [2, 2]
