@@ -17,6 +17,7 @@ from gearlink.core.parts.cams.disc_cam import DiscCam
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cams.outline import AnyCam
+    from gearlink.core.parts.cams.flat_cam import FlatCam
 
 CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
 _TURN = 2.0 * math.pi
@@ -35,7 +36,9 @@ def disc_cam(name: str, cam: DiscCam) -> Part:
     rounded = []
     for stretch, following in zip(stretches, [*stretches[1:], stretches[0]], strict=True):
         rounded += [stretch, *_round_corner(cam, stretch, following)]
-    failed = tuple(check.message for check in undercut_checks((cam,)) if check.status == "fail")
+    # a wall or a path outside the pitch curve has no roller that could cut it
+    judged = (cam,) if cam.roller_radius > 0.0 else ()
+    failed = tuple(check.message for check in undercut_checks(judged) if check.status == "fail")
     return Part(
         name=name,
         title=cam.name,
@@ -52,7 +55,36 @@ def disc_cam(name: str, cam: DiscCam) -> Part:
     )
 
 
-def _joints(cam: DiscCam) -> list[float]:
+def flat_cam(name: str, cam: FlatCam) -> Part:
+    """A closed cam under a flat face: its profile over a turn, a vertex at each joint of its law."""
+
+    def stretch(low: float, high: float) -> Stretch:
+        def inside(theta: Reals) -> Reals:
+            return np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
+
+        def extra(theta: Reals) -> Reals:
+            return np.stack([np.degrees(theta), cam.touch(inside(theta)).radius])
+
+        return Stretch(CAM_LAYERS[:1], lambda theta: cam.points(inside(theta))[0][None, :], low, high, extra=extra)
+
+    undercut = cam.min_curvature_radius.value <= 0.0
+    return Part(
+        name=name,
+        title="cam",
+        stretches=tuple(stretch(low, high) for low, high in pairwise(_joints(cam))),
+        closed=True,
+        circles=(Circle("BASE_CIRCLE", cam.min_radius),),
+        notes=(
+            f"flat face, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+            "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
+            "base circle: the largest about the axis inside the profile",
+        ),
+        findings=("the profile is undercut: it cannot be made",) if undercut else (),
+        extra_columns=("cam_angle [deg]", "curvature_radius [mm]"),
+    )
+
+
+def _joints(cam: DiscCam | FlatCam) -> list[float]:
     """Cam angles from 0 to a turn where stretches meet."""
     inside = sorted(joint % _TURN for joint in cam.joints)
     apart = [0.0]

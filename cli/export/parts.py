@@ -61,6 +61,29 @@ def gripper(design: Any) -> Makers:
     return found
 
 
+def follower_cam(design: Any) -> Makers:
+    """The cam of a follower, or both walls of its groove; return cam and cutter path where the file has them."""
+    from dataclasses import replace
+
+    from gearlink.cli.export.cam_parts import disc_cam, flat_cam
+
+    cams, cutter = design.cams, design.spec.cam.cutter_radius
+    if design.spec.is_flat:
+        return {"main_cam": lambda: flat_cam("main_cam", cams.flat)}
+    found: Makers = {"main_cam": lambda: disc_cam("main_cam", cams.main)}
+    if design.spec.closure == "groove":
+        found = {
+            "groove_inner": lambda: disc_cam("groove_inner", replace(cams.main, name="inner wall")),
+            "groove_outer": lambda: disc_cam("groove_outer", cams.outer_wall),
+        }
+    if cams.back is not None:
+        found["return_cam"] = lambda: disc_cam("return_cam", cams.back)
+    if cutter is not None:
+        path = replace(cams.main, name="cutter path", roller_radius=cams.main.roller_radius - cutter)
+        found["cutter"] = lambda: disc_cam("cutter", path)
+    return found
+
+
 def wide_swing(design: Any) -> Makers:
     """The profiles of the stroke, and the contours of the closed cams of a cycle."""
     if design.spec.cam is None:

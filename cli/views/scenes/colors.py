@@ -7,6 +7,7 @@ DWELL, STEP = "#CFE8F7", "#F9D9A8"
 PHASE_TINTS = {
     "lead-in": "#FBE3C8",
     "accelerate": "#FBE3C8",
+    "rise": "#FBE3C8",
     "sync": "#CFE8F7",
     "constant": "#CFE8F7",
     "transition": "#FDF3C0",

@@ -22,7 +22,7 @@ from gearlink.core.parts.cams.profile import RollerPath
 from gearlink.core.parts.cams.size import RockingRoller, smallest_cam_of_rollers
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.disc_cam.spec import DiscCamSpec
+    from gearlink.core.machines.disc_cam.spec import CamBody, DiscCamSpec
 
 DEGREE = math.pi / 180.0
 _WIDEST = 50.0  # of the arm and the distance of a rocker: how far a search of its base radius goes
@@ -50,6 +50,11 @@ class FollowerCams:
     def __init__(self, spec: DiscCamSpec) -> None:
         self.spec, self.sense = spec, spec.cam.sense
         self.follower: Any = spec.follower
+
+    @property
+    def section(self) -> CamBody:
+        """The section `cam` of the file."""
+        return self.spec.cam
 
     @cached_property
     def motion(self) -> FollowerMotion:

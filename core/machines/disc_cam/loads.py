@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.report import Quantity
+from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import DiscCamDesign
 from gearlink.core.machines.disc_cam.mechanism import roller_on
+from gearlink.core.studies.loads.cams import tables
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
 from gearlink.core.studies.loads.cams.contact import positive_drive
 from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from gearlink.core.machines.disc_cam.closing import Closing
     from gearlink.core.machines.disc_cam.loads_spec import DiscCamLoads as Section
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.studies.loads.base import Wanted
     from gearlink.core.studies.loads.machine import Machine
 
 _SHOWN = (*CONTACT, "spring_preload", "lift_off_speed", "face_width_needed")
@@ -208,6 +212,24 @@ class DiscCamLoads(CamLoadsDesign):
     lift_off_speed: float | None = placed("closing.lift_off_speed")
     face_width_needed: float | None = placed("closing.face_width")
 
+    @cached_property
+    def traction_needed(self) -> list[float | None] | None:
+        """Share of the contact force that drives a roller round; None of a face."""
+        return None if self.spec.is_flat else super().traction_needed
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs; a face has no roller."""
+        return () if self.spec.is_flat and quantity in _OF_ROLLERS else super().wanted(quantity)
+
+    def table_contact(self, samples: int | None = None) -> Table:
+        """Force, pressure and radius of the contact; of a roller its speeds as well."""
+        found = tables.contact(self, samples)
+        if not self.spec.is_flat:
+            return found
+        kept = [k for k, column in enumerate(found.columns) if column not in ("roller_speed", "entrainment")]
+        columns = {found.columns[k]: (found.data[k], found.units[k]) for k in kept}
+        return Table.of("contact", columns)
+
     def raw(self, name: str) -> Any:
         """Single numbers with one roller; a face has no roller."""
         if self.spec.is_flat and name in _OF_ROLLERS:
@@ -223,7 +245,11 @@ class DiscCamLoads(CamLoadsDesign):
 
 
 class FaceOnCam:
-    """The contact of a flat face, in the words of a roller."""
+    """The contact of a flat face in the words of a roller, as far as it has them; a face does not roll."""
 
     def __init__(self, loads: DiscCamLoads, phi: Reals) -> None:
-        self.relative_radius = loads.design.cams.flat.touch(phi).radius
+        flat = loads.design.cams.flat
+        touch, still = flat.touch(phi), 0.0 * phi
+        self.sense, self.radius = flat.sense, 0.0
+        self.position, self.normal, self.relative_radius = touch.point, touch.normal, touch.radius
+        self.roller_speed, self.roller_acceleration, self.entrainment = still, still, still

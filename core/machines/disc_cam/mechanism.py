@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
 
+_SENSES = {1: "rise", -1: "return", 0: "dwell"}
+
 
 def motion(design: DiscCamDesign) -> Motion:
     """Links and joints over the cam angle, the cam axis at 0."""
@@ -37,7 +39,9 @@ def motion(design: DiscCamDesign) -> Motion:
         return made
 
     return Motion(
-        make, Input("cam_angle", joints=cams.motion.joints), (Output("Follower", lift(design), _phases(cams)),)
+        make,
+        Input("cam_angle", joints=tuple(joint for joint in cams.motion.joints if joint > 0.0)),
+        (Output("Follower", lift(design), _phases(cams)),),
     )
 
 
@@ -100,5 +104,10 @@ def roller_on(cam: DiscCam, phi: Reals) -> RollerOnCam:
 
 
 def _phases(cams: FollowerCams) -> tuple[tuple[str, float, float], ...]:
-    """The segments with their laws."""
-    return tuple((piece.name, piece.start, piece.end) for piece in cams.motion.pieces)
+    """Rises, returns and dwells; strokes of one sense that follow each other are one."""
+    found: list[tuple[str, float, float]] = []
+    for stroke in cams.motion.strokes:
+        name = _SENSES[stroke.sense]
+        start = found.pop()[1] if found and found[-1][0] == name else stroke.start
+        found.append((name, start, stroke.end))
+    return tuple(found)

@@ -53,7 +53,7 @@ class Oscillating(Spec):
 class TranslatingRoller(Translating):
     """A roller on a slide."""
 
-    type: Literal["translating-roller"]
+    type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
     roller_radius: Length = Field(description="radius of the roller")
     offset: SignedLength | Literal["best"] = Field(
         0.0, description="how far the line of travel passes the cam axis on its right; best: of the smallest cam"
@@ -63,14 +63,14 @@ class TranslatingRoller(Translating):
 class TranslatingFlat(Translating):
     """A flat face across the travel."""
 
-    type: Literal["translating-flat"]
+    type: Literal["translating-flat"] = Field(description="how the follower moves, and what touches the cam")
     face: Reach | None = Field(None, description="reach of the face to the left and to the right of the travel")
 
 
 class OscillatingRoller(Oscillating):
     """A roller on a rocking arm."""
 
-    type: Literal["oscillating-roller"]
+    type: Literal["oscillating-roller"] = Field(description="how the follower moves, and what touches the cam")
     roller_radius: Length = Field(description="radius of the roller")
     arm: Length = Field(description="pivot to roller centre")
     center_distance: Length | None = Field(
@@ -81,7 +81,7 @@ class OscillatingRoller(Oscillating):
 class OscillatingFlat(Oscillating):
     """A flat face on a rocking arm."""
 
-    type: Literal["oscillating-flat"]
+    type: Literal["oscillating-flat"] = Field(description="how the follower moves, and what touches the cam")
     center_distance: Length = Field(description="cam axis to pivot")
     face_offset: SignedLength = Field(0.0, description="distance of the face from the pivot, away from the cam")
     face: Reach | None = Field(None, description="from where to where the face reaches, from the pivot along it")
@@ -153,13 +153,17 @@ class Errors(Spec):
         0.0, description="angular error of the cam on its shaft"
     )
     roller_radius: Distance = Field(0.0, description="error of the roller's radius")
-    waves: Annotated[int, Field(ge=1, le=10_000)] | None = Field(None, description="waves of the profile a turn")
+    waves: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="waves of the profile a turn"
+    )
 
 
 class Servo(Spec):
     """The table of a drive that makes the motion in place of a cam."""
 
-    rows: Annotated[int, Field(ge=2, le=100_000)] | None = Field(None, description="rows of the table, both ends")
+    rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
+        None, description="rows of the table, both ends"
+    )
     tolerance: Length | None = Field(None, description="greatest position error between rows, in place of rows")
 
     @model_validator(mode="after")
@@ -186,13 +190,13 @@ class DiscCamSpec(TolerancedSpec):
     speed: Speed | None = Field(None, description="speed of the cam")
     motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
     initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
-    follower: Follower
-    cam: CamBody
+    follower: Follower = Field(description="what the cam moves: roller or flat face, sliding or rocking")
+    cam: CamBody = Field(description="sense and size of the cam")
     closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
-    return_roller: ReturnRoller | None = None
-    spring: Spring | None = None
-    errors: Errors | None = None
-    servo: Servo | None = None
+    return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
+    spring: Spring | None = Field(None, description="what presses the follower on the cam")
+    errors: Errors | None = Field(None, description="errors of the cam as made")
+    servo: Servo | None = Field(None, description="table of a drive in place of the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
         None, description="forces, roller and vibration, for the command loads"

@@ -83,3 +83,15 @@ def test_a_conjugate_pair_carries_either_sense() -> None:
     one, other = (design.contact_force(name, PHI) for name in ("main", "return"))
     assert one - other == pytest.approx(design.side_force(PHI))
     assert [len(design.raw(name)) for name in ("contact_force_max", "hertz_pressure_max")] == [2, 2]
+
+
+def test_a_flat_face_has_a_pressure_and_no_roller() -> None:
+    section = {"roller": {"width": 15, "inertia": 1e-5}, "material": {"allowed_pressure": 300}}
+    design = loads(follower=FLAT, cam={"base_radius": 40}, loads=section)
+    assert design.raw("roller_speed_max") is None
+    assert design.raw("traction_needed") is None
+    assert "roller_speed" not in design.table("contact").columns
+    expected = np.sqrt(
+        design.contact_force("main", PHI) * 113_186.813 / (math.pi * 15.0 * design.closing.relative_radius(PHI))
+    )
+    assert design.raw("hertz_pressure_max") == pytest.approx(expected.max(), rel=1e-4)

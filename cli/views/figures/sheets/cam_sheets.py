@@ -43,6 +43,17 @@ def gripper_discs(design: Any) -> tuple[DiscCam, ...]:
     return tuple(design.cams.discs)
 
 
+def follower_discs(design: Any) -> tuple[DiscCam, ...]:
+    """The cams of a roller follower, one or two; none under a flat face."""
+    return () if design.spec.is_flat else tuple(design.profiles)
+
+
+def _limit(design: Any) -> float:
+    """Greatest pressure angle that the file allows [deg]; of strokes with limits of their own the greater."""
+    of_strokes = getattr(design.spec, "pressure_limits", None)
+    return float(design.spec.limits.pressure_angle if of_strokes is None else max(of_strokes()))
+
+
 def pressure(design: Any) -> Figure:
     """The pressure angle round the cam angle, as a radius, and on the outline of each cam by its thickness of line."""
     made = panels.page(f"{design.spec.name}: pressure angle", 0.62)
@@ -61,7 +72,7 @@ def _polar(axes: Any, design: Any) -> None:
         label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {math.degrees(worst.place):.4g}°"
         axes.plot(theta, angle, color=color, linestyle=line, linewidth=1.5, label=label)
         axes.plot([worst.place], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
-    limit = design.spec.limits.pressure_angle
+    limit = _limit(design)
     axes.plot(theta, np.full_like(theta, limit), color=style.BLACK, linestyle=style.DASHED, label=f"limit {limit:g}°")
     axes.set_ylim(0.0)
     axes.set_theta_zero_location("E")
@@ -77,7 +88,7 @@ def _outlines(axes: Axes, design: Any) -> None:
     from matplotlib.collections import LineCollection
 
     panels.drawing(axes, "Profiles, line width by pressure angle")
-    theta, limit = np.linspace(0.0, _TURN, 721), design.spec.limits.pressure_angle
+    theta, limit = np.linspace(0.0, _TURN, 721), _limit(design)
     for cam, color in zip(discs(design), panels.CAM_COLORS, strict=False):
         _, profile = cam.points(theta)
         angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
