@@ -32,8 +32,12 @@ class _SegmentLaws(_LawNames):
 
     def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
         found = super().__get_pydantic_json_schema__(core_schema, handler)
-        blend = {"type": {"const": "blend"}, "laws": {"type": "array"}, "share": {"type": "number"}}
-        shifted = {"type": {"const": "shifted"}, "law": {"type": "string"}, "inflection": {"type": "number"}}
+        blend = {"type": {"const": "blend"}, "laws": {"type": "array"}, "share": {"type": "number", "unit": "1"}}
+        shifted = {
+            "type": {"const": "shifted"},
+            "law": {"type": "string"},
+            "inflection": {"type": "number", "unit": "1"},
+        }
         own = [
             {"enum": ["constant-velocity", "polynomial"]},
             *(
