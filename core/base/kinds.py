@@ -368,6 +368,22 @@ KINDS: dict[str, Kind] = {
             },
             worked="lift_cam",
         ),
+        Kind(
+            "cylindrical-cam",
+            "cylindrical cam with a roller that slides along its axis",
+            "machines.cylindrical_cam",
+            "spec:CylindricalCamSpec",
+            {
+                "cam": "design:CylindricalCamDesign",
+                "analyze": "design:CylindricalCamDesign",
+                "tolerance": "",
+            },
+            motion="mechanism:motion",
+            codes="",
+            outputs={"follower": ("lift",)},
+            picture="cli.views.figures.cylindrical_cam:draw",
+            worked="barrel_cam",
+        ),
     )
 }
 

@@ -75,6 +75,10 @@ _DISC_CAM = {
     "follower_acceleration_min": Term("a_min", "mm/s^2", "least acceleration (oscillating: rad/s^2)"),
     "pressure_angle_rise": Term("alpha_r", "deg", "greatest pressure angle of the rises", "VDI 2142"),
     "pressure_angle_return": Term("alpha_f", "deg", "greatest pressure angle of the returns", "VDI 2142"),
+    "pressure_angle_outside": Term("alpha_a", "deg", "greatest pressure angle at the outside of a drum"),
+    "least_wall_factor": Term(
+        "", "1", "least factor of the walls of a drum's track, regular above 0", "own derivation"
+    ),
     "min_concave_radius": Term("rho_c", "mm", "least radius of the hollow flanks of the profile", "VDI 2142"),
     "contact_place_max": Term("t_max", "mm", "greatest place of the contact along a flat face", "own derivation"),
     "contact_place_min": Term("t_min", "mm", "least place of the contact along a flat face", "own derivation"),

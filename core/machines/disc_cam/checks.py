@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.report import Check, Status, safely_above
 from gearlink.core.machines.disc_cam import codes
-from gearlink.core.parts.cams.checks import hub_checks, step_check, undercut_checks
+from gearlink.core.parts.cams.checks import hub_checks, undercut_checks
 from gearlink.core.parts.cams.codes import (
-    ACCELERATION_STEP,
     CAM_UNDERCUT,
     CONSTANT_SUM,
-    JERK_STEP,
     LIFT_OFF,
     PRESSURE_ANGLE,
-    VELOCITY_STEP,
 )
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
@@ -63,35 +60,6 @@ def cam_undercut(design: DiscCamDesign) -> Iterator[Check]:
 
 def _given(design: DiscCamDesign) -> set[str]:
     return set(design.spec.limits.model_fields_set)
-
-
-def _steps(design: DiscCamDesign, order: int) -> tuple[list[tuple[str, float]], float, str]:
-    name = ("velocity", "acceleration", "jerk")[order - 1]
-    peak = max(abs(design.motion_extremes[f"{name}_{side}"]) for side in ("max", "min"))
-    units = ("1", "1/rad", "1/rad^2") if design.spec.oscillates else ("mm/rad", "mm/rad^2", "mm/rad^3")
-    return design.cams.motion.steps(order), peak, units[order - 1]
-
-
-def velocity_step(design: DiscCamDesign) -> Check:
-    """GL403."""
-    return step_check(VELOCITY_STEP, *_steps(design, 1), "fail", "let the laws at the joint have one velocity")
-
-
-def acceleration_step(design: DiscCamDesign) -> Check:
-    """GL404."""
-    return step_check(ACCELERATION_STEP, *_steps(design, 2), "warn", "take laws that end without acceleration")
-
-
-def jerk_step(design: DiscCamDesign) -> Check:
-    """GL407."""
-    steps, _, unit = _steps(design, 3)
-    place, step = max(steps, key=lambda each: abs(each[1]))
-    limit = design.spec.limits.jerk_step
-    text = f"the lift's jerk jumps by at most {abs(step):.6g} {unit}, at {place}"
-    if limit is not None and abs(step) > limit:
-        message = f"{text}, above limits.jerk_step {limit:g}: take polynomial-4567"
-        return JERK_STEP.check("warn", message, abs(step), limit, unit)
-    return JERK_STEP.check("pass", text, abs(step), limit, unit)
 
 
 def shaft_clearance(design: DiscCamDesign) -> Iterator[Check]:

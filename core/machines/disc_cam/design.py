@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline, in_unit, placed
@@ -12,7 +10,7 @@ from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam import checks
-from gearlink.core.numerics.motion_extremes import WithExtremes
+from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.cams import FollowerCams
@@ -21,33 +19,15 @@ if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
+    from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
-_CURVES = ("lift", "velocity", "acceleration", "jerk")
-_EXTREMES = (
-    "lift_max",
-    "lift_max_at",
-    "velocity_max",
-    "velocity_max_at",
-    "velocity_min",
-    "velocity_min_at",
-    "acceleration_max",
-    "acceleration_max_at",
-    "acceleration_min",
-    "acceleration_min_at",
-    "jerk_max",
-    "jerk_max_at",
-    "jerk_min",
-    "jerk_min_at",
-)
-_SPEEDS = tuple(f"follower_{curve}_{side}" for curve in ("velocity", "acceleration") for side in ("max", "min"))
 _QUANTITIES = (
     "prime_radius",
     "base_radius",
     "offset",
     "start_angle",
     "center_distance",
-    *_EXTREMES,
-    *_SPEEDS,
+    *FOLLOWER_QUANTITIES,
     "max_pressure_angle",
     "pressure_angle_rise",
     "pressure_angle_return",
@@ -97,14 +77,13 @@ _CHECKS = (
 _OUTLINE = Outline(_QUANTITIES, _CHECKS, ("follower", "main_cam", "return_cam"))
 
 
-class DiscCamDesign(WithExtremes, Design):
+class DiscCamDesign(OfFollower, Design):
     """The cam of a design file; cam axis at 0, the cam's frame is the machine's at cam angle 0."""
 
     kind = "disc-cam"
     spec: DiscCamSpec
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
     extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo")
-    extreme_names = _EXTREMES
     advises = False
 
     @cached_property
@@ -178,44 +157,15 @@ class DiscCamDesign(WithExtremes, Design):
 
     # Motion
 
-    @cached_property
-    def motion_extremes(self) -> Mapping[str, float]:
-        """Extremes of the lift and its derivatives."""
-        from gearlink.core.numerics.motion_extremes import extremes
-
-        motion = self.cams.motion
-        curves = {
-            name: (lambda phi, order=order: motion.evaluate(phi, order)[order]) for order, name in enumerate(_CURVES)
-        }
-        return extremes(curves, 0.0, 2.0 * math.pi, joints=motion.joints)
+    @property
+    def follower_motion(self) -> FollowerMotion:
+        """Lift over the cam angle [mm or rad]."""
+        return self.cams.motion
 
     @property
-    def speed(self) -> float | None:
-        """Speed of the cam [rad/s]."""
-        return None if self.spec.speed is None else self.spec.speed * math.pi / 30.0
-
-    def _in_time(self, name: str, order: int) -> float | None:
-        return None if self.speed is None else self.motion_extremes[name] * self.speed**order
-
-    @property
-    def follower_velocity_max(self) -> float | None:
-        """Greatest velocity of the follower [mm/s or rad/s]."""
-        return self._in_time("velocity_max", 1)
-
-    @property
-    def follower_velocity_min(self) -> float | None:
-        """Least velocity of the follower."""
-        return self._in_time("velocity_min", 1)
-
-    @property
-    def follower_acceleration_max(self) -> float | None:
-        """Greatest acceleration of the follower [mm/s^2 or rad/s^2]."""
-        return self._in_time("acceleration_max", 2)
-
-    @property
-    def follower_acceleration_min(self) -> float | None:
-        """Least acceleration of the follower."""
-        return self._in_time("acceleration_min", 2)
+    def rocks(self) -> bool:
+        """Whether the follower oscillates."""
+        return self.spec.oscillates
 
     # Profile
 
@@ -318,10 +268,6 @@ class DiscCamDesign(WithExtremes, Design):
         if not given:
             raise MissingSection(f"the table {name} needs {words}", key=key)
 
-    def table_follower(self, samples: int | None = None) -> Table:
-        """Lift and its derivatives over the cam angle."""
-        return self.making.follower_table(samples)
-
     def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam; of a groove its inner wall."""
         return self.profiles[0].table("main_cam", samples)
@@ -356,8 +302,7 @@ class DiscCamDesign(WithExtremes, Design):
         return self.making.servo_table()
 
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
-    check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
-    check_jerk_step, check_shaft_clearance = checks.jerk_step, checks.shaft_clearance
+    check_shaft_clearance = checks.shaft_clearance
     check_constant_sum, check_lift_off = checks.constant_sum, checks.lift_off
     check_face_length, check_outer_wall = checks.face_length, checks.outer_wall
     check_cutter_radius = checks.cutter_radius

@@ -37,22 +37,6 @@ class Making:
         """Points of the profile [mm], in the cam's frame."""
         return self.cams.flat.points(phi)[0] if self.spec.is_flat else self.cams.main.points(phi)[1]
 
-    def follower_table(self, samples: int | None) -> Table:
-        """Lift and its derivatives over the cam angle, with the segment's number."""
-        degrees = turn_degrees(samples)
-        phi, rocks = np.radians(degrees), self.spec.oscillates
-        s, s1, s2, s3 = self.cams.motion.evaluate(phi, 3)
-        units = ("1", "1/rad", "1/rad^2") if rocks else ("mm/rad", "mm/rad^2", "mm/rad^3")
-        columns = {
-            "cam_angle": (degrees, "deg"),
-            "lift": (np.degrees(s), "deg") if rocks else (s, "mm"),
-            "velocity": (s1, units[0]),
-            "acceleration": (s2, units[1]),
-            "jerk": (s3, units[2]),
-            "segment": (self.cams.motion.numbers(phi), "1"),
-        }
-        return Table.of("follower", columns)
-
     def wall_table(self, samples: int | None) -> Table:
         """The outer wall of a groove over the cam angle."""
         degrees = turn_degrees(samples)

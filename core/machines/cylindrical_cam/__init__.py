@@ -1,0 +1,1 @@
+"""A cylindrical cam whose roller slides along its axis; begin with `spec` and `design`."""

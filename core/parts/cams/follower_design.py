@@ -1,0 +1,133 @@
+"""What every cam with a follower of its own has: motion, its extremes and table, steps at the joints of its laws."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.motion_extremes import WithExtremes
+from gearlink.core.parts.cams.checks import step_check
+from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, VELOCITY_STEP
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.cams.follower_motion import FollowerMotion
+
+_CURVES = ("lift", "velocity", "acceleration", "jerk")
+_EXTREMES = (
+    "lift_max",
+    "lift_max_at",
+    "velocity_max",
+    "velocity_max_at",
+    "velocity_min",
+    "velocity_min_at",
+    "acceleration_max",
+    "acceleration_max_at",
+    "acceleration_min",
+    "acceleration_min_at",
+    "jerk_max",
+    "jerk_max_at",
+    "jerk_min",
+    "jerk_min_at",
+)
+_SPEEDS = tuple(f"follower_{curve}_{side}" for curve in ("velocity", "acceleration") for side in ("max", "min"))
+FOLLOWER_QUANTITIES = (*_EXTREMES, *_SPEEDS)
+
+
+class OfFollower(WithExtremes):
+    """A design whose file gives the motion of a follower over the cam angle."""
+
+    extreme_names = _EXTREMES
+    spec: Any
+
+    @property
+    def follower_motion(self) -> FollowerMotion:
+        """Lift over the cam angle [mm or rad]."""
+        raise NotImplementedError
+
+    @property
+    def rocks(self) -> bool:
+        """Whether the follower oscillates."""
+        return False
+
+    @cached_property
+    def motion_extremes(self) -> Mapping[str, float]:
+        """Extremes of the lift and its derivatives."""
+        from gearlink.core.numerics.motion_extremes import extremes
+
+        motion = self.follower_motion
+        curves = {
+            name: (lambda phi, order=order: motion.evaluate(phi, order)[order]) for order, name in enumerate(_CURVES)
+        }
+        return extremes(curves, 0.0, 2.0 * math.pi, joints=motion.joints)
+
+    @property
+    def speed(self) -> float | None:
+        """Speed of the cam [rad/s]."""
+        return None if self.spec.speed is None else self.spec.speed * math.pi / 30.0
+
+    def _in_time(self, name: str, order: int) -> float | None:
+        return None if self.speed is None else self.motion_extremes[name] * self.speed**order
+
+    @property
+    def follower_velocity_max(self) -> float | None:
+        """Greatest velocity of the follower [mm/s or rad/s]."""
+        return self._in_time("velocity_max", 1)
+
+    @property
+    def follower_velocity_min(self) -> float | None:
+        """Least velocity of the follower."""
+        return self._in_time("velocity_min", 1)
+
+    @property
+    def follower_acceleration_max(self) -> float | None:
+        """Greatest acceleration of the follower [mm/s^2 or rad/s^2]."""
+        return self._in_time("acceleration_max", 2)
+
+    @property
+    def follower_acceleration_min(self) -> float | None:
+        """Least acceleration of the follower."""
+        return self._in_time("acceleration_min", 2)
+
+    def table_follower(self, samples: int | None = None) -> Table:
+        """Lift and its derivatives over the cam angle, with the segment's number."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        phi = np.radians(degrees)
+        s, *rates = self.follower_motion.evaluate(phi, 3)
+        columns: dict[str, tuple[Any, str]] = {"cam_angle": (degrees, "deg")}
+        columns["lift"] = (np.degrees(s), "deg") if self.rocks else (s, "mm")
+        columns |= {name: (rate, unit) for name, rate, unit in zip(_CURVES[1:], rates, self._units, strict=True)}
+        return Table.of("follower", {**columns, "segment": (self.follower_motion.numbers(phi), "1")})
+
+    @property
+    def _units(self) -> tuple[str, str, str]:
+        return ("1", "1/rad", "1/rad^2") if self.rocks else ("mm/rad", "mm/rad^2", "mm/rad^3")
+
+    def _steps(self, order: int) -> tuple[list[tuple[str, float]], float, str]:
+        peak = max(abs(self.motion_extremes[f"{_CURVES[order]}_{side}"]) for side in ("max", "min"))
+        return self.follower_motion.steps(order), peak, self._units[order - 1]
+
+    def check_velocity_step(self) -> Check:
+        """GL403."""
+        return step_check(VELOCITY_STEP, *self._steps(1), "fail", "let the laws at the joint have one velocity")
+
+    def check_acceleration_step(self) -> Check:
+        """GL404."""
+        return step_check(ACCELERATION_STEP, *self._steps(2), "warn", "take laws that end without acceleration")
+
+    def check_jerk_step(self) -> Check:
+        """GL407."""
+        steps, _, unit = self._steps(3)
+        place, step = max(steps, key=lambda each: abs(each[1]))
+        limit = self.spec.limits.jerk_step
+        text = f"the lift's jerk jumps by at most {abs(step):.6g} {unit}, at {place}"
+        if limit is not None and abs(step) > limit:
+            message = f"{text}, above limits.jerk_step {limit:g}: take polynomial-4567"
+            return JERK_STEP.check("warn", message, abs(step), limit, unit)
+        return JERK_STEP.check("pass", text, abs(step), limit, unit)
