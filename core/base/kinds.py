@@ -382,6 +382,7 @@ KINDS: dict[str, Kind] = {
             codes="",
             outputs={"follower": ("lift",)},
             picture="cli.views.figures.cylindrical_cam:draw",
+            scene="cli.views.scenes.cylindrical_cam:build",
             worked="barrel_cam",
         ),
     )
