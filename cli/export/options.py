@@ -9,6 +9,7 @@ from gearlink.cli.options import Options
 
 LEAST_TOLERANCE = 1e-5
 MOST_TOLERANCE = 10.0
+DEFAULT_TOLERANCE = 0.001
 
 
 CONTOUR = "blocking_contour"

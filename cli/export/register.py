@@ -6,7 +6,14 @@ from typing import Annotated
 
 import typer
 
-from gearlink.cli.export.options import LEAST_TOLERANCE, MOST_TOLERANCE, CurveForm, Export, FileFormat
+from gearlink.cli.export.options import (
+    DEFAULT_TOLERANCE,
+    LEAST_TOLERANCE,
+    MOST_TOLERANCE,
+    CurveForm,
+    Export,
+    FileFormat,
+)
 from gearlink.cli.options import Options
 from gearlink.cli.typer_options import Spec, offers, takes
 
@@ -31,12 +38,24 @@ def _export(
         ),
     ] = [],  # noqa: B006
     tolerance: Annotated[
-        float, typer.Option(min=LEAST_TOLERANCE, max=MOST_TOLERANCE, metavar="MM", help="greatest chord error")
-    ] = 0.001,
+        float | None,
+        typer.Option(
+            min=LEAST_TOLERANCE,
+            max=MOST_TOLERANCE,
+            metavar="MM",
+            help="greatest chord error, 0.001 where left out; of --cam-table the greatest error of position (mm, deg)",
+        ),
+    ] = None,
     curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,
     width: Annotated[
         float | None,
         typer.Option(min=1e-3, max=1e5, metavar="MM", help="width of STEP solids; default: face_width of the file"),
+    ] = None,
+    cam_table: Annotated[
+        bool, typer.Option("--cam-table", help="the table of a servo drive in place of a cam, NAME-cam-table.csv")
+    ] = False,
+    rows: Annotated[
+        int | None, typer.Option(min=2, max=100_000, help="rows of --cam-table, both ends; default: servo of the file")
     ] = None,
 ) -> None:
     """Write the profiles of cams and gears as DXF, SVG, CSV or STEP, NAME-PART.dxf for each part; gears as REXS.
@@ -49,6 +68,11 @@ def _export(
 
     Example: gearlink export designs/ty460.yaml --part main_cam --as dxf --as svg
     """
+    if cam_table:
+        from gearlink.cli.export.cam_table import run_cam_table
+
+        raise typer.Exit(run_cam_table(spec, options, rows, tolerance))
     from gearlink.cli.export.command import run_export
 
-    raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), tolerance, curve, options, width)))
+    within = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), within, curve, options, width)))

@@ -15,7 +15,7 @@ from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams import profile
 from gearlink.core.parts.cams.disc_cam import SAMPLES
-from gearlink.core.parts.cams.servo import greatest_error, rows_for, servo_rows
+from gearlink.core.parts.cams.servo import greatest_error, rows_for, servo_table
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.cams import FollowerCams
@@ -168,20 +168,11 @@ class Making:
         rows = self.servo_rows
         return None if rows is None else greatest_error(self.cams.motion, rows)
 
-    def servo_table(self, rows: int | None = None) -> Table:
+    def servo_table(self) -> Table:
         """Positions and derivatives per degree at equal steps of the cam angle."""
-        wanted = rows or self.servo_rows
-        assert wanted is not None, "asked for with the section, or with rows"
-        degrees, values = servo_rows(self.cams.motion, wanted)
-        rocks = self.spec.oscillates
-        unit = "deg" if rocks else "mm"
-        names = ("position", "velocity", "acceleration", "jerk")
-        columns: dict[str, tuple[Reals, str]] = {"master_position": (degrees, "deg")}
-        for order, (name, value) in enumerate(zip(names, values, strict=True)):
-            shown = (np.degrees(value) if rocks else value) * math.radians(1.0) ** order
-            power = ("", "/deg", "/deg^2", "/deg^3")[order]
-            columns[f"slave_{name}"] = (shown, unit + power)
-        return Table.of("servo", columns)
+        rows = self.servo_rows
+        assert rows is not None, "asked for with the section alone"
+        return servo_table(self.cams.motion, rows, rocks=self.spec.oscillates)
 
 
 def _xy(degrees: Reals, points: Points) -> dict[str, tuple[Reals, str]]:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import Table
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams.follower_motion import HERMITE, TURN, FollowerMotion
@@ -18,6 +21,17 @@ def servo_rows(motion: FollowerMotion, rows: int) -> tuple[Reals, list[Reals]]:
     """Angles [deg] and the lift with three derivatives at equal steps, both ends; joints as the segment after them."""
     degrees = 360.0 * np.arange(rows) / (rows - 1)
     return degrees, motion.evaluate(np.radians(degrees), 3)
+
+
+def servo_table(motion: FollowerMotion, rows: int, *, rocks: bool) -> Table:
+    """Positions and their derivatives per degree of the master at equal steps, lifts in mm, of a rocker in deg."""
+    degrees, values = servo_rows(motion, rows)
+    unit = "deg" if rocks else "mm"
+    columns: dict[str, tuple[Reals, str]] = {"master_position": (degrees, "deg")}
+    for order, (name, value) in enumerate(zip(("position", "velocity", "acceleration", "jerk"), values, strict=True)):
+        shown = (np.degrees(value) if rocks else value) * math.radians(1.0) ** order
+        columns[f"slave_{name}"] = (shown, unit + ("", "/deg", "/deg^2", "/deg^3")[order])
+    return Table.of("servo", columns)
 
 
 def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
