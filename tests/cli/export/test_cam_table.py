@@ -21,7 +21,7 @@ def test_the_table_of_a_drive(gearlink: Any, tmp_path: Path) -> None:
     assert "37 rows" in done.out
     with (tmp_path / "loaded-cam-cam-table.csv").open() as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["master_position"]) for row in rows] == pytest.approx(np.linspace(0.0, 360.0, 37))
+    assert [float(row["master_position"]) for row in rows] == pytest.approx(np.linspace(0.0, 360.0, 37), rel=1e-14)
     # the polynomial of degree 5 through two rows meets the law between them
     names = [f"slave_{name}" for name in ("position", "velocity", "acceleration")]
     values = np.array([float(row[name]) for row in rows[5:7] for name in names]) * np.array([1.0, 10.0, 100.0] * 2)

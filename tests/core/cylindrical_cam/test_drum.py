@@ -84,9 +84,9 @@ def test_quantities_by_close_places() -> None:
 def test_the_development_is_the_pitch_line_and_walls_a_radius_beside_it() -> None:
     one = drum(-1)
     pitch, upper, lower = (np.array(one.developed(60.0, side, PHI)) for side in (0, 1, -1))
-    assert np.linalg.norm(upper - pitch, axis=0) == pytest.approx(10.0)
+    assert np.linalg.norm(upper - pitch, axis=0) == pytest.approx(10.0, rel=1e-12)
     assert upper - pitch == pytest.approx(pitch - lower, abs=1e-12)
-    assert pitch[0] == pytest.approx(60.0 * PHI)
+    assert pitch[0] == pytest.approx(60.0 * PHI, rel=1e-14)
 
 
 @pytest.mark.parametrize(("roller", "status"), [(10, "pass"), (30, "warn"), (60, "fail")])

@@ -148,9 +148,9 @@ def test_groove_and_cutter_stand_off_the_pitch_curve() -> None:
     phi = CLOSE[::50]
     pitch, inner = design.cams.main.points(phi)
     outer, cutter = design.cams.outer_wall.points(phi)[1], design.making.cutter_points(phi)
-    assert np.abs(outer - pitch) == pytest.approx(12.0)
+    assert np.abs(outer - pitch) == pytest.approx(12.0, rel=1e-12)
     assert outer - pitch == pytest.approx(pitch - inner, abs=1e-12)
-    assert np.abs(cutter - inner) == pytest.approx(30.0)
+    assert np.abs(cutter - inner) == pytest.approx(30.0, rel=1e-12)
     assert design.max_radius == pytest.approx([78.0, 102.0], rel=1e-12)
     assert design.min_radius == pytest.approx([48.0, 72.0], rel=1e-12)
     # the least hollow radius, where the profile bends inwards

@@ -94,7 +94,7 @@ def test_given_end_values_hold() -> None:
     segments = [{"to": 90, "lift": 10, "law": "polynomial", "end_velocity": 7.0, "end_acceleration": -3.0}]
     motion = made(*segments, {"to": 200, "lift": 20, "law": "polynomial"}, {"to": 360, "lift": 0, "law": "polynomial"})
     assert [float(each[0]) for each in motion.evaluate(np.array([0.5 * math.pi]), 2)] == pytest.approx(
-        [10.0, 7.0, -3.0]
+        [10.0, 7.0, -3.0], rel=1e-13
     )
 
 
