@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-    from gearlink.core.studies.loads.base import Wanted
+    from gearlink.core.studies.loads.design import Wanted
     from gearlink.core.studies.loads.machine import Machine
 
 _SHOWN = (*CONTACT, "spring_preload", "lift_off_speed", "face_width_needed")
