@@ -98,16 +98,19 @@ class Closing:
 
     @cached_property
     def unloading(self) -> Extreme | None:
-        """Greatest 1/Omega*^2 = -m s''/T_static over the turn and its cam angle; None without spring or mass."""
+        """Greatest 1/Omega*^2 = -m s''/T_static and its cam angle; None without spring or mass.
+
+        It is inf where the spring does not hold the follower on the cam at rest.
+        """
         if self.spec.spring is None or not self.inertia:
             return None
 
+        least = self._most(lambda phi: -self.static(phi))
+        if least.value >= 0.0:  # the spring alone does not hold it there
+            return Extreme(math.inf, least.place)
+
         def share(phi: Reals) -> Reals:
-            need, still = -self.inertia * self.cams.motion.evaluate(phi, 2)[2], self.static(phi)
-            with np.errstate(all="ignore"):
-                return np.where(
-                    still > 0.0, need / np.where(still > 0.0, still, 1.0), np.where(need > 0.0, np.inf, 0.0)
-                )
+            return np.asarray(-self.inertia * self.cams.motion.evaluate(phi, 2)[2] / self.static(phi))
 
         return self._most(share)
 

@@ -95,3 +95,10 @@ def test_a_flat_face_has_a_pressure_and_no_roller() -> None:
         design.contact_force("main", PHI) * 113_186.813 / (math.pi * 15.0 * design.closing.relative_radius(PHI))
     )
     assert design.raw("hertz_pressure_max") == pytest.approx(expected.max(), rel=1e-4)
+
+
+def test_a_spring_that_does_not_reach_holds_at_no_speed() -> None:
+    lowered = [{"to": 90, "lift": -8, "law": "cycloidal"}, {"to": 200, "lift": 0}, {"to": 360}]
+    design = factory.design({**SLIDE, "motion": lowered, "loads": None}, command="cam")
+    assert design.lift_off_speed == 0.0
+    assert [check.status for check in design.check("lift-off")] == ["fail"]
