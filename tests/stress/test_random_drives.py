@@ -22,9 +22,9 @@ from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.machines.three_gear import motion
 from gearlink.core.machines.three_gear.dwell import dwells
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.sweep import output_motion
 from gearlink.core.parts.linkages.fourbar.loop import closing_range
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+from tests.oracles.three_gear_output import output_motion
 
 pytestmark = LONGER_NUMBERS
 

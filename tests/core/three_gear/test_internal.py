@@ -34,10 +34,10 @@ from gearlink.core.machines.three_gear.motion import (
     output_speed,
     speed_extremes,
 )
-from gearlink.core.machines.three_gear.sweep import output_motion
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+from tests.oracles.three_gear_output import output_motion
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 

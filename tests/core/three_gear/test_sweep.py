@@ -17,9 +17,10 @@ from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
 )
 from gearlink.core.machines.three_gear.many import symmetric as symmetric_many
 from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
-from gearlink.core.machines.three_gear.sweep import momentary_dwells, output_motion
+from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+from tests.oracles.three_gear_output import output_motion
 
 EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
 TURN = np.arange(360) * (math.tau / 360)
