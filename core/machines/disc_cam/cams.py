@@ -93,10 +93,20 @@ class FollowerCams:
 
     @cached_property
     def place(self) -> Place:
-        """The place, given or the least."""
-        if self.spec.oscillates:
-            return self._rocking_place()
-        return self._sliding_place()
+        """The place, given or the least.
+
+        Raises
+            NoSolution - none keeps the limits, or the roller would reach over the cam's axis
+        """
+        found = self._rocking_place() if self.spec.oscillates else self._sliding_place()
+        roller = getattr(self.follower, "roller_radius", 0.0)
+        if found.radius <= roller:
+            given = self.spec.cam.prime_radius is not None
+            words = "prime_radius" if given else "the least prime radius"
+            message = f"{words} {found.radius:.6g} mm is not above roller_radius {roller:g} mm, which leaves no cam: "
+            message += "raise it" if given else "give cam.prime_radius, or cam.size.curvature_radius"
+            raise NoSolution(message, key="cam.prime_radius" if given else "cam.size")
+        return found
 
     def _sliding_place(self) -> Place:
         follower, cam = self.follower, self.spec.cam

@@ -181,9 +181,9 @@ class Rocking(NamedTuple):
             def apart(phi: Reals, limit: float = limit) -> tuple[Reals, Reals]:
                 s, s1 = self.motion.evaluate(phi, 1)
                 share = self.arm * (1.0 + self.side * self.sense * s1) * math.cos(limit) / self.distance
-                if np.any(share > 1.0):
+                if np.any(np.abs(share) > 1.0):  # one of the two sides cannot be
                     raise _nowhere()
-                return s, np.arccos(np.maximum(share, -1.0))
+                return s, np.arccos(share)
 
             def lower(phi: Reals, limit: float = limit, apart: Apart = apart) -> Reals:
                 s, angle = apart(phi)

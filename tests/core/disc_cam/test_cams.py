@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams import least_cam
+from gearlink.core.parts.cams.follower_motion import motion_of
+from gearlink.core.parts.cams.motion_spec import Segment
 
 MOTION = [
     {"to": 80, "lift": 30, "law": "modified-sine"},
@@ -188,4 +191,36 @@ def test_errors_of_the_profile_by_a_cam_made_so() -> None:
 def test_cams_that_cannot_be_say_at_which_key(key: str, follower: dict[str, Any], body: dict[str, Any]) -> None:
     with pytest.raises(NoSolution) as refused:
         _ = cam(SWING, follower, body).prime_radius
+    assert refused.value.key == key
+
+
+@pytest.mark.parametrize("swing", [170.0, 40.0])
+def test_start_angles_of_a_rocker_by_trying_all(swing: float) -> None:
+    """A fast stroke towards the cam's motion asks for more than any start angle gives: c cos(alpha) < -f."""
+    segments = [Segment(to=60.0, lift=swing), Segment(to=360.0, lift=0.0)]
+    motion, limit = motion_of(segments, unit=math.radians(1.0)), math.radians(40.0)
+    rocker = least_cam.Rocking(motion, 60.0, 70.0, 1, -1)
+    phi, start = np.linspace(0.0, 2.0 * math.pi, 1441), np.linspace(0.005, math.pi - 0.005, 2001)
+    s, s1 = motion.evaluate(phi, 1)
+    psi = start[:, None] + s
+    across = 70.0 * np.cos(psi) - 60.0 * (1.0 - s1)
+    kept = (np.abs(across) <= math.tan(limit) * 70.0 * np.sin(psi)).all(axis=1) & (np.sin(psi) > 0.0).all(axis=1)
+    if kept.any():
+        low, high = rocker.start_angles((limit, limit, limit))
+        assert (low, high) == pytest.approx((start[kept].min(), start[kept].max()), abs=4e-3)
+    else:
+        with pytest.raises(NoSolution):
+            rocker.start_angles((limit, limit, limit))
+
+
+@pytest.mark.parametrize(
+    ("body", "key"), [({"prime_radius": 8}, "cam.prime_radius"), ({"size": {"pressure_angle": 85}}, "cam.size")]
+)
+def test_a_roller_that_reaches_over_the_axis_is_refused(body: dict[str, Any], key: str) -> None:
+    small = {"type": "translating-roller", "roller_radius": 8}
+    slow = [{"to": 180, "lift": 0.1}, {"to": 360, "lift": 0}]
+    if "size" in body:
+        body = {"size": {**body["size"], "curvature_radius": 0.1}}
+    with pytest.raises(NoSolution, match="not above roller_radius 8 mm") as refused:
+        _ = cam(slow, small, body).prime_radius
     assert refused.value.key == key
