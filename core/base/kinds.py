@@ -355,6 +355,7 @@ KINDS: dict[str, Kind] = {
                 "register": "",
                 "tolerance": "",
             },
+            errors="register:errors",
             register_at="range",
             motion="mechanism:motion",
             outputs={"follower": ("lift",)},

@@ -20,7 +20,7 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
         return Movable()
     away = float(mechanism.links["rocker"].origin.value[0].real)
     farther = (Shift(FRAME, ("D",), 1.0 if away > 0.0 else -1.0),)
-    outwards = (Shift("rocker", ("roller",), 1.0, "normal"),)
+    outwards = (Shift("rocker", ("roller",), -1.0, "normal"),)  # as if the roller stood nearer to its cam
     sizes: dict[str, tuple[Shift, ...]] = {
         "cam.center_distance": farther,
         "centers.cam": farther,

@@ -12,7 +12,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution, named
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
-from gearlink.core.mechanism.joints import Pin, Toothed
+from gearlink.core.mechanism.joints import Contact, Pin, SharedContact, Toothed
 from gearlink.core.mechanism.motion import Course
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.loads.zeros import zeros
@@ -67,10 +67,18 @@ class MotionRegister(RegisterDesign):
 
     design: Design
 
-    @property
+    @cached_property
     def motion(self) -> Motion:
-        """The motion of the design."""
-        return self.design.moving
+        """The motion of the design.
+
+        Raises
+            NoSolution - where a slide is its input
+        """
+        found = self.design.moving
+        if found.input.unit != "rad":
+            message = "a register is taken over an input angle: drive a link in place of a slide"
+            raise NoSolution(message, key="drive.slide")
+        return found
 
     @cached_property
     def course(self) -> Course:
@@ -183,6 +191,8 @@ class MotionRegister(RegisterDesign):
         """Every source of the file, the backlash of the meshes, and the wind-up of the output's shaft."""
         gains = self.gains(input_angle, torque_sign)
         found = self.of_sources(gains, input_angle) + gains.backlash(self.backlash)
+        if self.section.cam_error is not None:
+            found += [gains.profile(roller, self.section.cam_error) for roller in self._rollers]
         if self.section.stiffness is not None and self._carries:
             lag = -self.radius * self.output_torque(input_angle) / self.section.stiffness
             found.append(Contribution("wind-up of the output shaft", lag, 1.0, 0.0, mean=1.0))
@@ -195,6 +205,14 @@ class MotionRegister(RegisterDesign):
         if not meshes and self.section.backlash is not None:
             raise NoSolution("no mesh lies on the way to the output: leave backlash out", key="register.backlash")
         return self.section.backlash_of(meshes)
+
+    @cached_property
+    def _rollers(self) -> list[str]:
+        """The contacts with cams."""
+        found = [each.name for each in self._at_start.connections if isinstance(each, (Contact, SharedContact))]
+        if not found:
+            raise NoSolution("no cam lies on the way to the output: leave cam_error out", key="register.cam_error")
+        return found
 
     @cached_property
     def dead_band(self) -> float | None:

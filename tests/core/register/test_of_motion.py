@@ -33,6 +33,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "five_bar_function": ("links.coupler", "links.follower", "links.output", "phase", "centers.gears", "pins.D"),
     "gear_pair": ("centers.gears", "pins.gear1", "gears.gear1", "gears.gear2"),
     "wide_swing_cycle": ("centers.cam", "cam.profile", "cam.roller_radius", "pins.roller", "pins.D"),
+    "lift_cam": ("cam.profile", "follower.roller_radius", "follower.offset", "pins.roller", "pins.O"),
     "planar_watt": (
         *("frame.D[0]", "frame.D[1]", "links.crank[2]", "links.coupler.E[0]", "links.coupler.E[1]", "pins.E"),
         *("links.rocker.F[1]", "links.arm[2]"),
@@ -67,6 +68,7 @@ WITHOUT_MESH = (
     "slider_crank_tolerances",
     "crank_rocker_links",
     "wide_swing_cycle",
+    "lift_cam",
     "planar_watt",
     "planar_quick_return",
 )
@@ -229,3 +231,49 @@ def test_another_output_counts_where_the_file_says_so() -> None:
     press = factory.design("ty460", command="register", register={"output": "bed"})
     with pytest.raises(NoSolution, match="output belongs to machines with several outputs"):
         _ = press.section
+
+
+def test_a_slide_as_input_is_refused() -> None:
+    data = {
+        "kind": "planar-mechanism",
+        "frame": {"A": [0, 0]},
+        "links": {"crank": ["A", "B", 40], "rod": ["B", "C", 120], "ram": {"C": [0, 0]}},
+        "slides": {"guide": {"link": "ram", "through": [0, 0], "direction": 0}},
+        "drive": {"slide": "guide"},
+        "start": {"guide": 120, "crank": 60, "rod": -20},
+        "range": {"start": -10, "end": 10},
+        "tolerance": {"sources": {"links.rod[2]": SIZE}},
+    }
+    made = factory.design(data, command="register")
+    with pytest.raises(NoSolution, match="drive a link in place of a slide") as refused:
+        _ = made.worst
+    assert refused.value.key == "drive.slide"
+
+
+def test_a_rocker_on_a_cam_in_closed_form() -> None:
+    """At a dwell: profile, arm and centre distance by the triangle of cam axis, pivot and roller."""
+    follower = {"type": "oscillating-roller", "roller_radius": 15, "arm": 100, "center_distance": 140}
+    sources = ("cam.profile", "follower.arm", "follower.center_distance")
+    data = {
+        "kind": "disc-cam",
+        "motion": [{"to": 100, "lift": 25}, {"to": 160}, {"to": 280, "lift": 0}, {"to": 360}],
+        "follower": follower,
+        "cam": {"prime_radius": 80},
+        "tolerance": {"sources": dict.fromkeys(sources, SIZE)},
+        "register": {"cam_error": 0.01},
+    }
+    made = factory.design(data, command="register")
+    found = {one.source: one.gain[0] for one in made.contributions(np.radians([330.0]), 1)}
+    across = math.acos((100.0**2 + 140.0**2 - 80.0**2) / (2.0 * 100.0 * 140.0))
+    per_radius = 80.0 / (140.0 * math.sin(across))  # arm times d(angle)/d(prime radius)
+    assert found["cam.profile"] == pytest.approx(per_radius, rel=1e-12)
+    assert found["cam profile"] == pytest.approx(per_radius, rel=1e-12)
+    arm = (100.0 - 140.0 * math.cos(across)) / 80.0
+    distance = (140.0 - 100.0 * math.cos(across)) / 80.0
+    assert found["follower.arm"] == pytest.approx(-per_radius * arm, rel=1e-12)
+    assert found["follower.center_distance"] == pytest.approx(-per_radius * distance, rel=1e-12)
+
+
+def test_a_cam_error_needs_a_cam() -> None:
+    with pytest.raises(NoSolution, match="no cam lies on the way"):
+        _ = register("slider_crank_tolerances", cam_error=0.01).worst
