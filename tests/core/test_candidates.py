@@ -10,7 +10,7 @@ import pytest
 from factory import design, worked
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.five_bar import candidates as five_bar_candidates
+from gearlink.core.machines.five_bar import design as five_bar_candidates
 from gearlink.core.machines.five_bar import function_fit
 from gearlink.core.machines.five_bar.wanted import StructuralError
 

@@ -12,7 +12,7 @@ import numpy as np
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.cams import GripperCams
+    from gearlink.core.machines.swing_gripper.design import GripperCams
     from gearlink.core.machines.swing_gripper.linkage import GripperMotion
 
 ROLLER = {"cam.roller.arm": "arm", "cam.roller.radius": "radius", "cam.roller.angle": "angle"}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from oracles.loop_gains import LoopGains, loop_gains
 
-from gearlink.core.machines.flatbed_press.register_lift import RackLift
+from gearlink.core.machines.flatbed_press.register import RackLift
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 

@@ -19,7 +19,7 @@ from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.flatbed_press.register_lift import RackLift
+    from gearlink.core.machines.flatbed_press.register import RackLift
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from gearlink.core.base.candidates import Sought, nothing_sought, table
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.five_bar import bodies, tables
+from gearlink.core.base.rows import row_numbers
+from gearlink.core.base.wording import amount
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.machines.five_bar.path import rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.halton import halton
+from gearlink.core.numerics.lm import State, descend
+from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed, named
 from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
@@ -24,8 +34,9 @@ from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quanti
 from gearlink.core.parts.gears.train.ways import train_ways
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE
-from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance.reach import Reach, constant, crank_pin
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.fit import Fit
@@ -34,6 +45,370 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.timed_fit import TimedFit
     from gearlink.core.machines.five_bar.wanted import Wanted
     from gearlink.core.numerics.extremes import Extreme
+
+
+def layout_of_bodies(design: GearedFiveBar) -> Layout:
+    """The bodies of either form."""
+    gears, reaches = _path(design) if design.is_path else _function(design)
+    spec, axes = design.spec, "AEO" if design.spec.gears.idler is not None else "AE"
+    return Layout(gears, shafts_at(axes, spec.shafts), reaches, least_shaft(spec.limits, spec.gears.module))
+
+
+def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
+    """Each gear is one body with its link; the idler turns on O in the frame."""
+    reaches = {"AE": constant(design.frame_length)}
+    first, *more = design.meshes.values()
+    if first.internal:
+        ring, pinion = ("A", "E") if design.signed_teeth[0] < 0 else ("E", "A")
+        name = {"A": "the input gear", "E": "the output gear"}[pinion]
+        return (
+            ring_gear(ring, first, rim=design.outer_rim(design.mesh_names[0])),
+            Gear(name, pinion, first.tip_radius[0], mates=ring, root=first.root_radius[0]),
+        ), reaches
+    driven = more[0] if more else first
+    ends = (
+        Gear("the input gear", "A", first.tip_radius[0], mates="O" if more else "E", root=first.root_radius[0]),
+        Gear("the output gear", "E", driven.tip_radius[1], mates="O" if more else "A", root=driven.root_radius[1]),
+    )
+    if not more:
+        return ends, reaches
+    reaches |= {"AO": constant(design.center_distance[0]), "EO": constant(design.center_distance[1])}
+    return (*ends, Gear("the idler", "O", first.tip_radius[1], root=first.root_radius[1])), reaches
+
+
+def _function(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
+    """The planet goes round the fixed gear as far as the range of the input takes it."""
+    (mesh,), bar = design.meshes.values(), design.function_bar
+    planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
+    rim = design.outer_rim(design.mesh_names[0])
+    fixed = (
+        ring_gear("A", mesh, rim=rim)
+        if mesh.internal
+        else Gear("the sun", "A", mesh.tip_radius[1], root=mesh.root_radius[1])
+    )
+    return (planet, fixed), {
+        "AB": constant(bar.input),
+        "AE": constant(bar.frame),
+        "BE": crank_pin(bar.input, bar.frame, *design.input_range),
+    }
+
+
+_RATIOS = ((1, 1), (2, 1), (1, 2))
+_CANDIDATES_LINKS = ("input_length", "coupler_length", "follower_length", "output_length", "frame_length", "phase")
+_QUALITY = ("path_deviation_rms", "path_deviation_max", "structural_error", "min_transmission_angle")
+
+
+def five_bar(design: GearedFiveBar) -> Table:
+    """Gears in the ratios 1, 2 and 1/2 in both assemblies; each row is a search of its own."""
+    if design.spec.target is None:
+        raise nothing_sought("give target: points, positions or a function")
+    one, other = _names(design)
+    own = getattr(design.spec.gears, one), getattr(design.spec.gears, other)
+    keys = {
+        f"gears.{one}": (f"{one}_teeth", "1"),
+        f"gears.{other}": (f"{other}_teeth", "1"),
+        "assembly": ("assembly", "1"),
+    }
+    teeth = list(dict.fromkeys((own, *((min(own) * p, min(own) * q) for p, q in _RATIOS))))
+    # A function's search takes seconds: it keeps to the file's assembly.
+    sides = (1, -1) if design.is_path else (design.spec.assembly,)
+    rows = [(*pair, side) for pair in teeth for side in sides]
+    return table(design, Sought("analyze", keys, rows, (*_CANDIDATES_LINKS, *_QUALITY)))
+
+
+def _names(design: GearedFiveBar) -> tuple[str, str]:
+    if design.is_path:
+        return "input", "output"
+    return "planet", "ring" if design.spec.gears.ring is not None else "sun"
+
+
+_PER_WAVE, _MOST = 360, 20_000
+_EXTREMES_TURN = 2.0 * math.pi
+
+
+def path_extremes(bar: PathFiveBar, offset: complex) -> dict[str, float]:
+    """Extremes of |M'| [mm/rad] and |M''| [mm/rad^2] over the period, and their input angles [rad].
+
+    Parameters
+        bar : PathFiveBar - it closes over its period
+        offset : complex [mm] - u + i v
+    Example
+        >>> from fractions import Fraction
+        >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+        >>> round(path_extremes(bar, 60.0 + 0j)["velocity_max"], 6)
+        58.52755
+    """
+
+    def size(order: int, phi: Reals) -> Reals:
+        return np.asarray(np.abs(rates(bar, phi, offset)[order]))
+
+    curves = {"velocity": lambda phi: size(0, phi), "acceleration": lambda phi: size(1, phi)}
+    waves = bar.period_turns * max(1.0, abs(float(bar.ratio)))
+    return extremes(curves, 0.0, bar.period, samples=min(_MOST, math.ceil(_PER_WAVE * waves)))
+
+
+def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[str, float]:
+    """Extremes of the output's speed and acceleration per input speed over a range, and their input angles [rad].
+
+    Parameters
+        bar : FunctionFiveBar
+        start, end : float [rad] - it closes between them
+    """
+
+    def of(rate: str, phi: Reals) -> Reals:
+        function = getattr(bar, rate)
+        return np.array([function(angle) for angle in phi.tolist()])
+
+    curves = {
+        "speed_ratio": lambda phi: of("output_speed", phi),
+        "acceleration_ratio": lambda phi: of("output_acceleration", phi),
+    }
+    waves = (end - start) / _EXTREMES_TURN * max(1.0, abs(bar.coupler_ratio))
+    return extremes(curves, start, end, samples=max(64, min(_MOST, math.ceil(_PER_WAVE * waves))))
+
+
+def path_table(design: GearedFiveBar, samples: int | None = None) -> Table:
+    """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
+    from gearlink.core.mechanism.courses import Shown, between, coordinate, motion_table, turned
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    x, y = (coordinate("coupler", "M", along) for along in (1.0 + 0j, 1j))
+    shown = [
+        Shown("output_angle", turned("output")),
+        Shown("coupler_angle", turned("coupler")),
+        Shown("x", x),
+        Shown("y", y),
+        Shown("x_velocity", x, 1, "point_x_velocity"),
+        Shown("y_velocity", y, 1, "point_y_velocity"),
+        Shown("x_acceleration", x, 2, "point_x_acceleration"),
+        Shown("y_acceleration", y, 2, "point_y_acceleration"),
+        Shown("transmission_angle", between("coupler", "follower")),
+    ]
+    return motion_table("path", design, shown, samples, degrees=turn_degrees(samples, design.shown_turns))
+
+
+def deviations_table(design: GearedFiveBar, _samples: int | None = None) -> Table:
+    """Every point that is asked for and its distance from the path."""
+    target, fit = design.spec.target, design.fit
+    assert target is not None, "shown only with a fit"
+    assert target.points is not None, "shown only with a fit"
+    assert fit is not None, "shown only with a fit"
+    x, y = zip(*target.points, strict=True)
+    columns: dict[str, tuple[Any, str]] = {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")}
+    if design.timed_fit is not None and target.input_angles is not None:
+        first = math.degrees(design.timed_fit.first_angle)
+        columns = {"input_angle": ([first + angle for angle in target.input_angles], "deg"), **columns}
+    return Table.of("deviations", columns)
+
+
+def function_table(design: GearedFiveBar, samples: int | None = None) -> Table:
+    """Output angle and speed over the range of the input, both ends included."""
+    start, end = design.input_range
+    count, bar = samples or 180, design.function_bar
+    rows = row_numbers(samples, count + 1)
+    angles = [start + (end - start) * i / count if i < count else end for i in rows]
+    followed = bar.output_angles([start, *angles])[1:]
+    columns = {
+        "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
+        "output_angle": ([math.degrees(angle) for angle in followed], "deg"),
+        "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
+        "acceleration_ratio": ([bar.output_acceleration(angle) for angle in angles], "1"),
+    }
+    rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+    return Table.of("function", design.timed(columns, "input_angle", rates))
+
+
+def structural_error_table(design: GearedFiveBar, samples: int | None = None) -> Table:
+    """Output angle, what it should be, and the difference, over the interval of the function."""
+    import numpy as np
+
+    from gearlink.core.machines.five_bar.wanted import outputs
+
+    found, wanted = design.function_fit, design.wanted
+    assert found is not None, "shown only with a function"
+    assert wanted is not None, "shown only with a function"
+    s = np.linspace(0.0, 1.0, (samples or 60) + 1)
+    fine = np.linspace(0.0, 1.0, 721)
+    phi = found.start + wanted.input_swing * np.concatenate([fine, s])
+    order = np.argsort(phi, kind="stable")
+    reached = np.empty(phi.size)
+    reached[order] = outputs(found.bar, phi[order])
+    output, asked = reached[fine.size :], found.error.zero + wanted.output(s)
+    turns = 2.0 * math.pi * round(float(output[0] - asked[0]) / (2.0 * math.pi))
+    columns = {
+        "input_angle": (np.degrees(phi[fine.size :]), "deg"),
+        "output_angle": (np.degrees(output - turns), "deg"),
+        "wanted_angle": (np.degrees(asked), "deg"),
+        "error": (np.degrees(output - turns - asked), "deg"),
+    }
+    return Table.of("structural_error", columns)
+
+
+def search_table(design: GearedFiveBar, _samples: int | None = None) -> Table:
+    """What the search had reached after each of its rounds."""
+    rounds, unit = design.search_rounds, "mm" if design.is_path else "deg"
+    error = [each.error if design.is_path else math.degrees(each.error) for each in rounds]
+    return Table.of("search", {"starts": ([each.starts for each in rounds], "1"), "error": (error, unit)})
+
+
+Positions = Sequence[tuple[float, float]]
+
+MOST_POSITIONS = 5
+_STARTS = 1500
+_STEPS = 80
+# Lengths are sought from 1/20 to 20 times the input link: beyond, a drawing would not show both.
+_WIDEST = math.log(20.0)
+_FARTHEST = 2.0 * _WIDEST
+_SCATTER = 1.5
+# A five-bar that comes nearer to its dead point than this is of no use to anybody [rad].
+_LEAST_ANGLE = math.radians(0.5)
+# Sum of squared misses over the input link of a candidate that is worth following; its motion decides.
+_CLOSE = 1e-22
+# Largest error of an output angle of a design that counts as found [rad].
+_EXACT = 1e-9
+
+
+def position_errors(bar: FunctionFiveBar, positions: Positions) -> list[float]:
+    """Output angle reached less that asked for at each position, on one continuous motion [rad].
+
+    Parameters
+        bar : FunctionFiveBar
+        positions : sequence of (phi, psi) [rad] - phi ascending
+    Returns
+        errors : list of float [rad]
+    Raises
+        NoSolution - where the five-bar opens between the first and the last
+    Notes
+        Whole turns count: a linkage that reaches the second angle by going round the other way misses it.
+    """
+    reached = bar.output_angles([phi for phi, _ in positions])
+    turns = 2.0 * math.pi * round((reached[0] - positions[0][1]) / (2.0 * math.pi))
+    return [angle - turns - psi for angle, (_, psi) in zip(reached, positions, strict=True)]
+
+
+def five_bar_for_positions(
+    start: FunctionFiveBar, positions: Positions, transmission_angle: float = 0.0
+) -> FunctionFiveBar:
+    """Geared five-bar whose output link stands at given angles at given input angles.
+
+    |a e^(i phi_j) + b e^(i (t20 + m phi_j)) - d - e e^(i psi_j)| = c,   j = 1..n
+
+    Parameters
+        start : FunctionFiveBar - input link and coupler ratio are kept (the gears give them); the rest is a start
+        positions : sequence of (phi, psi) [rad] - two to five, phi ascending
+        transmission_angle : float [rad] - the least that is wanted between the first and the last position
+    Returns
+        bar : FunctionFiveBar - of those found that have this transmission angle the one whose links differ least in
+            length; where none has it, the one with the greatest
+    Raises
+        NoSolution - for too few or too many positions, or where nothing meets them on one unbroken motion
+    Notes
+        Levenberg's steps from the start and 1500 fixed scattered ones at once (no random numbers). A candidate counts
+        only if its own motion, in one assembly and without opening on the way, meets every angle to 1e-9 rad.
+    Source
+        thesis 2.2.2, section 4; own derivation
+    """
+    _require(positions)
+    found = [bar for candidate in _candidates(start, positions) for bar in _moving(candidate, positions)]
+    if not found:
+        raise NoSolution(
+            f"no five-bar was found that meets the {len(positions)} positions in one unbroken motion: leave one out, "
+            "bring them nearer to each other, or start from other links (coupler, follower, output, frame, phase)"
+        )
+    return max(found, key=lambda bar: _quality(bar, positions, transmission_angle))
+
+
+def _require(positions: Positions) -> None:
+    if not 2 <= len(positions) <= MOST_POSITIONS:
+        raise NoSolution(
+            f"{amount(len(positions), 'position')}: give two to {MOST_POSITIONS}, as many as there are links to choose"
+        )
+    for (one, _), (other, _) in pairwise(positions):
+        if not one < other:
+            raise NoSolution(
+                f"input angles must ascend: {math.degrees(other):g} deg follows {math.degrees(one):g} deg; sort them"
+            )
+
+
+def _starts(bar: FunctionFiveBar) -> Reals:
+    """Rows of the unknowns ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20: the start, and scattered ones about it."""
+    first = [math.log(length / bar.input) for length in (bar.coupler, bar.follower, bar.output, bar.frame)]
+    rows = [[*first, bar.phase]]
+    for i in range(1, _STARTS + 1):
+        *shares, turn = halton(i, 5)
+        moved = [x + _SCATTER * (2.0 * share - 1.0) for x, share in zip(first, shares, strict=True)]
+        rows.append([*moved, bar.phase + 2.0 * math.pi * turn])
+    return np.array(rows)
+
+
+def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:
+    """Five-bars that satisfy the equations of the positions, not yet known to move between them."""
+    phi, psi = (np.array(column) for column in zip(*positions, strict=True))
+    x = _starts(start)
+    ratio = start.coupler_ratio
+    x, (cost, *_), _, _ = descend(lambda x: _state(x, phi, psi, ratio), _step, x, _STEPS, damping=1.0, least=0.0)
+    close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < _WIDEST, axis=1)
+    seen: set[tuple[float, ...]] = set()
+    for row in x[close]:
+        row[4] = math.remainder(float(row[4]), 2.0 * math.pi)
+        alike = tuple(np.round(row, 6).tolist())
+        if alike in seen:
+            continue
+        seen.add(alike)
+        b, c, e, d = (start.input * math.exp(float(v)) for v in row[:4])
+        yield replace(start, coupler=b, follower=c, output=e, frame=d, phase=float(row[4]))
+
+
+def _state(x: Reals, phi: Reals, psi: Reals, ratio: float) -> State:
+    """Squares, |CD| - c at each position over the input link, for every row of unknowns, and its derivatives."""
+    b, c, e, d = (np.exp(np.clip(x[:, i], -_FARTHEST, _FARTHEST))[:, None] for i in range(4))
+    coupler = b * np.exp(1j * (x[:, 4:5] + ratio * phi))
+    arm = e * np.exp(1j * psi)
+    gap = np.exp(1j * phi) + coupler - d - arm
+    long = np.abs(gap)
+    toward = np.conj(gap) / np.maximum(long, 1e-12)
+    parts = (coupler * toward).real, -c + 0.0 * long, -(arm * toward).real, -d * toward.real
+    slopes = np.stack((*parts, (1j * coupler * toward).real), axis=2)
+    return np.sum((long - c) ** 2, axis=1), long - c, slopes
+
+
+def _step(x: Reals, state: State, damping: Reals) -> Reals:
+    """Levenberg's step of least length for every row: -J^T (J J^T + damping)^-1 value."""
+    cost, value, slopes = state
+    square = slopes @ np.swapaxes(slopes, 1, 2)
+    # The floor goes with the size, else rounding takes it where one link is a million times the others.
+    floor = 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
+    square += (damping * np.minimum(cost, 1.0) + floor)[:, None, None] * np.eye(value.shape[1])
+    step: Reals = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
+    return x - np.clip(step, -0.5, 0.5)
+
+
+def _moving(bar: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:
+    """The five-bar in the assembly, if any, in which its motion meets the positions."""
+    first, last = positions[0][0], positions[-1][0]
+    for assembly in (1, -1):
+        made = replace(bar, assembly=assembly)
+        try:  # the cheap questions first: few candidates come to the last one
+            if (
+                all(_stands(made, phi, psi) for phi, psi in positions)
+                and made.min_transmission_angle(first, last)[0] >= _LEAST_ANGLE
+                and max(map(abs, position_errors(made, positions))) <= _EXACT
+            ):
+                yield made
+        except NoSolution:  # it opens on the way, in either assembly
+            return
+
+
+def _stands(bar: FunctionFiveBar, phi: float, psi: float) -> bool:
+    """Whether the output link points the right way at an input angle, whole turns aside."""
+    return abs(math.remainder(bar.output_angle(phi) - psi, 2.0 * math.pi)) <= _EXACT
+
+
+def _quality(bar: FunctionFiveBar, positions: Positions, wanted: float) -> tuple[float, float]:
+    """First the transmission angle as far as it is wanted, then links of like length."""
+    lengths = (bar.input, bar.coupler, bar.follower, bar.output, bar.frame)
+    angle, _ = bar.min_transmission_angle(positions[0][0], positions[-1][0])
+    return min(angle, wanted) if wanted > 0.0 else angle, -max(lengths) / min(lengths)
 
 
 MESHES = ("input_idler", "idler_output")
@@ -296,8 +671,6 @@ class FiveBarParts(Meshed):
             return self.function_fit.bar
         bar, positions = self.start_function, self.positions
         if positions is not None:
-            from gearlink.core.machines.five_bar.positions import five_bar_for_positions
-
             with at_key("target.positions"):
                 bar = five_bar_for_positions(bar, positions, math.radians(self.spec.limits.transmission_angle))
         with at_key("range" if self.spec.range is not None else "links"):
@@ -475,7 +848,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     @cached_property
     def motion_extremes(self) -> dict[str, float]:
         """Extremes of the point's speed and acceleration [mm/rad, mm/rad^2], or of the output's, and their places."""
-        from gearlink.core.machines.five_bar.extremes import function_extremes, path_extremes
 
         if self.is_path:
             return path_extremes(self.path_bar, self.offset)
@@ -534,14 +906,13 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         """Output angle reached less that asked for, at each position [rad]."""
         if self.positions is None or self.is_path:
             return None
-        from gearlink.core.machines.five_bar.positions import position_errors
 
         return position_errors(self.function_bar, self.positions)
 
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        return bodies.layout(self)
+        return layout_of_bodies(self)
 
     gear_gap: float | None = placed("layout.gear_gap")
     structural_error: float | None = placed("function_fit.error.greatest")
@@ -589,7 +960,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The target met with other gears side by side."""
-        from gearlink.core.machines.five_bar.candidates import five_bar
 
         return five_bar(self)
 
@@ -620,8 +990,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         """Input turns that the path's table covers: the period, or the beginning of a long one."""
         return min(self.period_turns, _SHOWN_TURNS)
 
-    table_path, table_deviations, table_search = tables.path, tables.deviations, tables.search
-    table_function, table_structural_error = tables.function, tables.structural_error
+    table_path, table_deviations, table_search = path_table, deviations_table, search_table
+    table_function, table_structural_error = function_table, structural_error_table
 
     # Checks
 

@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.candidates import Sought, table
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.remedies.ways import MODULES
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.flatbed_press import bodies, checks, remedies, tables
+from gearlink.core.machines.flatbed_press import bodies, checks
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.machines.flatbed_press.compensation import Compensation
 from gearlink.core.machines.flatbed_press.refusals import turns_back
@@ -26,8 +28,6 @@ from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel
-    from gearlink.core.machines.flatbed_press.compensation import Compensation
     from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
     from gearlink.core.mechanism.motion import Course
     from gearlink.core.numerics.arrays import Reals
@@ -35,7 +35,137 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.profile import RollerPath
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.mesh.pair import GearPair
-    from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+
+
+_SHOWN = ("profile_shift", "contact_ratio", "tip_thickness", "specific_sliding")
+
+
+def input_gears(design: FlatbedPress) -> Table:
+    """The modules of ISO 54 about the file's own, each with as many teeth as fit."""
+    gears = design.spec.input_gears
+    if gears is None:
+        raise MissingSection("candidates are the input gears: give the section input_gears", key="input_gears")
+    near = sorted({*MODULES, gears.module}, key=lambda module: abs(module / gears.module - 1.0))[:7]
+    keys = {"input_gears.module": ("module", "mm")}
+    rows, teeth = [(module,) for module in sorted(near)], {"teeth": lambda trial: trial.gear_pair.teeth[0]}
+    return table(design, Sought("gear", keys, rows, _SHOWN, counted=teeth))
+
+
+def positions_table(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Both chains at equal steps of the input angle (TY-460 report 1.2, 2.2), and the bed with the lift of its cam."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    motion, degrees = design.motion, turn_degrees(samples or 12)
+    phi = np.radians(degrees)
+    cam, speed = motion.bed.cam_angle(phi, 1), motion.input_speed
+    p, q = motion.bed.travel(phi, 1, cam), motion.cylinder.travel(phi, 1)
+    columns = {
+        "input_angle": (degrees, "deg"),
+        "cam_angle": (_from_start(phi, np.degrees(cam.value)), "deg"),
+        "bed_displacement": (p.value, "mm"),
+        "bed_velocity": (_from_start(phi, p.first * speed), "mm/s"),
+        "cylinder_displacement": (q.value, "mm"),
+        "cylinder_velocity": (q.first * speed, "mm/s"),
+        "transmission_angle_bed": (_transmission(motion.bed.linkage, motion.bed.initial_crank_angle + phi), "deg"),
+        "transmission_angle_cylinder": (
+            _transmission(motion.cylinder.linkage, motion.cylinder.initial_angle - phi),
+            "deg",
+        ),
+    }
+    if design.spec.cam is not None and design.bed_moves:
+        bed = design.bed_motion.travel(phi)
+        columns["compensated_displacement"] = (bed.value, "mm")
+        columns["compensated_velocity"] = (bed.first * speed, "mm/s")
+    return Table.of("positions", columns)
+
+
+def chains_table(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Accelerations of bed and cylinder and the directions of all links over the input angle, with the time.
+
+    Of a bed whose cam cannot be nothing is said.
+    """
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+    from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+    from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
+
+    motion, degrees = design.motion, turn_degrees(samples)
+    phi, speed, bed, cylinder = np.radians(degrees), motion.input_speed, motion.bed, motion.cylinder
+    q = cylinder.travel(phi, 2)
+    one = fourbar_sweep.solve(bed.linkage, bed.initial_crank_angle + phi, 0)
+    other = fourbar_sweep.solve(cylinder.linkage, cylinder.initial_angle - phi, 0)
+    slider = one.rocker_angle - bed.crank_offset_angle
+    crank, rod, offset = bed.slider_crank_length, bed.rod, bed.offset
+    slider_crank_sweep.slider(slider, crank, rod, offset)  # refuses where the rod does not reach
+    columns = {
+        "input_angle": (degrees, "deg"),
+        "time": (degrees / 360.0 * 3.6e6 / design.spec.speed, "ms"),
+        **_bed_rates(design, phi),
+        "cylinder_velocity": (q.first * speed, "mm/s"),
+        "cylinder_acceleration": (q.second * speed**2, "mm/s^2"),
+        "BC_angle": (np.degrees(one.coupler_angle), "deg"),
+        "CD_angle": (np.degrees(one.rocker_angle), "deg"),
+        "DE_angle": (np.degrees(slider), "deg"),
+        "rod_angle": (np.degrees(np.arcsin((crank * np.cos(slider) + offset) / rod)), "deg"),
+        "HM_angle": (np.degrees(other.coupler_angle), "deg"),
+        "MN_angle": (np.degrees(other.rocker_angle), "deg"),
+    }
+    return Table.of("chains", columns)
+
+
+def _bed_rates(design: FlatbedPress, phi: Any) -> dict[str, Any]:
+    if not design.bed_moves:
+        return {}
+    bed, speed = design.bed_motion.travel(phi), design.motion.input_speed
+    return {"bed_velocity": (bed.first * speed, "mm/s"), "bed_acceleration": (bed.second * speed**2, "mm/s^2")}
+
+
+def _from_start(input_angle: Any, values: Any) -> Any:
+    """Values that are 0 at the start by its definition: there the cam's turn begins and the bed stands at its dead
+    centre, which the directions of the links give to rounding."""
+    import numpy as np
+
+    return np.where(input_angle == 0.0, 0.0, values)
+
+
+def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
+    import numpy as np
+
+    from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
+    from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
+
+    return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
+
+
+def follower_table(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Lift of the follower over the cam angle (TY-460 report 3.4)."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees(samples)
+    lift, phases = design.cams.follower.evaluate(np.radians(degrees), 2)
+    columns = {
+        "cam_angle": (degrees, "deg"),
+        "lift": (lift.value, "mm"),
+        "velocity": (lift.first, "mm/rad"),
+        "acceleration": (lift.second, "mm/rad^2"),
+        "phase": (phases, "1"),
+    }
+    return Table.of("follower", columns)
+
+
+def main_cam_table(design: FlatbedPress, samples: int | None = None) -> Table:
+    """The main cam, point for point (TY-460 report 3.5)."""
+    return design.main_cam.table("main_cam", samples)
+
+
+def return_cam_table(design: FlatbedPress, samples: int | None = None) -> Table:
+    """The return cam, point for point (TY-460 report 3.6)."""
+    return design.return_cam.table("return_cam", samples)
 
 
 # The motion of a flatbed press: input, both chains, and the zone in which they run together
@@ -510,7 +640,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
     extra_tables = ("chains", "drawing", "candidates")
     requirements = Design.requirements | {"sync.print_length"}
     cost = 5.0
-    candidates, ways_of = remedies.candidates, remedies.ways_of
+    candidates, ways_of = checks.candidates, checks.ways_of
 
     def completion(self) -> Iterator[Found]:
         """The base radius in place of the rule that chose it."""
@@ -520,7 +650,6 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """Input gears of other modules side by side."""
-        from gearlink.core.machines.flatbed_press.candidates import input_gears
 
         return input_gears(self)
 
@@ -655,8 +784,8 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
         with at_key("input_gears"):
             return drawing_table(self.gear_data)
 
-    table_positions, table_follower, table_chains = tables.positions, tables.follower, tables.chains
-    table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
+    table_positions, table_follower, table_chains = positions_table, follower_table, chains_table
+    table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
     check_transmission_angle, check_register = checks.transmission_angle, checks.register
     check_body_clearance = bodies.crank_axes

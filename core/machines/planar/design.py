@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import GearlinkError
@@ -17,10 +19,16 @@ from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planar import tables
 from gearlink.core.machines.planar.codes import ASSEMBLY
-from gearlink.core.machines.planar.names import GENERAL, generic, meanings, words_of
+from gearlink.core.machines.planar.extremes import turning_points
+from gearlink.core.machines.planar.structure import GearJoint, RackJoint
+from gearlink.core.machines.planar.wiring import FRAME
+from gearlink.core.mechanism import courses
+from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE
+from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_shaft
 from gearlink.core.studies.clearance.checks import collision_check, seat_checks, shaft_checks
+from gearlink.core.studies.clearance.reach import reaches
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -28,10 +36,289 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Status
     from gearlink.core.machines.planar.course import Course
     from gearlink.core.machines.planar.extremes import Extreme, Pair
-    from gearlink.core.machines.planar.names import Meaning
+    from gearlink.core.machines.planar.outputs import Moved
     from gearlink.core.machines.planar.spec import PlanarSpec
     from gearlink.core.machines.planar.structure import Structure
-    from gearlink.core.studies.clearance.bodies import Layout
+    from gearlink.core.machines.planar.system import Jets
+    from gearlink.core.numerics.arrays import Reals
+
+
+_RIM = 2.0
+"""Modules outside the root circle of a ring."""
+_FIRST = 0x100
+"""Axes are letters to the clearance: beyond those that a file may name."""
+
+
+def layout(design: PlanarMechanism) -> Layout | None:
+    """The gears, taken to lie in one plane, and the shafts; None where there are none.
+
+    Notes
+        Gears have standard teeth without shift, tips at z m/2 + m. A gear passes its shaft where its link turns on it.
+    """
+    structure = design.structure
+    axes: dict[tuple[str, complex], str] = {}
+
+    def axis(body: str, place: complex) -> str:
+        """The letter of a place; one that a pin joins to another body is that body's."""
+        point = next((name for name, at in structure.bodies[body].items() if at == place), None)
+        holder = next(name for name, points in structure.bodies.items() if point in points) if point else body
+        at = structure.bodies[holder][point] if point else place
+        return axes.setdefault((holder, at), chr(_FIRST + len(axes)))
+
+    found: dict[tuple[str, str], Gear] = {}
+    for name, mesh in structure.meshes.items():
+        if isinstance(mesh, RackJoint):
+            _add(
+                found,
+                _pinion(
+                    structure.names[mesh.line.other], axis(structure.names[mesh.line.other], mesh.line.point), mesh
+                ),
+            )
+            continue
+        carrier = structure.names[mesh.carrier]
+        letters = [axis(carrier, place) for place in mesh.at]
+        for k, gear in enumerate((mesh.first, mesh.second)):
+            _add(found, _gear(mesh, k, structure.names[gear] if gear else name, letters))
+    if not found and not design.spec.shafts:
+        return None
+    gears = [gear._replace(turns_with=_shafts_of(design, body, axes)) for (body, _), gear in found.items()]
+    shafts = [
+        Shaft(
+            f"shaft at {point}",
+            axis(FRAME, complex(*place)),
+            design.spec.shafts.get(f"{point}_radius"),
+            f"shafts.{point}_radius",
+        )
+        for point, place in design.spec.frame.items()
+        if f"{point}_radius" in design.spec.shafts
+        or any(gear.axis == axes.get((FRAME, complex(*place))) for gear in gears)
+    ]
+    placed = {letter: key for key, letter in axes.items()}
+    pairs = {"".join(sorted(one + other)) for one in placed for other in placed if one < other}
+    return Layout(
+        tuple(gears),
+        tuple(shafts),
+        reaches(design.moving, placed, sorted(pairs), samples=design.course.samples),
+        least_shaft(design.spec.limits, max((mesh.module for mesh in structure.meshes.values()), default=0.0)),
+    )
+
+
+def _add(found: dict[tuple[str, str], Gear], made: tuple[str, Gear]) -> None:
+    """A gear, or more mates of one that is there."""
+    body, gear = made
+    known = found.get((body, gear.axis))
+    found[body, gear.axis] = (
+        gear if known is None else known._replace(mates=known.mates + gear.mates, outer=max(known.outer, gear.outer))
+    )
+
+
+def _pinion(body: str, axis: str, mesh: RackJoint) -> tuple[str, Gear]:
+    tip = mesh.radius + mesh.module
+    return body, Gear(f"the pinion {body}", axis, tip, root=tip - FULL_HEIGHT * mesh.module)
+
+
+def _gear(mesh: GearJoint, k: int, body: str, letters: list[str]) -> tuple[str, Gear]:
+    teeth, mate = mesh.teeth[k], letters[1 - k]
+    pitch = 0.5 * mesh.module * abs(teeth)
+    if teeth < 0:
+        outer = pitch + (0.5 * FULL_HEIGHT + 0.125 + _RIM) * mesh.module
+        return body, Gear(f"the ring {body}", letters[k], outer, pitch - mesh.module, mate)
+    tip = pitch + mesh.module
+    return body, Gear(f"the gear {body}", letters[k], tip, mates=mate, root=tip - FULL_HEIGHT * mesh.module)
+
+
+def _shafts_of(design: PlanarMechanism, body: str, axes: dict[tuple[str, complex], str]) -> str:
+    """Letters of the axes of the frame that the gear's own link turns on."""
+    points = design.structure.bodies.get(body, {})
+    frame = design.structure.bodies[FRAME]
+    return "".join(axes.get((FRAME, frame[point]), "") for point in points if point in frame)
+
+
+def greatest_gap(course: Course) -> float:
+    """Greatest gap of a pin, a line or a mesh [mm], directions taken at the unit of length."""
+    q = course.grid[:-1] if course.turns is not None else course.grid
+    scaled, jets = course.walked(q), course.jets(q, 0)
+    gaps = np.abs(course.system.values(jets, 0, scaled))
+    return float(gaps.max()) * course.structure.size
+
+
+_CHANGE = 1e-9
+
+
+def loops(spec: PlanarSpec) -> list[str]:
+    """The loops frame, driven link, coupler, output link of four pins, as "A B C D: crank-rocker"."""
+    bodies, crank = spec.bodies, spec.drive.link
+    if crank is None:
+        return []
+    found = []
+    for a in _shared(bodies, FRAME, crank):
+        for b in (point for point in bodies[crank] if point != a):
+            for coupler in (name for name in bodies if name not in (FRAME, crank) and b in bodies[name]):
+                for c in (point for point in bodies[coupler] if point != b):
+                    for last in (name for name in bodies if name not in (FRAME, crank, coupler) and c in bodies[name]):
+                        for d in _shared(bodies, FRAME, last):
+                            if len({a, b, c, d}) == 4:
+                                pairs = (crank, a, b), (coupler, b, c), (last, c, d), (FRAME, a, d)
+                                lengths = [abs(bodies[body][p] - bodies[body][q]) for body, p, q in pairs]
+                                found.append(f"{a} {b} {c} {d}: {sort_of(*lengths)}")
+    return list(dict.fromkeys(found))
+
+
+def _shared(bodies: dict[str, dict[str, complex]], one: str, other: str) -> list[str]:
+    return [point for point in bodies[one] if point in bodies[other]]
+
+
+def sort_of(crank: float, coupler: float, output: float, frame: float) -> str:
+    """What a four-bar is by Grashof's rule.
+
+    Example
+        >>> sort_of(32.0, 96.0, 78.0, 120.0), sort_of(50.0, 60.0, 50.0, 60.0), sort_of(80.0, 60.0, 50.0, 100.0)
+        ('crank-rocker', 'change-point', 'non-Grashof')
+    """
+    lengths = [crank, coupler, output, frame]
+    least, _, _, greatest = sorted(lengths)
+    apart = 2.0 * (least + greatest) - sum(lengths)
+    if abs(apart) <= _CHANGE * greatest:
+        return "change-point"
+    if apart > 0.0:
+        return "non-Grashof"
+    return ("crank-rocker", "double-rocker", "rocker-crank", "double-crank")[lengths.index(least)]
+
+
+def length(course: Course, x_of: Moved, y_of: Moved) -> float:
+    """Length of the path over the period or range [mm]: the integral of |P'|.
+
+    Notes
+        Panels end where |P'| is least, at a kink where the point turns back.
+    """
+    point, arm = x_of, x_of.place / x_of.size
+
+    def square(jets: Jets, k: int) -> Reals:
+        rates = [(j + 1) * jets.point(point.body, arm, j + 1) for j in range(k + 1)]
+        return np.asarray(sum((np.conj(rates[j]) * rates[k - j]).real for j in range(k + 1)))
+
+    places = turning_points(course, square, ahead=1)
+    edges = np.unique(np.concatenate([course.grid, places]))
+    x = np.array([*(-node for node in GAUSS_NODES), *GAUSS_NODES])
+    w = np.array([*GAUSS_WEIGHTS, *GAUSS_WEIGHTS])
+    width = np.diff(edges)
+    q = edges[:-1, None] + 0.5 * width[:, None] * (1.0 + x)
+    jets = course.jets(q.ravel(), 1)
+    rates = [course.derivatives(each.coefficient, jets, 1)[1] for each in (x_of, y_of)]
+    speed = np.hypot(*rates)
+    return float(np.sum(0.5 * width * (speed.reshape(q.shape) @ w)))
+
+
+GENERAL = (
+    "degrees_of_freedom",
+    "period_turns",
+    "grashof",
+    "min_transmission_angle",
+    "min_transmission_angle_at",
+    "free_range",
+    "closure_error",
+)
+_SIDES = ("max", "max_at", "min", "min_at")
+_RATES = {
+    "link": ("angle", "speed_ratio", "acceleration_ratio", "jerk_ratio"),
+    "line": ("position", "velocity_ratio", "acceleration_ratio", "jerk_ratio"),
+}
+_REAL = {"link": ("speed", "acceleration"), "line": ("velocity", "acceleration")}
+_PER_TIME = {"link": ("rad/s", "rad/s^2"), "line": ("mm/s", "mm/s^2")}
+
+
+class Meaning(NamedTuple):
+    """What a quantity of an output is.
+
+    Fields
+        output : Moved - the number that it is of
+        order : int - of the derivative
+        side : "max", "max_at", "min", "min_at", or what else it is: "span", "turns", "path"
+        timed : bool - in real time
+        unit : str
+    """
+
+    output: Moved
+    order: int
+    side: str
+    timed: bool
+    unit: str
+
+
+def meanings(parts: tuple[Moved, ...], name: str, per: str, *, timed: bool) -> Iterator[tuple[str, Meaning]]:
+    """The quantities of an output of the file.
+
+    Parameters
+        parts : its numbers: one, or both coordinates of a point
+        per : unit of the input, rad or mm
+        timed : bool - whether the speed of the input is known
+    """
+    at = "deg" if per == "rad" else "mm"
+    for part in parts:
+        if part.sort in ("x", "y"):
+            yield from ((f"{name}.{part.sort}_{side}", Meaning(part, 0, side, False, at if "at" in side else "mm"))
+                        for side in _SIDES)  # fmt: skip
+            continue
+        for order, rate in enumerate(_RATES[part.sort]):
+            unit = "deg" if (part.unit, order) == ("rad", 0) else courses.unit_of(part.unit, order, per)
+            yield from ((f"{name}.{rate}_{side}", Meaning(part, order, side, False, at if "at" in side else unit))
+                        for side in _SIDES)  # fmt: skip
+            if order == 0:
+                span = "swing" if part.sort == "link" else "stroke"
+                yield f"{name}.{span}", Meaning(part, 0, "span", False, unit)
+                if part.sort == "link":
+                    yield f"{name}.turns", Meaning(part, 0, "turns", False, "1")
+        if timed:
+            for order, (rate, unit) in enumerate(zip(_REAL[part.sort], _PER_TIME[part.sort], strict=True), 1):
+                yield from (
+                    (f"{name}.{rate}_{side}", Meaning(part, order, side, True, unit)) for side in ("max", "min")
+                )
+    if len(parts) == 2:
+        yield f"{name}.path_length", Meaning(parts[0], 0, "path", False, "mm")
+
+
+def generic() -> tuple[str, ...]:
+    """The names that an output may have, under one name for all."""
+    found = [f"{name}_{side}" for sort in _RATES for name in _RATES[sort] for side in _SIDES]
+    found += [f"{axis}_{side}" for axis in "xy" for side in _SIDES]
+    found += ["swing", "turns", "stroke", "path_length"]
+    found += [f"{name}_{side}" for sort in _REAL for name in _REAL[sort] for side in ("max", "min")]
+    return tuple(f"output.{name}" for name in dict.fromkeys(found))
+
+
+_WORDS = {
+    "angle": "direction",
+    "position": "place",
+    "speed_ratio": "speed per input speed",
+    "velocity_ratio": "velocity per input speed",
+    "acceleration_ratio": "acceleration per square of the input speed",
+    "jerk_ratio": "jerk per cube of the input speed",
+    "speed": "speed",
+    "velocity": "velocity",
+    "acceleration": "acceleration",
+}
+_WHOLE = {
+    "swing": "swing of {}",
+    "stroke": "stroke of {}",
+    "turns": "net turns of {} over the period",
+    "path_length": "length of the path of {} over the period or range",
+}
+
+
+def words_of(name: str) -> str:
+    """In words, what a quantity of an output is.
+
+    Example
+        >>> words_of("rocker.speed_ratio_max_at")
+        'input of the greatest speed per input speed of rocker'
+    """
+    output, _, rest = name.partition(".")
+    if rest in _WHOLE:
+        return _WHOLE[rest].format(output)
+    where, rest = ("input of the ", rest.removesuffix("_at")) if rest.endswith("_at") else ("", rest)
+    what, _, side = rest.rpartition("_")
+    return f"{where}{'greatest' if side == 'max' else 'least'} {_WORDS.get(what, what)} of {output}"
+
 
 _CLOSED = 1e-9
 _FAR_OFF = 45.0  # deg
@@ -176,7 +463,6 @@ class PlanarMechanism(Design):
     @property
     def grashof(self) -> list[str] | None:
         """What the four-bars of the driven link on the frame are."""
-        from gearlink.core.machines.planar.grashof import loops
 
         return loops(self.spec) or None
 
@@ -189,7 +475,6 @@ class PlanarMechanism(Design):
     @cached_property
     def closure_error(self) -> float:
         """Greatest gap of a joint over the rows [mm]."""
-        from gearlink.core.machines.planar.closure import greatest_gap
 
         return greatest_gap(self.course)
 
@@ -251,7 +536,6 @@ class PlanarMechanism(Design):
             return None
         if meaning.side == "path":
             from gearlink.core.machines.planar.outputs import point_output
-            from gearlink.core.machines.planar.path import length
 
             return length(self.course, *point_output(self.structure, output.name.removesuffix("_x")))
         (found,) = self.extremes((output.name, order))
@@ -331,7 +615,6 @@ class PlanarMechanism(Design):
     @cached_property
     def layout(self) -> Layout | None:
         """Gears and shafts; None without either."""
-        from gearlink.core.machines.planar.bodies import layout
 
         return layout(self)
 

@@ -11,9 +11,8 @@ from gearlink.core.base.design import Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, per_time
 from gearlink.core.base.remedies.ways import down, either, up
-from gearlink.core.base.report import Check, Remedy
+from gearlink.core.base.report import Check, Remedy, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.planet_linkages import two_gear_tables
 from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
@@ -37,6 +36,30 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, sha
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.two_gear_spec import TwoGearFourBarSpec
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+
+
+def motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
+    """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
+    from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
+    from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
+
+    shown = [
+        Shown("output_angle", OUTPUT),
+        Shown("speed_ratio", OUTPUT, 1, "output_speed"),
+        Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+        Shown("coupler_ratio", turned("coupler"), 1, "coupler_speed"),
+        Shown("transmission_angle", between("coupler", "rocker")),
+    ]
+    return motion_table("motion", design, shown, samples)
+
+
+def links_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
+    """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
+    from gearlink.core.mechanism.courses import all_rates, motion_table, turned
+
+    shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})
+    return motion_table("links", design, shown, samples)
+
 
 # As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
 _STANDSTILL_TOLERANCE = 1e-9
@@ -303,7 +326,7 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """The bodies in the plane of the gears."""
         return two_gear_layout(self)
 
-    table_motion, table_links = two_gear_tables.motion, two_gear_tables.links
+    table_motion, table_links = motion_table, links_table
 
     # Checks
 

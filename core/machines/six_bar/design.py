@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator
-from itertools import chain, pairwise
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain, combinations, pairwise
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
@@ -13,23 +18,27 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, RealSpeed
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.six_bar.spec import LINKS
+from gearlink.core.machines.six_bar.loop import SixBar
+from gearlink.core.machines.six_bar.spec import LINKS, PINS
+from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.numerics.roots import sign_changes
+from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.output_rates import OutputRates
-from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.parts.linkages.standstills import Turning, standing
+from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, seat_checks, shaft_checks
+from gearlink.core.studies.clearance.reach import Reach, constant, reaches
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.six_bar.course import Course
-    from gearlink.core.machines.six_bar.loop import SixBar
     from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixTrain
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.parts.linkages.standstills import Turning
+
 
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9
@@ -185,7 +194,6 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @cached_property
     def course(self) -> Course:
         """The motion from the start on."""
-        from gearlink.core.machines.six_bar.course import Course
 
         asked = self.spec.range
         ends = None if asked is None else (math.radians(asked.start), math.radians(asked.end))
@@ -236,7 +244,6 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         return self._turnings(2)
 
     def _turnings(self, order: int) -> list[Turning]:
-        from gearlink.core.machines.six_bar.turnings import turnings
 
         ends = self.period_turns is None
         return turnings(self.rate(order), self.rate(order + 1), self.course.grid, ends)
@@ -244,7 +251,6 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """Input angles at which the output stands [rad], ascending."""
-        from gearlink.core.machines.six_bar.turnings import standstills
 
         fastest = max(abs(t.value) for t in self.speed_turnings)
         period = None if self.period_turns is None else self.course.end
@@ -276,7 +282,6 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @cached_property
     def layouts(self) -> tuple[Layout, ...]:
         """The bodies of each plane of gears."""
-        from gearlink.core.machines.six_bar.bodies import layouts
 
         return layouts(self)
 
@@ -375,3 +380,357 @@ def _mesh(train: SixTrain, k: int) -> GearPair:
     alpha = math.radians(train.pressure_angle)
     with at_key("trains"):
         return GearPair.from_shift(train.module, (other, one) if one < 0 else (one, other), pressure_angle=alpha)
+
+
+def layouts(design: GearedSixBar) -> tuple[Layout, ...]:
+    """The bodies of each plane."""
+    spec = design.spec
+    one, other = (set(train.pins) for train in spec.trains)
+    planes = ((0,), (1,)) if one & other else ((0, 1),)
+    shafts = shafts_at("AF", spec.shafts)
+    least = least_shaft(spec.limits, max(train.module for train in spec.trains))
+    gears = [tuple(gear for i in plane for gear in _gears(design, i)) for plane in planes]
+    reaches = _reaches(design, chain(*gears))
+    return tuple(Layout(each, shafts, reaches, least) for each in gears)
+
+
+def _gears(design: GearedSixBar, number: int) -> list[Gear]:
+    """The gears of a train, called by their pins.
+
+    Notes
+        The end gears are fixed to links: a first gear on B to the input link AB, a last gear on E to the output link
+        EF. Each is one body with the shaft of that link.
+    """
+    train, meshes = design.spec.trains[number], design.train_meshes[number]
+    found = []
+    for k, (pin, teeth) in enumerate(zip(train.pins, train.gears, strict=True)):
+        mesh = meshes[min(k, len(meshes) - 1)]
+        mates = "".join(train.pins[j] for j in (k - 1, k + 1) if 0 <= j < len(train.pins))
+        shaft = "A" if pin == "B" and k == 0 else "F" if pin == "E" and k == len(train.pins) - 1 else ""
+        if teeth < 0:
+            ring = ring_gear(pin, mesh, mates, train.rim)
+            found.append(ring._replace(name=f"the ring gear on {pin}", turns_with=shaft))
+            continue
+        tip = 0.5 * train.module * teeth + train.module
+        found.append(
+            Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft, root=tip - FULL_HEIGHT * train.module)
+        )
+    return found
+
+
+def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
+    """Least and greatest distances of the pins with gears, and of A and F, over the course."""
+    axes = sorted({gear.axis for gear in gears} | {"A", "F"})
+    found: dict[str, Reach] = {}
+    moving: list[str] = []
+    for pair in combinations(axes, 2):
+        i, j = (PINS.index(pin) for pin in pair)
+        if j - i in (1, 5):  # a link, the frame among them
+            found["".join(pair)] = constant(design.bar.lengths[j if j - i == 1 else 0])
+        else:
+            moving.append("".join(pair))
+    if not moving:
+        return found
+    held = dict(zip("ABCDEF", (*LINKS[1:5], "output", "output"), strict=True))
+    return found | reaches(
+        design.moving, {pin: (held[pin], pin) for pin in axes}, moving, samples=design.course.samples
+    )
+
+
+Function = Callable[[Reals], Reals]
+
+
+def zeros(f: Function, grid: Reals) -> list[float]:
+    """Zeros of a function of arrays at which its sign changes on a grid; two within one step are missed.
+
+    Raises
+        NoSolution - where the function is no number, as in a dead centre
+    Example
+        >>> [round(x, 12) for x in zeros(np.cos, np.linspace(0.0, 6.0, 100))]
+        [1.570796326795, 4.712388980385]
+    """
+    values = f(grid)
+    places = np.array(sign_changes(values.tolist()), dtype=int)
+    if not places.size:
+        return []
+    return _between(f, grid[places], grid[places + 1], (values[places], values[places + 1]))
+
+
+def standstills(f: Function, extremes: list[Turning], tolerance: float, period: float | None) -> list[float]:
+    """Input angles at which a speed ratio is zero, touching zeros among them, ascending.
+
+    Parameters
+        f : function of arrays of input angles [rad]
+        extremes, tolerance, period : as of `standing`
+    Example
+        >>> f, grid = (lambda x: 1.0 + 2.0 * np.sin(x)), np.linspace(0.0, 2.0 * np.pi, 100)
+        >>> found = standstills(f, turnings(f, np.cos, grid, False), 1e-9, 2.0 * np.pi)
+        >>> np.degrees(found).round(9).tolist()
+        [210.0, 330.0]
+    """
+    places, between = standing(extremes, tolerance, period)
+    if between:
+        (low, high), ends = np.array(between).transpose(2, 1, 0)
+        places += _between(f, low, high, (ends[0], ends[1]))
+    return sorted(place if period is None else place % period for place in places)
+
+
+def _between(f: Function, low: Reals, high: Reals, ends: tuple[Reals, Reals]) -> list[float]:
+    found = bracketed_roots(f, low, high, ends=ends)
+    if np.isnan(found).any():
+        at = float(np.degrees(low[np.isnan(found)][0]))
+        raise NoSolution(
+            f"the six-bar has no rates next to the input angle {at:.6g} deg: it stands in a dead centre there"
+        )
+    return [float(x) for x in found]
+
+
+def turnings(f: Function, slope: Function, grid: Reals, ends: bool) -> list[Turning]:
+    """Extremes of a function by the zeros of its derivative, and its values at both ends where they count.
+
+    Example
+        >>> [round(t.value, 12) for t in turnings(np.sin, np.cos, np.linspace(0.0, 6.0, 100), False)]
+        [1.0, -1.0]
+    """
+    places = zeros(slope, grid)
+    places = sorted({*places, float(grid[0]), float(grid[-1])}) if ends or not places else places
+    return [Turning(place, value) for place, value in zip(places, f(np.array(places)).tolist(), strict=True)]
+
+
+_ROUNDS = 60
+_FINE = 1e-10  # rad, after a step so short another one would be some 1e-20
+_SINGULAR = 1e-15
+_HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a turn
+
+
+@dataclass(frozen=True)
+class Follower:
+    """The certain steps of a six-bar: unknown are its free directions less those at the start [rad].
+
+    Parameters
+        bar : SixBar
+    Example
+        >>> from gearlink.core.mechanism.follow import onwards
+        >>> from gearlink.core.machines.six_bar.relations import train_relation
+        >>> rows = train_relation(0, (20, 20)), train_relation(4, (16, 24))
+        >>> start = {2: math.radians(300.0), 5: math.radians(-60.0)}
+        >>> follower = Follower(SixBar((190.0, 30.0, 30.0, 150.0, 60.0, 75.0), rows, start))
+        >>> origin = follower.place(0.0, (0.0, 0.0))
+        >>> round(list(onwards(follower, origin, 0.5))[-1].q, 12)
+        0.5
+
+    Source
+        own derivation; L. V. Kantorovich's theorem for the steps
+    """
+
+    bar: SixBar
+
+    @cached_property
+    def _links(self) -> tuple[tuple[float, ...], ...]:
+        """Of links 2 to 5: length, direction at the start, p_j, N_j."""
+        length, first, slopes, shares = (numbers.tolist() for numbers in self.bar.numbers)
+        return tuple((*each, *share) for *each, share in zip(length, first, slopes, shares, strict=True))
+
+    @cached_property
+    def _sizes(self) -> tuple[float, ...]:
+        """l_j |N_j|."""
+        return tuple(length * math.hypot(n, m) for length, _, _, n, m in self._links)
+
+    @cached_property
+    def _curvature(self) -> float:
+        """K."""
+        return sum(size * math.hypot(n, m) for size, (*_, n, m) in zip(self._sizes, self._links, strict=True))
+
+    def closed(self, q: float, near: tuple[float, ...]) -> tuple[float, ...]:
+        """Free directions from approximate ones, by Newton's steps.
+
+        Parameters
+            q : float - input angle [rad]
+            near : two float [rad] - next to those of the loop
+        Raises
+            NoSolution - where the loop does not close
+        """
+        (u, w), phi, finest = near, q, math.inf
+        frame, crank = self.bar.lengths[:2]
+        for _ in range(_ROUNDS):
+            gap, one, other = cmath.rect(crank, phi) - frame, 0j, 0j
+            for length, first, slope, n, m in self._links:
+                link = cmath.rect(length, first + slope * phi + n * u + m * w)
+                gap, one, other = gap + link, one + n * link, other + m * link
+            step = _solve_pair(1j * one, 1j * other, -gap)
+            size = max(map(abs, step))
+            if not size < math.inf:
+                break
+            if size >= finest:  # steps shrink until rounding is reached
+                return u, w
+            u, w, finest = u + step[0], w + step[1], size
+            if size < _FINE:
+                return u, w
+        raise NoSolution("the six-bar does not close there")
+
+    def place(self, q: float, u: tuple[float, ...]) -> Place | None:
+        """The place at an input angle; None in a dead centre.
+
+        Parameters
+            q : float - input angle [rad]
+            u : two float - free directions [rad]
+        """
+        phi = q
+        crank, one, other = cmath.rect(self.bar.lengths[1], phi), 0j, 0j
+        pushed = crank
+        for length, first, slope, n, m in self._links:
+            link = cmath.rect(length, first + slope * phi + n * u[0] + m * u[1])
+            pushed, one, other = pushed + slope * link, one + n * link, other + m * link
+        product, a, b = one.conjugate() * other, abs(one) ** 2, abs(other) ** 2
+        determinant = product.imag
+        if abs(determinant) < _SINGULAR * (a + b):
+            return None
+        rates = _solve_pair(one, other, -pushed)
+        beta = math.sqrt(0.5 * (a + b + math.hypot(a - b, 2.0 * product.real))) / abs(determinant)
+        turned = [slope + n * rates[0] + m * rates[1] for _, _, slope, n, m in self._links]
+        k_rate = sum(size * abs(rate) for size, rate in zip(self._sizes, turned, strict=True))
+        m_all = sum(each[0] * rate**2 for each, rate in zip(self._links, turned, strict=True)) + self.bar.lengths[1]
+        return Place(phi, u, rates, 1.0 / (beta * (math.sqrt(self._curvature * m_all) + k_rate)))
+
+
+def _solve_pair(one: complex, other: complex, right: complex) -> tuple[float, float]:
+    """Real x, y with x one + y other = right; infinite where there are none."""
+    determinant = (one.conjugate() * other).imag
+    if determinant == 0.0:
+        return math.inf, math.inf
+    return (right.conjugate() * other).imag / determinant, (one.conjugate() * right).imag / determinant
+
+
+@dataclass(frozen=True)
+class _Refusals:
+    """Why a six-bar cannot be followed."""
+
+    def starts_dead(self) -> NoSolution:
+        return NoSolution("the six-bar starts in a dead centre: change start", key="start")
+
+    def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
+        """With the range that is free of dead centres."""
+        if back is None:
+            free = f"{'above' if q < 0.0 else 'below'} {math.degrees(q):.6g} deg"
+        else:
+            low, high = sorted((math.degrees(q), math.degrees(back)))
+            free = f"between {low:.6g} and {high:.6g} deg"
+        return NoSolution(
+            f"the six-bar meets a dead centre at input angle {math.degrees(q):.6g} deg, where it jams: let the input "
+            f"swing {free} (range: {{start, end}}), lengthen the couplers, or shorten input and output",
+            key="range" if ranged else "links",
+        )
+
+    def never_home(self) -> NoSolution:
+        return NoSolution(
+            f"the six-bar does not come home within {MOST_TURNS} turns of the input: take teeth with common factors, "
+            "or give range: {start, end}",
+            key="trains",
+        )
+
+
+@dataclass(frozen=True)
+class Course:
+    """The motion of a six-bar over a period, or over a range of the input.
+
+    Parameters
+        bar : SixBar
+        range : (start, end) [rad] or None - a range that holds 0, or as many turns as bring the linkage home
+    Raises
+        NoSolution - where a dead centre is met: with the range of the input that is free of them
+    Example
+        >>> from gearlink.core.machines.six_bar.relations import train_relation
+        >>> rows = train_relation(0, (20, 20)), train_relation(4, (16, 24))
+        >>> start = {2: math.radians(300.0), 5: math.radians(-60.0)}
+        >>> course = Course(SixBar((190.0, 30.0, 30.0, 150.0, 60.0, 75.0), rows, start), None)
+        >>> course.period_turns
+        1
+
+    Source
+        own derivation; L. V. Kantorovich's theorem for the steps
+    """
+
+    bar: SixBar
+    range: tuple[float, float] | None
+
+    @property
+    def start(self) -> float:
+        """First input angle [rad]."""
+        return 0.0 if self.range is None else self.range[0]
+
+    @property
+    def end(self) -> float:
+        """Last input angle [rad]."""
+        return TURN * (self.period_turns or 1) if self.range is None else self.range[1]
+
+    @property
+    def period_turns(self) -> int | None:
+        """Input turns until everything repeats; None over a range."""
+        return self.walk.turns
+
+    @property
+    def followed(self) -> int:
+        """How many places were followed so far."""
+        return self.walk.followed
+
+    @cached_property
+    def walk(self) -> Walk:
+        """The certified places."""
+        return Walk(Follower(self.bar), (0.0, 0.0), self.range, _home_turns(self.bar), self._is_home, _Refusals())
+
+    def _is_home(self, place: Place, turns: int) -> bool:
+        _, _, slopes, shares = self.bar.numbers
+        moved = slopes * TURN * turns + shares @ np.array(place.u)
+        return bool(np.abs(np.remainder(moved + math.pi, TURN) - math.pi).max() < _HOME)
+
+    # Positions
+
+    @cached_property
+    def grid(self) -> Reals:
+        """Input angles [rad] next to which functions of the motion are smooth: dense where dead centres are near."""
+        places = self.walk.rows[:, 0]
+        inside = places[(places >= self.start) & (places <= self.end)]
+        ends = np.array([self.start, self.end])
+        return np.unique(np.concatenate([ends, np.linspace(self.start, self.end, self.samples + 1), inside]))
+
+    @property
+    def samples(self) -> int:
+        """Points of an even grid on which the motion is smooth."""
+        fastest = max(1.0, *(abs(float(p)) for p in self.bar.slopes))
+        return math.ceil(360.0 * fastest * (self.end - self.start) / TURN)
+
+    def angles(self, phi: Reals) -> Reals:
+        """Directions of links 2 to 5, continuous over the course and beyond its period; (4, N) array [rad]."""
+        if self.range is not None:
+            return self._angles(phi)
+        periods = np.floor(phi / self.end)
+        return self._angles(phi - periods * self.end) + periods * self._gain
+
+    @cached_property
+    def _gain(self) -> Reals:
+        """What the directions gain in a period; (4, 1) array [rad]."""
+        ends = self._angles(np.array([0.0, self.end]))
+        return np.asarray(ends[:, 1:] - ends[:, :1])
+
+    def _angles(self, phi: Reals) -> Reals:
+        return self.bar.closed(phi, self.walk.tangents(phi).T)
+
+    def rates(self, phi: Reals, order: int = 3) -> tuple[Reals, ...]:
+        """Directions of links 2 to 5 and their first derivatives by the input angle, up to three; (4, N) arrays."""
+        return self._on_grid if phi is self.grid and order == 3 else self._rates_at(phi, order)
+
+    @cached_property
+    def _on_grid(self) -> tuple[Reals, ...]:
+        """On the grid all extremes are looked for among the same rates."""
+        return self._rates_at(self.grid, 3)
+
+    def _rates_at(self, phi: Reals, order: int) -> tuple[Reals, ...]:
+        angles = self.angles(phi)
+        return angles, *self.bar.rates(phi, angles, order)
+
+
+def _home_turns(bar: SixBar) -> int:
+    """Input turns after which the links that the input alone ties are home."""
+    if not bar.is_closed_form:
+        return 1
+    return math.lcm(*(Fraction(p).denominator for p in bar.slopes))

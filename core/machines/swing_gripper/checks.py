@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared
 from gearlink.core.base.report import Check, Rule, Status, safely_above, safely_below
 from gearlink.core.machines.swing_gripper import codes
+from gearlink.core.machines.swing_gripper.passes import Pass, Passes, axes_of, cam_turns_drum, drum_axis
 from gearlink.core.parts.cams import codes as cam_codes
+from gearlink.core.parts.cams.checks import AS_THICK_AS_ROLLER, HUB, ROLLER_SHARE, over_axis_check
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.studies.clearance.links import beside_line, beside_turning_arm
 
 if TYPE_CHECKING:
+    from gearlink.core.base.report import Remedy
     from gearlink.core.machines.swing_gripper.design import SwingGripper
     from gearlink.core.machines.swing_gripper.spec import Release
+
 
 # Share of the surface speed that the two may differ by: rounding only.
 _SPEED_SHARE = 1e-9
@@ -259,8 +269,6 @@ def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
     from gearlink.core.parts.cams.checks import hub_checks
 
     if design.warnings:
-        from gearlink.core.machines.swing_gripper.axes import beside_axes
-
         yield from beside_axes(design)
     yield from hub_checks(
         SHAFT_CLEARANCE,
@@ -302,3 +310,301 @@ def lift_off(design: SwingGripper) -> Check:
         remedy = design.closure.spring_remedy(1.21 * worst.value + reserve, tells=status == "warn")
         text += f": {remedy} for a tenth of speed in reserve, or lower the speed"
     return cam_codes.LIFT_OFF.check(status, text, speed, design.spec.speed, "sheets/h")
+
+
+_RESERVE = 1.1
+"""Speed at which a roller may lift off, over the speed of the machine."""
+_FINE = 3
+"""Digits behind the point of what places the handover."""
+_LINKAGE = (*either("output_direction", step=0.5), *either("links.coupler", "links.output", "links.input"))
+_ROLLERS = either("cam.roller.angle", "cam.return_roller.angle", step=1.0)
+_WAYS = {
+    "transmission-angle": _LINKAGE,
+    "conditioning": _LINKAGE,
+    "handover": (down("release.window"),),
+    "pressure-angle": (
+        shared("phases.return", "phases.near_dwell", step=1.0)[0],
+        shared("phases.decelerate", "phases.far_dwell", step=1.0)[0],
+        *_ROLLERS,
+        *_LINKAGE,
+    ),
+    "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
+    "lift-off": either("cam.return_roller.angle", step=1.0),
+}
+_QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}
+_QUIETER = {"accelerate": "velocity-4567", "decelerate": "velocity-4567", "return": "polynomial-4567"}
+
+
+def ways_of(design: SwingGripper, check: str) -> tuple[Way, ...]:
+    """Ways in which a check that fails may be repaired; for cams that cannot be, those of their refusal."""
+    if check == "pressure-angle" and design.cams.refusal is not None:
+        return tuple(refusal_ways(design.spec, design.cams.refusal.key))
+    return _WAYS.get(check, ())
+
+
+def candidates(design: SwingGripper, check: str) -> Iterator[Remedy]:
+    """Remedies of a check from closed forms, the first to be tried first."""
+    return _CLOSED[check](design) if check in _CLOSED else iter(())
+
+
+def _handover(design: SwingGripper) -> Iterator[Remedy]:
+    """The middle of the constant phase; the arm or the cylinder's axis where the tip meets the line of centres.
+
+    First the sense of a cam on the cylinder's own shaft, which must turn that against the gripper's swing.
+    """
+    from gearlink.core.machines.swing_gripper.handover_geometry import misplacement, widest_window
+
+    spec, (start, end) = design.spec, design.motion.law.starts[1:3]
+    if spec.cam is not None and runs_backwards(design):
+        yield (("cam.sense", -spec.swing_sense),)
+        yield (("swing_sense", -spec.cam.sense),)
+    if spec.cylinder.center is not None:
+        center = complex(*spec.cylinder.center)
+        off = misplacement(complex(*spec.pivots.output), design.handover.tip, center, spec.cylinder.radius)
+        fits = design.handover.center
+        yield (("arm.direction", round(spec.arm.direction + math.degrees(off.turn), _FINE)),)
+        yield _point("cylinder.center", fits, _FINE)
+    yield (("handover", 0.5 * (start + end)),)
+    if spec.release is not None:
+        widest = math.degrees(widest_window(spec.arm.length, spec.cylinder.radius, spec.release.gap))
+        room = min(spec.handover - start, end - spec.handover)
+        yield (("release.window", at_most(min(widest, room) if room > 0.0 else widest)),)
+
+
+def _turn(design: SwingGripper) -> Iterator[Remedy]:
+    """ED turned as far as the whole swing needs, in half degrees."""
+    from gearlink.core.machines.swing_gripper.swing import clear_turn
+
+    spec = design.spec
+    for more in (0.0, 2.0, 5.0):
+        turn, _ = clear_turn(design.motion.linkage, math.radians(spec.limits.transmission_angle + more))
+        if turn is not None:
+            wanted = spec.output_direction + math.degrees(turn)
+            yield (("output_direction", (at_least if turn > 0.0 else at_most)(wanted, 0.5)),)
+
+
+def _point(path: str, place: complex, digits: int) -> Remedy:
+    return (f"{path}[0]", round(place.real, digits)), (f"{path}[1]", round(place.imag, digits))
+
+
+def _pressure(design: SwingGripper) -> Iterator[Remedy]:
+    """The centre of the smallest cams that keep the limits, or the angle that the centre is chosen for."""
+    limits, cam = design.spec.limits, design.cams.section
+    for limit in (limits.pressure_angle, min(limits.pressure_angle, limits.accelerate_pressure_angle)):
+        if cam.center is None:
+            yield (("size.pressure_angle", at_most(0.99 * limit, 0.5)),)
+            continue
+        try:
+            yield _point("cam.center", design.cams.center_for(0.99 * limit, refined=False), 1)
+        except NoSolution:
+            continue
+    yield from _longer_acceleration(design)
+
+
+def _longer_acceleration(design: SwingGripper) -> Iterator[Remedy]:
+    """More of the dwell before it, with the handover as far behind."""
+    phases = design.spec.phases
+    for more in (5.0, 10.0, 20.0, 30.0):
+        if more < phases.near_dwell:
+            yield (
+                ("phases.accelerate", phases.accelerate + more),
+                ("phases.near_dwell", phases.near_dwell - more),
+                ("handover", design.spec.handover + more),
+            )
+
+
+def _rollers(design: SwingGripper) -> Iterator[Remedy]:
+    """Rollers well below the least curvature radius of their cams."""
+    most = [at_most(ROLLER_SHARE * cam.min_curvature_radius.value) for cam in design.cams.discs]
+    for key, radius in zip(("cam.roller.radius", "cam.return_roller.radius"), most, strict=False):
+        yield ((key, radius),)
+
+
+def _shaft(design: SwingGripper) -> Iterator[Remedy]:
+    """Rollers that leave a hub round the shaft, where no more than half is to be taken off them; or a thinner shaft."""
+    section, least = design.cams.section, min(design.cams.min_radius)
+    rollers = {"cam.roller.radius": section.roller, "cam.return_roller.radius": section.return_roller}
+    smaller: list[tuple[str, float]] = []
+    for (key, roller), radius in zip(rollers.items(), design.cams.min_radius, strict=False):
+        missing = HUB * section.shaft_radius - radius
+        if roller is not None and missing > 0.0:
+            smaller.append((key, at_most(roller.radius - missing)))
+            if smaller[-1][1] < 0.5 * roller.radius:
+                smaller.clear()
+                break
+    if smaller:
+        yield tuple(smaller)
+    if least > 0.0:
+        yield (("cam.shaft_radius", at_most(least / HUB)),)
+
+
+def _laws(design: SwingGripper, quiet: dict[str, str]) -> Iterator[Remedy]:
+    """Laws without the step, one after the other and all of them."""
+    given = design.spec.laws
+    better = [
+        (f"laws.{key}", law) for key, law in quiet.items() if getattr(given, key.replace("return", "return_")) != law
+    ]
+    yield from ((change,) for change in better)
+    if len(better) > 1:
+        yield tuple(better)
+
+
+def _closing(design: SwingGripper) -> Iterator[Remedy]:
+    """The spring that leaves a tenth of speed in reserve: what the inertia takes grows with the square of the speed."""
+    spring, closure = design.spec.spring, design.closure
+    if spring is None or not closure.stands:
+        return
+    worst = max(extreme.value for extreme in closure.worst_unloading)
+    if spring.torque is not None:
+        yield (("spring.torque", at_least(_RESERVE**2 * worst + spring.reserve, 1.0)),)
+        return
+    yield (("spring.preload", at_least(closure.preload_for(_RESERVE**2 * worst + spring.reserve), 1.0)),)
+
+
+_CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
+    REFUSAL: lambda design: _laws(design, _QUIET),
+    "transmission-angle": _turn,
+    "handover": _handover,
+    "pressure-angle": _pressure,
+    "cam-undercut": _rollers,
+    "shaft-clearance": _shaft,
+    "acceleration-step": lambda design: _laws(design, _QUIET),
+    "velocity-step": lambda design: _laws(design, _QUIET),
+    "jerk-step": lambda design: _laws(design, _QUIETER),
+    "lift-off": _closing,
+}
+
+
+_THINNEST = "the thinnest shaft (limits.least_shaft) takes"
+_OVER = 1e-6
+"""A link no farther from an axis [mm] sweeps over it, where no shaft is thin enough."""
+
+
+class Room(NamedTuple):
+    """The thinnest shaft that would be built beside a body [mm], and the words for it."""
+
+    radius: float
+    takes: str
+
+
+def room_for_shaft(design: SwingGripper, roller: float) -> Room:
+    """That of limits.least_shaft, or one as thick as the roller."""
+    least = design.spec.limits.least_shaft
+    return Room(roller, AS_THICK_AS_ROLLER) if least is None else Room(least, _THINNEST)
+
+
+def beside_axes(design: SwingGripper) -> Iterator[Check]:
+    """All of them; warnings alone."""
+    yield from cams(design)
+    yield from rollers(design)
+    yield from drum_and_arm(design)
+    yield from links(design)
+    yield from spring(design)
+
+
+def cams(design: SwingGripper) -> Iterator[Check]:
+    """The cams against the axes of rocker and gripper, and that of the drum unless they stand on its shaft."""
+    for cam in design.cams.discs:
+        for axis in axes_of(design)[1:]:
+            room = abs(axis.place - design.cams.center) - cam.max_radius
+            advice = f"overhang the shaft beside the cam, move cam.center away from it, or {axis.remedy}"
+            shaft, takes = room_for_shaft(design, cam.roller_radius)
+            yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, shaft, axis.name, advice, takes=takes)
+
+
+def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
+    """The drum that takes the sheet over, and the gripper arm over its swing, against the two axes of the frame.
+
+    Notes
+        Both reach across the machine, as the shafts there do. A cam may stand on the drum's own shaft. Where the file
+        names the radius of the cam shaft that is kept clear, else room for a shaft as thick as the roller.
+    """
+    drum, radius = drum_axis(design), design.spec.cylinder.radius
+    needed, takes = room_for_shaft(design, design.cams.section.roller.radius)
+    for axis in axes_of(design)[:2]:
+        within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
+        advice = f"overhang the shaft beside it, turn arm.direction, or {axis.remedy}"
+        if not (axis.letter == "O" and cam_turns_drum(design)):
+            room = abs(drum - axis.place) - radius - within
+            words = "cylinder that takes the sheet"
+            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, advice, takes=takes)
+        room = room_beside_arm(design, axis.place) - within
+        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, advice, takes=takes)
+
+
+def rollers(design: SwingGripper) -> Iterator[Check]:
+    """The rollers against the axis of their own rockers, about which no shaft fits where the arm is short."""
+    section = design.cams.section
+    for words, key, roller in (("main", "roller", section.roller), ("return", "return_roller", section.return_roller)):
+        if roller is not None:
+            room = roller.arm - roller.radius
+            advice = f"lengthen cam.{key}.arm, or take a smaller roller"
+            name, axis = f"{words} roller", "the cam rocker's axis"
+            shaft, takes = room_for_shaft(design, roller.radius)
+            yield from over_axis_check(SHAFT_CLEARANCE, name, room, shaft, axis, advice, takes=takes)
+
+
+def links(design: SwingGripper) -> Iterator[Check]:
+    """Links and rollers over their whole motion against the axes of the frame that they do not turn about.
+
+    Notes
+        Links are lines of no width; a shaft of the file is kept clear by its radius, beside other axes there must be
+        room for the thinnest that would be built. A warning, since a shaft may end before the plane of the link.
+    """
+    passes, main = Passes(design), design.cams.section.roller.radius
+    for found in passes:
+        least, takes = room_for_shaft(design, found.radius or main)
+        needed = found.axis.radius or least
+        if found.distance - found.radius < max(needed, _OVER):
+            where = f"{found.axis.name} at cylinder angle {passes.cylinder_angle(found):.5g} deg"
+            advice = f"that shaft must end before the plane of the {found.body} (be overhung), or {found.axis.remedy}"
+            if found.radius:
+                room = found.distance - found.radius
+                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, where, advice, takes=takes)
+            else:
+                yield _line_check(found, where, Room(needed, takes), advice)
+
+
+def _line_check(found: Pass, where: str, needed: Room, advice: str) -> Check:
+    """GL302 of a link that passes through the place of a shaft."""
+    takes = "" if found.axis.radius else f", {needed.takes} {needed.radius:g} mm"
+    how = f"passes {found.distance:.4g} mm beside {'the middle of ' if found.axis.radius else ''}"
+    if found.distance < _OVER:
+        how, takes = "sweeps over ", ""
+    text = f"the {found.body} {how}{where}{takes}: {advice}"
+    return SHAFT_CLEARANCE.check("warn", text, found.distance, needed.radius, "mm")
+
+
+def spring(design: SwingGripper) -> Iterator[Check]:
+    """The line of a spring given by its levers against the axis of the two rockers, which it passes alike all the turn.
+
+    Notes
+        At right angles to the line that is the lever of its torque.
+    """
+    given, (needed, takes) = design.spec.spring, room_for_shaft(design, design.cams.section.roller.radius)
+    if given is None or given.arms is None or given.angle is None:
+        return
+    (p, q), turned = given.arms, cmath.exp(1j * math.radians(given.angle))
+    distance = float(beside_line(0j, np.array([p + 0j]), np.array([q * turned]))[0])
+    if distance < needed:
+        text = (
+            f"the line of the spring passes {distance:.4g} mm beside the cam rocker's axis, {takes} "
+            f"{needed:g} mm: {'lessen spring.angle or ' if min(p, q) >= needed else ''}lengthen "
+            "spring.arms, or let that shaft end before the plane of the spring"
+        )
+        yield SHAFT_CLEARANCE.check("warn", text, distance, needed, "mm")
+
+
+def room_beside_arm(design: SwingGripper, place: complex) -> float:
+    """Least distance of a point from the line E-F over the swing; of one that it passes over, the tip's lead on it.
+
+    Parameters
+        design : SwingGripper
+        place : complex [mm] - in the machine's frame
+    Returns
+        room : float [mm] - negative where the line passes over the point, by as much as the tip reaches beyond it
+    """
+    arm, linkage = design.spec.arm, design.motion.linkage
+    seen, at_bite = place - linkage.output_pivot, cmath.rect(arm.length, math.radians(arm.direction))
+    near = beside_turning_arm(seen, at_bite, linkage.swing_sense * linkage.law.total_swing)
+    return near.distance or abs(seen) - arm.length

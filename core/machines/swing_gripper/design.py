@@ -6,28 +6,346 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import GearlinkError, NoSolution, at_key
-from gearlink.core.base.report import safely_above
+from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key
+from gearlink.core.base.report import Table, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.swing_gripper import checks, remedies, tables
-from gearlink.core.machines.swing_gripper.cams import GripperCams
+from gearlink.core.machines.swing_gripper import checks
+from gearlink.core.machines.swing_gripper.codes import FARTHER
 from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.parts.cams.codes import LARGER
+from gearlink.core.parts.cams.disc_cams import DiscCams
 from gearlink.core.parts.cams.machine import OnDiscCams
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.cams import GripperCams
+    from collections.abc import Callable
+
     from gearlink.core.machines.swing_gripper.forces import LeverSpring
     from gearlink.core.machines.swing_gripper.handover_geometry import TipPath
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
-    from gearlink.core.machines.swing_gripper.motion import Motion
-    from gearlink.core.machines.swing_gripper.spec import ClosingSpring, SwingGripperSpec
+    from gearlink.core.machines.swing_gripper.spec import ClosingSpring, GripperCam, Roller, SwingGripperSpec
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.profile import RollerPath
+    from gearlink.core.parts.cams.size import RockingRoller
+
+
+_WINDOW = 6.0
+_ROWS = 41
+
+
+def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """Angles, velocities and accelerations of both rockers over the turn."""
+    import numpy as np
+
+    degrees, motion_table = design.motion.rows(samples)
+    speed, square = design.motion.shaft_speed, design.motion.shaft_speed**2
+    columns = {
+        "theta": (degrees, "deg"),
+        "beta": (np.degrees(motion_table.beta), "deg"),
+        "input_angle": (np.degrees(motion_table.input_angle), "deg"),
+        "coupler_angle": (np.degrees(motion_table.coupler_angle), "deg"),
+        "output_angle": (np.degrees(motion_table.output_angle), "deg"),
+        "input_velocity": (motion_table.input_velocity * speed, "rad/s"),
+        "output_velocity": (motion_table.output_velocity * speed, "rad/s"),
+        "input_acceleration": (motion_table.input_acceleration * square, "rad/s^2"),
+        "output_acceleration": (motion_table.output_acceleration * square, "rad/s^2"),
+    }
+    return Table.of("motion", columns)
+
+
+def tip_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """Path of the gripper's tip in the machine's frame, its speed and acceleration, and the jerk of the arm."""
+    import cmath
+    import math
+
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import product, turn_degrees
+
+    degrees, spec, speed = turn_degrees(samples), design.spec, design.motion.shaft_speed
+    beta = design.motion.law.evaluate(degrees, 3)
+    arm = np.exp(1j * spec.swing_sense * beta[0])
+    arm = product(spec.arm.length * cmath.exp(1j * math.radians(spec.arm.direction)), arm)
+    velocity, acceleration = beta[1] * speed, beta[2] * speed**2
+    place = complex(*spec.pivots.output) + arm
+    columns = {
+        "theta": (degrees, "deg"),
+        "time": (degrees / 360.0 * 3.6e6 / spec.speed, "ms"),
+        "tip_x": (place.real, "mm"),
+        "tip_y": (place.imag, "mm"),
+        "tip_speed": (spec.arm.length * np.abs(velocity), "mm/s"),
+        "tip_acceleration": (spec.arm.length * np.hypot(acceleration, velocity**2), "mm/s^2"),
+        "output_jerk": (spec.swing_sense * beta[3] * speed**3 + 0.0, "rad/s^3"),
+    }
+    return Table.of("tip", columns)
+
+
+def newton_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
+    import numpy as np
+
+    from gearlink.core.machines.swing_gripper.loop import closed_form_error
+
+    degrees, loop = design.motion.loop_at(samples)
+    _, motion_table = design.motion.rows(samples)
+    columns = {
+        "theta": (degrees, "deg"),
+        "deviation": (np.degrees(loop.deviation), "deg"),
+        "iterations": (loop.iterations, "1"),
+        "residual": (loop.residual, "mm"),
+        "error": (np.degrees(closed_form_error(design.linkage, motion_table)), "deg"),
+    }
+    return Table.of("newton", columns)
+
+
+def main_cam_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """The main cam, point for point."""
+    return design.cams.main_cam.table("main_cam", samples)
+
+
+def return_cam_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """The return cam, point for point."""
+    if design.cams.return_cam is None:
+        raise MissingSection("the table needs cam.return_roller: arm, angle, radius", key="cam.return_roller")
+    return design.cams.return_cam.table("return_cam", samples)
+
+
+def forces_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """Inertia and contact torques and normal forces over the turn."""
+    import numpy as np
+
+    from gearlink.core.machines.swing_gripper.forces import contact_torques
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees, spring = turn_degrees(samples), design.closure.closing_torque
+    main, back = design.closure.inertia_torques(degrees)
+    torques = contact_torques(spring, main, back, design.closure.lift_sense)
+    columns: dict[str, tuple[Any, str]] = {"theta": (degrees, "deg"), "inertia_torque": (main, "N m")}
+    rollers = (design.cams.section.roller, design.cams.section.return_roller)
+    contacts = list(zip(("main", "return"), torques, design.cams.discs, rollers, strict=False))
+    for name, torque, _, _ in contacts:
+        columns[f"contact_torque_{name}"] = (torque, "N m")
+    for name, torque, cam, roller in contacts:
+        lever = roller.arm * 1e-3 * np.cos(cam.pressure_angle(np.radians(degrees)))  # type: ignore[union-attr]
+        columns[f"normal_force_{name}"] = (torque / lever, "N")
+    return Table.of("forces", columns)
+
+
+def handover_window_table(design: SwingGripper, _samples: int | None = None) -> Table:
+    """Gap of the tip to the pitch circle, slip and speed difference round the handover."""
+    import numpy as np
+
+    from gearlink.core.machines.swing_gripper.handover_geometry import speed_difference
+
+    half = design.spec.release.window if design.spec.release is not None else _WINDOW
+    degrees = design.spec.handover + half * np.linspace(-1.0, 1.0, _ROWS)
+    lead, speed, path = design.handover.path(degrees)
+    difference = speed_difference(path, lead, speed, design.motion.shaft_speed, design.spec.cylinder.radius)
+    columns = {
+        "theta": (degrees, "deg"),
+        "arm_lead": (np.degrees(lead), "deg"),
+        "gap": (path.gap, "mm"),
+        "slip": (path.slip, "mm"),
+        "speed_difference": (difference, "mm/s"),
+    }
+    return Table.of("handover_window", columns)
+
+
+class GripperCams(DiscCams):
+    """The cams that drive the gripper and bring it back; those that advise say where else they could be."""
+
+    def __init__(self, spec: SwingGripperSpec, motion: Motion, *, advise: bool) -> None:
+        self.spec, self.motion, self.advise = spec, motion, advise
+
+    @cached_property
+    def section(self) -> GripperCam:
+        """The section `cam` of the design file."""
+        cam: GripperCam = require(self.spec, "cam", "center, sense, roller")
+        return cam
+
+    @cached_property
+    def center(self) -> complex:
+        """The cam axis in the machine's frame [mm], given or chosen by `size`."""
+        if self.section.center is not None:
+            return complex(*self.section.center)
+        if self.spec.size is None:
+            raise MissingSection("give cam.center, or size: {pressure_angle: 25} to have it chosen", key="size")
+        return self.center_for(self.spec.size.pressure_angle)
+
+    def center_for(self, degrees: float, *, refined: bool = True) -> complex:
+        """Cam centre of the smallest cams that keep a pressure angle [deg]."""
+        from gearlink.core.parts.cams.size import smallest_cam_of_rollers
+
+        with at_key("size.pressure_angle"):
+            return smallest_cam_of_rollers(
+                self._rollers,
+                math.radians(degrees),
+                sense=self.section.sense,
+                joints=tuple(math.radians(start) for start in self.motion.law.starts[1:-1]),
+                refined=refined,
+            )
+
+    @property
+    def _rollers(self) -> list[RockingRoller]:
+        """The rollers on their arms, with the side on which the cam lies."""
+        cam, back = self.section, self.section.return_roller
+        side = self.spec.size.side if self.spec.size is not None else None
+        if side is None and cam.center is not None:
+            side = 1 if (self.from_pivot / self.main_arm).imag > 0.0 else -1
+        if side is None and back is not None:
+            side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
+        if side is None:
+            raise NoSolution("one roller alone does not fix where the cam is: give size.side, 1 or -1", key="size")
+        rollers = [self._rocking(cam.roller, cam.roller.angle, side)]
+        if back is not None:
+            rollers.append(self._rocking(back, cam.roller.angle + back.angle, -side))
+        return rollers
+
+    def _rocking(self, roller: Roller, from_input: float, side: int) -> RockingRoller:
+        import numpy as np
+
+        from gearlink.core.parts.cams.size import RockingRoller
+
+        linkage, ahead = self.motion.linkage, math.radians(from_input)
+
+        def law(cam_angle: Reals) -> tuple[Reals, Reals]:
+            motion = linkage.motion(np.degrees(cam_angle), 1)
+            return motion.input_angle + ahead, motion.input_velocity
+
+        return RockingRoller(law, linkage.input_pivot, roller.arm, side)
+
+    @property
+    def from_pivot(self) -> complex:
+        """Cam axis from the pivot of the cam rocker [mm]."""
+        return self.center - self.motion.linkage.input_pivot
+
+    @property
+    def main_arm(self) -> complex:
+        """Direction of the main roller's arm at the bite."""
+        import cmath
+
+        import numpy as np
+
+        angle = float(self.motion.linkage.motion(np.array([0.0]), 0).input_angle[0])
+        return cmath.rect(1.0, angle + math.radians(self.section.roller.angle))
+
+    @cached_property
+    def main_cam(self) -> DiscCam:
+        """The cam of the main roller."""
+        return self._disc_cam("main cam", self.section.roller, self.section.roller.angle)
+
+    @cached_property
+    def return_cam(self) -> DiscCam | None:
+        """The cam of the return roller, at a fixed angle from the main roller's arm; None without one."""
+        roller = self.section.return_roller
+        return (
+            None if roller is None else self._disc_cam("return cam", roller, self.section.roller.angle + roller.angle)
+        )
+
+    @property
+    def discs(self) -> tuple[DiscCam, ...]:
+        """Main cam, and the return cam where there is one."""
+        return (self.main_cam,) if self.return_cam is None else (self.main_cam, self.return_cam)
+
+    def _disc_cam(self, name: str, roller: Roller, from_input: float) -> DiscCam:
+
+        from gearlink.core.parts.cams.disc_cam import DiscCam
+        from gearlink.core.parts.cams.profile import oscillating
+
+        pivot, shift = -self.from_pivot, math.radians(from_input)
+
+        def path(theta: Reals, order: int) -> RollerPath:
+            motion = self.motion.linkage.kept_motion(theta, order)
+            second = motion.input_acceleration if order > 1 else 0.0
+            return oscillating(pivot, roller.arm, motion.input_angle + shift, motion.input_velocity, second)
+
+        joints = tuple(math.radians(start) for start in self.motion.law.starts[:-1])
+        return DiscCam(name, path, self.section.sense, roller.radius, joints)
+
+    @property
+    def max_pressure_angle(self) -> tuple[float, ...]:
+        """Greatest pressure angle of each cam [rad]."""
+        return tuple(cam.max_pressure_angle.value for cam in self.discs)
+
+    @property
+    def min_curvature_radius(self) -> tuple[float, ...]:
+        """Least convex radius of each pitch curve [mm]."""
+        return tuple(cam.min_curvature_radius.value for cam in self.discs)
+
+    @property
+    def max_pressure_angle_at(self) -> tuple[float, ...]:
+        """Cam angles of the largest pressure angles [rad]."""
+        return tuple(cam.max_pressure_angle.place for cam in self.discs)
+
+    @property
+    def min_curvature_radius_at(self) -> tuple[float, ...]:
+        """Cam angles of the least convex radii of curvature [rad]."""
+        return tuple(cam.min_curvature_radius.place for cam in self.discs)
+
+    @property
+    def max_radius(self) -> tuple[float, ...]:
+        """Largest radius of each profile [mm]."""
+        return tuple(cam.max_radius for cam in self.discs)
+
+    @property
+    def min_radius(self) -> tuple[float, ...]:
+        """Smallest radius of each profile [mm]."""
+        return tuple(cam.min_radius for cam in self.discs)
+
+    @cached_property
+    def center_remedy(self) -> Callable[[float], str]:
+        """In words, whether cams can stand anywhere that keep a pressure angle [deg] over the turn.
+
+        Sought once for each limit, however many checks tell of it.
+        """
+        return cache(self._center_remedy)
+
+    def _center_remedy(self, limit: float) -> str:
+        longer = "lengthen the phase in which it occurs"
+        try:
+            self.center_for(0.99 * limit, refined=False)
+        except NoSolution:
+            return f"no cam.center keeps it, the least for both rollers is {self._least_limit:.3g} deg: {longer}"
+        return f"move cam.center, or {longer}"
+
+    @cached_property
+    def _least_limit(self) -> float:
+        """Least pressure angle [deg] that some cam centre keeps for every roller, to a tenth."""
+        low, high = 0.0, 89.9
+        while high - low > 0.1:
+            middle = 0.5 * (low + high)
+            try:
+                self.center_for(middle, refined=False)
+            except NoSolution:
+                low = middle
+            else:
+                high = middle
+        return high
+
+    def require_motion(self) -> None:
+        """Compute law and linkage."""
+        _ = self.motion.linkage
+
+    @property
+    def stand(self) -> bool:
+        """Whether the file has cams and they can be."""
+        return self.spec.cam is not None and not self.is_refused
+
+    def explained(self, refusal: NoSolution) -> NoSolution:
+        """The refusal of a cam in the keys of this kind, with the centre at which there is one."""
+        if refusal.key:
+            return refusal
+        message = refusal.message.replace(LARGER, FARTHER)
+        limit = self.spec.limits.pressure_angle
+        advice = f"; for {limit:g} deg: {self.center_remedy(limit)}" if self.advise else ""
+        return NoSolution(message + advice, key="cam.center")
 
 
 # The force closure of a swing gripper's cam pair: spring, inertia torques, lift-off
@@ -246,7 +564,7 @@ class SwingGripper(WithExtremes, OnDiscCams):
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
     cost = 7.0
-    candidates, ways_of = remedies.candidates, remedies.ways_of
+    candidates, ways_of = checks.candidates, checks.ways_of
 
     # Parts
 
@@ -331,9 +649,9 @@ class SwingGripper(WithExtremes, OnDiscCams):
 
     # Tables and checks
 
-    table_motion, table_newton, table_forces = tables.motion, tables.newton, tables.forces
-    table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
-    table_handover_window, table_tip = tables.handover_window, tables.tip
+    table_motion, table_newton, table_forces = motion_table, newton_table, forces_table
+    table_main_cam, table_return_cam = main_cam_table, return_cam_table
+    table_handover_window, table_tip = handover_window_table, tip_table
 
     check_transmission_angle, check_conditioning = checks.transmission_angle, checks.conditioning
     check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step

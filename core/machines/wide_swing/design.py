@@ -6,13 +6,17 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.wide_swing import bodies, checks, cycle_checks, names, places, remedies, tables
+from gearlink.core.base.rows import row_numbers
+from gearlink.core.machines.wide_swing import bodies, checks, cycle_checks, remedies
 from gearlink.core.machines.wide_swing.motion import Motion
+from gearlink.core.numerics.motion_extremes import names as extreme_names
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Quantity
@@ -22,11 +26,258 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cams.slider_cam import SliderCam
     from gearlink.core.machines.wide_swing.cycle import WholeCycle
     from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw
-    from gearlink.core.machines.wide_swing.motion import Motion
-    from gearlink.core.machines.wide_swing.places import Places
     from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
+
+
+LAW = {
+    "energy_parameter": "motion.law.energy_parameter",
+    "velocity_peak": "motion.law.velocity_peak",
+    "acceleration_peak": "motion.law.acceleration_peak",
+    "min_pivot_ratio": "motion.min_pivot_ratio",
+    "force": "unloading.force",
+    "spring_rate": "unloading.spring_rate",
+}
+TORQUE = {"power_peak": "unloading.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
+SHAFT = {
+    "dynamic_coefficient": "unloading.dynamic_coefficient",
+    "drive_balancing_ratio": "unloading.drive_balancing_ratio",
+}
+SLIDER = {
+    "slider_stroke": "motion.slider.stroke",
+    "reference_inertia": "motion.reference_inertia",
+    "rocker_share": "motion.slider.rocker_share",
+    "middle_place": "motion.slider.middle_place",
+    "slider_velocity_peak": "motion.slider.slider_velocity_peak",
+    "slider_acceleration_peak": "motion.slider.slider_acceleration_peak",
+}
+DRIVE = {
+    "crank_span": "motion.drive.crank_span",
+    "cam_swing": "motion.drive.swing",
+    "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
+}
+OF_REST = ("dwell_force",)
+OF_SLIDER_CAM = {"line_of_centers_place": "slider_cam.middle", "roller_arm_offset": "slider_cam.arm_offset"}
+OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
+PROFILE = {
+    "rocker_radius": "cam.rocker_radius",
+    "min_radius": "cam.min_radius",
+    "max_radius": "cam.max_radius",
+    **{name: f"even_cam.{name}" for name in OF_EVEN_CAM},
+    "start_radius_estimate": "start_radius_estimate",
+    "middle_radius_estimate": "middle_radius_estimate",
+    "transition_zone": "cam.transition_zone",
+    "contact_end": "contact_end",
+    "max_pressure_angle": "cam.max_pressure_angle",
+    "lift_off_speed": "unloading.lift_off_speed",
+    "contact_force": "contact_force",
+    "dwell_force": "dwell_force",
+}
+CYCLE = {
+    "sectors_external": "cycle.sectors_external",
+    "sectors_internal": "cycle.sectors_internal",
+    "sectors_return": "cycle.sectors_return",
+    "longer_stroke_reserve": "cycle.longer_stroke_reserve",
+}
+ITERATION = {
+    "iteration_energy_parameter": "unloading.iteration.energy_parameter",
+    "iteration_passes": "unloading.iteration.passes",
+    "iteration_error": "unloading.iteration_error",
+}
+MOTION = {name: f"extremes.{name}" for name in extreme_names("rocker_speed", "rocker_acceleration")}
+PLACES = {"max_pressure_angle_at": "pressure_place", "min_curvature_radius_at": "curvature_place"}
+CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
+PATHS = (
+    MOTION | PLACES | LAW | TORQUE | SHAFT | SLIDER | DRIVE | PROFILE | OF_SLIDER_CAM | CURVATURE | CYCLE | ITERATION
+)
+NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
+NEED_ZONE = (*PLACES, "transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
+
+
+Places: TypeAlias = SimpleNamespace
+"""Values by their names."""
+
+
+def of_motion(design: WideSwingDesign) -> Places:
+    """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke, cam angles [rad]."""
+    from gearlink.core.numerics.extremes import share_of
+    from gearlink.core.numerics.motion_extremes import extremes
+
+    motion = design.motion
+    law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
+    curves = {
+        "rocker_speed": lambda phi: swing / time * law.invariants(share_of(phi, angle), 1)[1],
+        "rocker_acceleration": lambda phi: swing / time**2 * law.invariants(share_of(phi, angle), 2)[2],
+    }
+    return Places(**extremes(curves, 0.0, angle, samples=256))
+
+
+def of_pressure(design: WideSwingDesign) -> float:
+    """Cam angle [rad] of the greatest pressure angle on the profile."""
+    import numpy as np
+
+    # Next to a standstill of a cam that swings itself the ratio of both rates has no digits.
+    found = _greatest(design, lambda k: np.abs(design.cam.pressure_angle(k)))
+    if design.spec.drive is not None:
+        ends = np.abs(design.cam.pressure_angle(np.array([0.0, 1.0])))
+        if ends.max() > found.value:
+            return float(np.argmax(ends)) * design.motion.cycle_angle
+    return found.place * design.motion.cycle_angle
+
+
+def of_curvature(design: WideSwingDesign) -> float | None:
+    """Cam angle [rad] of the least radius of a bulging pitch curve on the profile; None where it bulges nowhere."""
+    found = _greatest(design, design.cam.bulge)
+    return found.place * design.motion.cycle_angle if found.value > 0.0 else None
+
+
+def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extreme:
+    """The greatest value over the parts of the stroke in which the roller touches the profile."""
+    from gearlink.core.numerics.extremes import maximum_over
+
+    stop = 1e-3 if design.spec.drive is not None else 0.0
+    parts = ((max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam))
+    return max((maximum_over(curve, *part, samples=256) for part in parts), key=lambda found: found.value)
+
+
+def _k(samples: int | None) -> Any:
+    import numpy as np
+
+    count = samples or 100
+    rows = row_numbers(samples, count + 1)
+    return np.arange(rows.start, rows.stop) / count
+
+
+def law_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The invariants of the law over the stroke."""
+    k = _k(samples)
+    a, b, c = design.motion.law.invariants(k, 2)
+    return Table.of("law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")})
+
+
+def slider_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The slider's invariants over the stroke, its travel and its speed at the design speed."""
+    k, moved = _k(samples), design.motion.slider
+    a, b, c = moved.slider_invariants(k)
+    columns = {
+        "k": (k, "1"),
+        "displacement": (a, "1"),
+        "velocity": (b, "1"),
+        "acceleration": (c, "1"),
+        "travel": (moved.stroke * a, "mm"),
+        "speed": (moved.stroke / design.motion.working_time * b, "mm/s"),
+    }
+    return Table.of("slider", columns)
+
+
+def _speed_shares() -> Any:
+    import numpy as np
+
+    return np.arange(10, 135, 5) / 100.0
+
+
+def contact_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
+    import numpy as np
+
+    shares, count = _speed_shares(), samples or 100
+    rows = row_numbers(samples, shares.size * (count + 1))
+    number = np.arange(rows.start, rows.stop)
+    k, share = number % (count + 1) / count, shares[number // (count + 1)]
+    columns = {"k": (k, "1"), "force": (_force(design, design.cam, k, share), "N"), "speed_share": (share, "1")}
+    if design.return_cam is not None:
+        columns["return_force"] = (_force(design, design.return_cam, k, share), "N")
+    return Table.of("contact", columns)
+
+
+def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+
+    touching = design.touches(cam, k) & (k != middle_of(cam))
+    force = np.full_like(k, np.nan)
+    force[touching] = design.unloading.contact_force(cam, k[touching], share[touching])
+    return force
+
+
+def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """Torque on the rocker axis with and without the device, over the speed."""
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.law.balancing import drive_balancing_ratio, speed_sweep
+
+    share, spec, motion = _speed_shares(), design.spec, design.motion
+    inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, spec.unloader.reserve)
+    without, left = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = without / left
+    columns = {
+        "speed": (share * spec.speed, "1/min"),
+        "torque_without": (without, "N m"),
+        "torque_with": (left, "N m"),
+        "ratio": (ratio, "1"),
+    }
+    if spec.shaft is not None:
+        columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
+    return Table.of("balance", columns)
+
+
+def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """Steps of the iteration against its error (run time against error of the source's own method)."""
+    from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+
+    motion, steps = design.motion, (5, 10, 20, 50, 100, 200)
+    laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]
+    exact = motion.plain_law.energy_parameter
+    columns = {
+        "steps": (steps, "1"),
+        "passes": ([law_table.passes for law_table in laws], "1"),
+        "energy_parameter": ([law_table.energy_parameter for law_table in laws], "1"),
+        "relative_error": ([law_table.energy_parameter / exact - 1.0 for law_table in laws], "1"),
+    }
+    return Table.of("iteration", columns)
+
+
+def contour_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """Both cams as closed contours over one turn."""
+    return design.cycle.table(samples)
+
+
+def joints_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """The joints of both closed contours."""
+    return design.cycle.joints()
+
+
+def main_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The cam of the working stroke; where the roller's slot cuts the profile away, x and y are empty."""
+    return _cam(design, "main_cam", design.cam, 1.0, samples)
+
+
+def return_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The cam of the return stroke: a mirror image (twin-cam), or the external profile of the twin-rocker."""
+    mirror = -1.0 if design.spec.layout == "twin-cam" else 1.0
+    return _cam(design, "return_cam", design.return_cam or design.even_cam, mirror, samples)
+
+
+def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
+    import numpy as np
+
+    k = _k(samples)
+    gone = ~design.touches(cam, k)
+    points = cam.points(k)
+    columns = {
+        "k": (k, "1"),
+        "cam_angle": (np.degrees(points.cam_angle), "deg"),
+        "pitch_x": (points.pitch.real, "mm"),
+        "pitch_y": (mirror * points.pitch.imag, "mm"),
+        "x": (np.where(gone, np.nan, points.profile.real), "mm"),
+        "y": (np.where(gone, np.nan, mirror * points.profile.imag), "mm"),
+        "pressure_angle": (np.degrees(points.pressure_angle), "deg"),
+        "curvature_radius": (points.curvature_radius, "mm"),
+    }
+    return Table.of(name, columns)
 
 
 # What the unloading device of a wide-swing mechanism must bear, and what it leaves to the drive
@@ -218,9 +469,9 @@ class WideSwingDesign(Design):
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     outlines = {
-        "swing": Outline(tuple(names.LAW), _LAW_CHECKS, ("law", "balance")),
+        "swing": Outline(tuple(LAW), _LAW_CHECKS, ("law", "balance")),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
-        "analyze": Outline((*names.LAW, *names.MOTION), _LAW_CHECKS, ("law", "balance")),
+        "analyze": Outline((*LAW, *MOTION), _LAW_CHECKS, ("law", "balance")),
     }
     extra_tables = ("iteration", "slider", "contact", "contour", "joints")
 
@@ -410,17 +661,17 @@ class WideSwingDesign(Design):
     @cached_property
     def extremes(self) -> Places:
         """Extremes of the rocker's speed and acceleration over the working stroke, at the design speed."""
-        return places.of_motion(self)
+        return of_motion(self)
 
     @cached_property
     def pressure_place(self) -> float:
         """Cam angle of the greatest pressure angle where the roller touches the profile [rad]."""
-        return places.of_pressure(self)
+        return of_pressure(self)
 
     @cached_property
     def curvature_place(self) -> float | None:
         """Cam angle of the least radius of a bulging pitch curve where the roller touches it [rad]."""
-        return places.of_curvature(self)
+        return of_curvature(self)
 
     @cached_property
     def dwell_force(self) -> float:
@@ -445,20 +696,20 @@ class WideSwingDesign(Design):
 
     def raw(self, name: str) -> Any:
         """A quantity by its place among the parts; one of a profile that does not exist says which key to change."""
-        if name in names.NEED_ZONE:
+        if name in NEED_ZONE:
             with self._profile_key:
                 self.cam.require_profile()
-        value_of = attrgetter(names.PATHS[name])
-        if "cam." not in names.PATHS[name]:
+        value_of = attrgetter(PATHS[name])
+        if "cam." not in PATHS[name]:
             return value_of(self)
         with at_key("cam.roller_radius"):
             value = value_of(self)
         return None if math.isinf(value) else value
 
-    table_law, table_slider, table_balance = tables.law, tables.slider, tables.balance
-    table_iteration, table_contact = tables.iteration, tables.contact
-    table_contour, table_joints = tables.contour, tables.joints
-    table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
+    table_law, table_slider, table_balance = law_table, slider_table, balance_table
+    table_iteration, table_contact = iteration_table, contact_table
+    table_contour, table_joints = contour_table, joints_table
+    table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
     check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
     check_cycle_angles, check_balancing = checks.cycle_angles, checks.balancing
@@ -497,12 +748,12 @@ class WideSwingDesign(Design):
         turn = ("joints",) if spec.cycle is not None else ()
         of_turn = _CYCLE_CHECKS if spec.cycle is not None else ()
         if command == "cam":
-            sectors = tuple(names.CYCLE) if spec.cycle is not None else ()
+            sectors = tuple(CYCLE) if spec.cycle is not None else ()
             return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
-        quantities = [*base.quantities, *(names.SLIDER if spec.slider is not None else names.TORQUE)]
+        quantities = [*base.quantities, *(SLIDER if spec.slider is not None else TORQUE)]
         checks, tables = [*base.checks], [*base.tables]
         if spec.shaft is not None:
-            quantities += names.SHAFT
+            quantities += SHAFT
         if spec.slider is not None:
             tables.append("slider")
             checks += ("side-change",) if spec.cam is not None and not self._is_refused else ()
@@ -510,32 +761,32 @@ class WideSwingDesign(Design):
             quantities += self._profile_quantities(command)
             checks += (*(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn)), "force-reserve")
         if spec.method == "iteration":
-            quantities += names.ITERATION
+            quantities += ITERATION
             tables.append("iteration")
         if command == "analyze" and spec.cam is not None and self._profile_exists:
             tables += (*cams, *turn)
         return Outline(tuple(quantities), tuple(checks), tuple(tables))
 
     def _profile_quantities(self, command: str) -> list[str]:
-        shown = [*names.PROFILE, *((*names.CURVATURE, *names.PLACES) if command == "analyze" else ())]
+        shown = [*PROFILE, *((*CURVATURE, *PLACES) if command == "analyze" else ())]
         if self._is_refused:
             return ["lift_off_speed"]
         if self.spec.drive is not None:
             shown = [
-                *names.DRIVE,
-                *(name for name in shown if name not in (*names.OF_EVEN_CAM, *names.OF_REST, *names.NEED_PROFILE)),
+                *DRIVE,
+                *(name for name in shown if name not in (*OF_EVEN_CAM, *OF_REST, *NEED_PROFILE)),
             ]
         if self.spec.slider is not None:
             shown = [
-                *names.OF_SLIDER_CAM,
-                *(name for name in shown if name not in (*names.OF_EVEN_CAM, *names.NEED_PROFILE)),
+                *OF_SLIDER_CAM,
+                *(name for name in shown if name not in (*OF_EVEN_CAM, *NEED_PROFILE)),
             ]
         if self.spec.cycle is not None and self._profile_exists:
-            shown += names.CYCLE
+            shown += CYCLE
         if not self._profile_exists:
-            shown = [name for name in shown if name not in (*names.NEED_PROFILE, *names.NEED_ZONE)]
+            shown = [name for name in shown if name not in (*NEED_PROFILE, *NEED_ZONE)]
         elif not self.has_zone(self.cam):
-            shown = [name for name in shown if name == "transition_zone" or name not in names.NEED_ZONE]
+            shown = [name for name in shown if name == "transition_zone" or name not in NEED_ZONE]
         return shown
 
     @property
@@ -557,4 +808,4 @@ class WideSwingDesign(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-        return tuple(names.PATHS)
+        return tuple(PATHS)

@@ -20,7 +20,7 @@ from factory import changed, design, worked
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.five_bar import function_fit, levelling
+from gearlink.core.machines.five_bar import function_fit
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
@@ -139,9 +139,9 @@ def test_slopes_of_levelling_are_those_of_differences() -> None:
     def moved(x: np.ndarray) -> Any:
         b, c, e, d = np.exp(x[:4])
         made = replace(GIVEN, coupler=b, follower=c, output=e, frame=d, phase=x[4])
-        return levelling.state(made, x[5], swing, 0.0 * swing)
+        return function_fit.state(made, x[5], swing, 0.0 * swing)
 
-    angles, cosines = levelling.slopes(GIVEN, start, swing)
+    angles, cosines = function_fit.slopes(GIVEN, start, swing)
     for i in range(6):
         ahead, behind = (moved(x + side * step * np.eye(6)[i]) for side in (1.0, -1.0))
         by_angle, by_cosine = ((one - other) / (2.0 * step) for one, other in zip(ahead, behind, strict=True))
@@ -152,9 +152,9 @@ def test_slopes_of_levelling_are_those_of_differences() -> None:
 def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch) -> None:
     """Slopes alone say that extremes stay level which the bend of the errors raises; steps then shrink to nothing."""
     found = []
-    for corrected in (levelling._CORRECTED, -math.inf):
-        monkeypatch.setattr(levelling, "_CORRECTED", corrected)
-        running = levelling.Levelling(GIVEN, 1.343624, LOG, math.cos(math.radians(30.0)))
+    for corrected in (function_fit._CORRECTED, -math.inf):
+        monkeypatch.setattr(function_fit, "_CORRECTED", corrected)
+        running = function_fit.Levelling(GIVEN, 1.343624, LOG, math.cos(math.radians(30.0)))
         first = running.worst
         running.advance(40)
         assert structural_error(running.bar, running.start, LOG).greatest == pytest.approx(running.worst, rel=5e-3)
@@ -164,9 +164,9 @@ def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch)
 
 def test_a_link_beyond_its_bound_goes_no_further(monkeypatch: pytest.MonkeyPatch) -> None:
     couplers = []
-    for bound in (levelling.WIDEST, math.log(2.0)):
-        monkeypatch.setattr(levelling, "WIDEST", bound)
-        running = levelling.Levelling(GIVEN, 1.343624, LOG, 1.0)
+    for bound in (function_fit.WIDEST, math.log(2.0)):
+        monkeypatch.setattr(function_fit, "WIDEST", bound)
+        running = function_fit.Levelling(GIVEN, 1.343624, LOG, 1.0)
         running.advance(7)
         couplers.append(running.bar.coupler)
     assert couplers[0] < 0.1095

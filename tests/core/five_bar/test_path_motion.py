@@ -22,11 +22,11 @@ from hypothesis import strategies as st
 from sweeps import ALL, examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.five_bar.design import five_bar_for_positions, position_errors
 from gearlink.core.machines.five_bar.fit import fit_path, judge
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import coupler_angles, distances, extent, points, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.machines.five_bar.positions import five_bar_for_positions, position_errors
 from gearlink.core.numerics.halton import halton
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.parts.linkages.dyad import close_dyad, transmission_angle

@@ -19,7 +19,7 @@ from oracles.press_gains import PressGains
 from oracles.press_register_chain import PressErrors, register_error
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.flatbed_press.register_lift import RackLift
+from gearlink.core.machines.flatbed_press.register import RackLift
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -20,7 +20,7 @@ from numpy.polynomial import chebyshev
 
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.machines.wide_swing import remedies as swing_remedies
-from gearlink.core.machines.wide_swing.loads import checks as swing_load_checks
+from gearlink.core.machines.wide_swing.loads import design as swing_load_checks
 
 DEGREE = 90
 K = np.array([0.03, 0.11, 0.24, 0.37, 0.44, 0.58, 0.66, 0.79, 0.92, 0.985])
@@ -320,7 +320,7 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
     (loss,) = [f for f in apart.check("contact-loss") if f.value == apart.least_contact_force]
     assert (loss.code, loss.status) == ("GL608", "fail")
     assert "make slider.middle_angle 73.18" in loss.message
-    ways = list(swing_load_checks.candidates(apart, "contact-loss"))
+    ways = list(swing_load_checks.candidates_of_loads(apart, "contact-loss"))
     arm, reserve, mass = ("slider.middle_angle", 73.18), apart.spec.unloader.reserve, apart.spec.slider.mass
     assert ways[:3] == [
         (arm,),
@@ -328,7 +328,7 @@ def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> Non
         (arm, ("unloader.reserve", pytest.approx(reserve + 1.0, rel=1e-12))),
     ]
     assert ways[3] == (arm, ("slider.mass", pytest.approx(0.5 * mass, rel=1e-12)))
-    assert list(swing_load_checks.candidates(apart, "resonance")) == []
+    assert list(swing_load_checks.candidates_of_loads(apart, "resonance")) == []
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from sweeps import examples, mostly_slow
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.bench import BUDGET
 from gearlink.core.machines.six_bar import loop
-from gearlink.core.machines.six_bar.course import Course, Follower
+from gearlink.core.machines.six_bar.design import Course, Follower
 from gearlink.core.machines.six_bar.loop import SixBar
 from gearlink.core.machines.six_bar.mechanism import pins
 from gearlink.core.machines.six_bar.relations import reduced, train_relation

@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.swing_gripper.axes import links
+from gearlink.core.machines.swing_gripper.checks import links
 from gearlink.core.machines.swing_gripper.passes import Passes
 
 Data = dict[str, Any]

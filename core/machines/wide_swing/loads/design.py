@@ -10,25 +10,34 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.report import Quantity
+from gearlink.core.base.remedies.ways import at_least
+from gearlink.core.base.report import Check, Quantity, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.wide_swing import bodies
+from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
-from gearlink.core.machines.wide_swing.loads import checks as loads_checks
-from gearlink.core.machines.wide_swing.loads import tables as loads_tables
-from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
+from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
+from gearlink.core.mechanism.rates import TURNING_BACK
+from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.studies.loads import codes, tables, vibration_checks
+from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.vibrating import Vibrating
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from gearlink.core.base.report import Remedy
     from gearlink.core.machines.wide_swing.cams.outline import AnyCam
-    from gearlink.core.machines.wide_swing.loads.rest import SwingRest
     from gearlink.core.machines.wide_swing.loads.spec import SwingLoads as Section
     from gearlink.core.machines.wide_swing.loads.stroke import SwingStroke
     from gearlink.core.machines.wide_swing.spec import WideSwingSpec
@@ -36,7 +45,222 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.studies.loads.machine import Machine
-    from gearlink.core.studies.loads.vibrating import Vibrating
+
+
+_NEAR = 0.9
+_TURN_BY = 15
+"""Steps in which a direction is turned [deg]."""
+
+
+def contact_pressure_of_loads(design: WideSwingLoads) -> Iterator[Check]:
+    """GL607, where the file gives an allowed pressure."""
+    allowed = None if design.section.material is None else design.section.material.allowed_pressure
+    found, roller = design.hertz_pressure_max, design.section.roller
+    if allowed is None:
+        return
+    if roller is None:
+        yield no_width(allowed)
+        return
+    if found is None:
+        yield pressed_where_undercut("the roller presses where its cam", allowed)
+        return
+    rest = design.pressing.hardest_rest
+    text = f"the roller presses with {found:.5g} N/mm^2" + (f" in the {rest.words}" if rest is not None else "")
+    if found > allowed:
+        message = f"{text}, above {allowed:g}: take a wider roller"
+        yield codes.CONTACT_PRESSURE.check("fail", message, found, allowed, "N/mm^2")
+    elif found > _NEAR * allowed:
+        yield codes.CONTACT_PRESSURE.check("warn", f"{text}, little below {allowed:g}", found, allowed, "N/mm^2")
+    else:
+        yield codes.CONTACT_PRESSURE.check("pass", text, found, allowed, "N/mm^2")
+
+
+def contact_loss_of_loads(design: WideSwingLoads) -> Iterator[Check]:
+    """GL608: the device holds the roller on its cam up to the speed of lift-off, and against all that acts besides."""
+    speed, limit = design.spec.speed, design.lift_off_speed
+    text = f"the roller leaves its cam at {limit:.5g} rev/min"
+    if limit < speed * (1.0 - 1e-9):
+        message = f"{text}, below the design's {speed:g}: raise unloader.reserve"
+        yield codes.CONTACT_LOSS.check("fail", message, limit, speed, "1/min")
+    else:
+        yield codes.CONTACT_LOSS.check("pass", text, limit, speed, "1/min")
+    if not design.own_forces and design.spec.slider is None:
+        return
+    least = design.least_contact_force
+    text = f"with all that acts the roller presses its cam with at least {least:.5g} N"
+    if least < 0.0:
+        remedy = "raise unloader.reserve, or reduce loads.forces"
+        if design.spec.slider is not None and changes_apart(design):
+            remedy = f"the device changes sides before or after the roller; {side_words(design.spec.slider)}"
+        message = f"{text}: it leaves the profile; {remedy}"
+        yield codes.CONTACT_LOSS.check("fail", message, least, 0.0, "N")
+    else:
+        yield codes.CONTACT_LOSS.check("pass", text, least, 0.0, "N")
+
+
+def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
+    """GL611, of a whole turn."""
+    return vibration_checks.resonance(design) if design.whole else iter(())
+
+
+def changes_apart(design: WideSwingLoads) -> bool:
+    """Whether device and roller change sides at different places."""
+    return any(check.status == "fail" for check in design.design.check("side-change"))
+
+
+def candidates_of_loads(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
+    """What lets the device hold the roller all the way, alone and with more reserve, and directions that are clear."""
+    if check == "body-clearance":
+        yield from _clear_directions(design)
+    section, reserve = design.spec.slider, design.spec.unloader.reserve
+    if check != "contact-loss" or section is None or not changes_apart(design):
+        return
+    for changes in side_changes(section):
+        yield changes
+        yield from ((*changes, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.25, 1.0))
+
+
+def _clear_directions(design: WideSwingLoads) -> Iterator[Remedy]:
+    """The nearest direction each way in which every body keeps clear, by geometry alone."""
+    for name in design.own_directions:
+        given = getattr(design.section, name)
+        for sense in (1.0, -1.0) if given is not None else ():
+            turned = (_in_turn(given + sense * step) for step in range(_TURN_BY, 180, _TURN_BY))
+            found = next((each for each in turned if _is_clear(design, f"loads.{name}", each)), None)
+            if found is not None:
+                yield ((f"loads.{name}", found),)
+
+
+def _in_turn(angle: float) -> float:
+    return math.remainder(angle, 360.0)
+
+
+def _is_clear(design: WideSwingLoads, path: str, value: float) -> bool:
+    spec = changed(design.spec, ((path, value),))
+    return spec is not None and not any(True for _ in bodies.placed_clearance(type(design)(spec)))
+
+
+_ENDS = 2.0 * TURNING_BACK
+LEAST = 4.0 * _ENDS
+"""Input angle below which a rest is none [rad]: its ends belong to the strokes, where the force is another."""
+
+
+@dataclass(frozen=True, eq=False)
+class SwingRest:
+    """The rest after a stroke, in which the arc of that stroke's cam holds the rocker.
+
+    Fields
+        stroke : SwingStroke - before it
+        start, width : float [rad] - input angle at which it starts, and that it takes
+    """
+
+    stroke: SwingStroke
+    start: float
+    width: float
+
+    @property
+    def words(self) -> str:
+        """What it is called."""
+        return "far rest" if self.stroke.name == "main" else "near rest"
+
+    def force(self, phi: Reals) -> Reals:
+        """Force of the roller on the arc [N] at input angles, out of the reactions."""
+        inside = np.clip(phi, self.start + _ENDS, self.start + self.width - _ENDS)
+        found: Reals = self.stroke.loads.machine.reactions(inside).unknowns["roller"][0]
+        return found
+
+    def pressure(self, phi: Reals) -> Reals | None:
+        """Pressure there [N/mm^2]; None without a width."""
+        contact = self.stroke.contact_of(self.force(phi), np.full_like(phi, self.relative_radius))
+        return None if contact is None else contact.pressure
+
+    @property
+    def relative_radius(self) -> float:
+        """R = r_g (1 -+ r_g/rho) of roller and arc [mm], + of an internal profile; rho the pitch radius of the arc."""
+        cam = self.stroke.cam
+        assert isinstance(cam, WideSwingCam), "a cycle has cams that turn evenly"
+        return cam.roller_radius * (1.0 - cam.sense * cam.roller_radius / cam.end_radius)
+
+    @cached_property
+    def forces(self) -> tuple[float, float]:
+        """Greatest and least force on the arc [N]; what the file lets act may vary over the rest."""
+        end, breaks = self.start + self.width, self.stroke.loads.machine.breaks
+        joints = [angle for angle in breaks if self.start < angle < end]
+        wanted = [(self.force, True), (self.force, False)]
+        greatest, least = extremes_over(wanted, self.start, end, joints=joints, samples=128)
+        return greatest.value, least.value
+
+    @cached_property
+    def pressed(self) -> dict[str, float]:
+        """Greatest force, pressure and depth of the shear, and the least force: on an arc both go with the force."""
+        greatest, least = self.forces
+        found = {"force": max(abs(greatest), abs(least)), "least_force": least}
+        contact = self.stroke.contact_of(np.array([greatest]), np.array([self.relative_radius]))
+        if contact is not None:
+            found |= {"pressure": float(contact.pressure[0]), "shear_depth": float(contact.shear_depth[0])}
+        return found
+
+
+_STEPS = 100
+
+
+def rows_table(design: WideSwingLoads, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
+    """Input angles of a table's rows [rad], and its first columns; k over the stroke where the file has no cycle."""
+    import numpy as np
+
+    from gearlink.core.studies.loads.design import LoadsDesign
+
+    if design.whole:
+        return LoadsDesign.rows(design, samples)
+    k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+    phi = k * design.cam.cycle_angle
+    return phi, {"k": (k, "1"), "input_angle": (np.degrees(phi), "deg")}
+
+
+def contact_stroke_table(design: WideSwingLoads, samples: int | None = None) -> Table:
+    """Force, pressure and speeds of the roller over each stroke; empty where it touches nothing."""
+    import numpy as np
+
+    k = np.arange((samples or _STEPS) + 1) / (samples or _STEPS)
+    columns: dict[str, tuple[Any, str]] = {"k": (k, "1")}
+    for stroke in design.strokes:
+        later = "" if stroke.name == "main" else "return_"
+        found = stroke.columns(k)
+        columns[f"{later}cam_angle"] = (np.degrees(stroke.angle(k)), "deg")
+        columns |= {f"{stroke.name}_{name}": found[name] for name in ("force", "pressure", "radius")}
+        columns |= {f"{later}{name}": found[name] for name in ("roller_speed", "entrainment")}
+        torque = np.full_like(k, np.nan) if design.locked else design.machine.torque(stroke.angle(k))
+        columns[f"{later}input_torque"] = (torque, "N m")
+    return Table.of("contact_stroke", columns)
+
+
+def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table:
+    """Harmonics of the rocker's motion over a whole turn."""
+    if not design.whole:
+        if design.spec.slider is not None:
+            raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
+        message = "harmonics are those of a whole turn: give cycle in place of cycle_angle"
+        raise MissingSection(message, key="cycle_angle")
+    return tables.harmonics_table(design, samples)
+
+
+class SwingVibrating(Vibrating):
+    """As of any output; of a stroke alone, the one motion that ends in a rest."""
+
+    design: WideSwingLoads
+
+    @cached_property
+    def inertia(self) -> float:
+        """That of the rocker; with a slider it changes over the stroke, and a stiffness has no frequency."""
+        if self.design.spec.slider is not None:
+            message = "with a slider the inertia changes over the stroke: give loads.vibration.frequency in place"
+            raise NoSolution(message, key="loads.vibration.stiffness")
+        return super().inertia
+
+    @cached_property
+    def motions(self) -> list[tuple[float, float]]:
+        """Both strokes of a turn, or the working stroke."""
+        return super().motions if self.design.whole else [(0.0, self.design.cam.cycle_angle)]
 
 
 class Pressing:
@@ -48,7 +272,6 @@ class Pressing:
     @cached_property
     def rests(self) -> tuple[SwingRest, ...]:
         """The rests of a whole cycle, each on the cam of the stroke before it; those of no length left out."""
-        from gearlink.core.machines.wide_swing.loads.rest import LEAST, SwingRest
 
         zones = zip(self.loads.strokes, self.loads.dwell_zones, strict=False)
         return tuple(SwingRest(stroke, *zone) for stroke, zone in zones if zone[1] > LEAST)
@@ -310,7 +533,6 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def vibrating(self) -> Vibrating:
         """The rocker on the shaft that drives it."""
-        from gearlink.core.machines.wide_swing.loads.vibration import SwingVibrating
 
         return SwingVibrating(self)
 
@@ -328,12 +550,12 @@ class WideSwingLoads(LoadsDesign):
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:
         """Of a slider whose arm stands ill that comes first."""
-        return (*loads_checks.candidates(self, check), *super().candidates(check))
+        return (*candidates_of_loads(self, check), *super().candidates(check))
 
-    rows = loads_tables.rows
-    table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics
-    check_contact_pressure, check_contact_loss = loads_checks.contact_pressure, loads_checks.contact_loss
-    check_resonance, check_body_clearance = loads_checks.resonance, bodies.placed_clearance
+    rows = rows_table
+    table_contact_stroke, table_harmonics = contact_stroke_table, harmonics_table
+    check_contact_pressure, check_contact_loss = contact_pressure_of_loads, contact_loss_of_loads
+    check_resonance, check_body_clearance = resonance_of_loads, bodies.placed_clearance
 
 
 def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:

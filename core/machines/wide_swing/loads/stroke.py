@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gearlink.core.base.design import placed
+from gearlink.core.base.results import cached_property
 from gearlink.core.machines.wide_swing.cams.outline import middle_of
 from gearlink.core.machines.wide_swing.roller import path
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke
