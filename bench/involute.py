@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
+from gearlink.core.parts.gears.tooth.functions_sweep import inverse_involute
 from gearlink.core.parts.gears.tooth.involute import inverse_involute as scalar
-from gearlink.core.parts.gears.tooth.involute_sweep import inverse_involute
 
 Array = NDArray[np.float64]
 

@@ -15,15 +15,17 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, require_folder, wrote
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.render.markdown_report import text_of
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import Report
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind
-    from gearlink.core.base.report import Report
 
 
 def run_design(command: str, source: str, options: Options) -> int:
@@ -138,10 +140,18 @@ def print_report(report: Report, options: Options) -> None:
 
         print(as_markdown(report))
     elif options.quantities:
-        from gearlink.cli.render.plain import as_lines
-
         print(as_lines(report))
     else:
         from gearlink.cli.render.terminal import show
 
         show(report, options)
+
+
+def as_lines(report: Report) -> str:
+    """`149.11 149.11 mm` for one quantity; `name = ...` where several were asked for."""
+    several = len(report.quantities) > 1
+    lines = []
+    for quantity in report.quantities:
+        unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+        lines.append((f"{quantity.name} = " if several else "") + visible(text_of(quantity.value)) + unit)
+    return "\n".join(lines)

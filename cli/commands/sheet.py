@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,14 +17,14 @@ from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import named
+from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
-    from gearlink.cli.views.figures.sheets.sheet_list import Makers
+    from matplotlib.figure import Figure
 
 
 def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
-    from gearlink.cli.views.figures.sheets.sheet_list import sheets_of
 
     try:
         loaded, kind = open_design(source, options)
@@ -60,7 +60,6 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
 
 
 def _who_has() -> str:
-    from gearlink.cli.views.figures.sheets.sheet_list import kinds
 
     return f"the kinds with sheets are {', '.join(kinds())}"
 
@@ -73,3 +72,32 @@ def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
     write_atomically(path, lambda stream: save(lambda: settled(made[name]()), spec.name, stream, ending, options.dpi))
     return path
+
+
+Makers = dict[str, Callable[[], "Figure"]]
+
+
+def kinds() -> tuple[str, ...]:
+    """The kinds whose designs have sheets."""
+    return tuple(kind.name for kind in KINDS.values() if kind.all_sheets)
+
+
+def sheets_of(design: Any) -> Makers:
+    """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`).
+
+    Raises
+        NoSolution - where the mechanism cannot make its turn
+    """
+    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
+
+    found: Makers = {}
+    if motion_sheet.courses(design):
+        found["motion"] = lambda: motion_sheet.draw(design)
+    if "timing" in KINDS[design.kind].sheets:
+        found["timing"] = lambda: timing_sheet.draw(design)
+    cams = cam_sheets.discs(design)
+    if cams:
+        found["pressure"] = lambda: cam_sheets.pressure(design)
+    for i in range(len(cams)):
+        found[f"drawing-{i + 1}"] = lambda i=i: cam_sheets.drawing(design, i)  # type: ignore[misc]
+    return found

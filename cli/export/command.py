@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
+from itertools import chain, repeat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
+from gearlink.cli.export.contour import Contour, rows_of
+from gearlink.cli.export.header import describe, design_hash
 from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
+from gearlink.cli.export.sampling import Sampled
 from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
@@ -21,9 +28,10 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
-    from gearlink.cli.export.contour import Contour
+    from matplotlib.figure import Figure
 
 
 def run_export(source: str, asked: Export) -> int:
@@ -64,7 +72,6 @@ def _contour_files(design: Any, asked: Export) -> Iterator[tuple[Path, bytes, st
     """The blocking contour of a gear pair, where it is asked for."""
     if not _asks_for_contour(design, asked):
         return
-    from gearlink.cli.export.contour_files import contour_file
 
     for form in asked.formats:
         data, words = contour_file(design, form)
@@ -165,7 +172,6 @@ def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
         from gearlink.cli.export.step import as_step
 
         return lambda contour, spec: as_step(contour, spec, asked.width)
-    from gearlink.cli.export.csv import as_csv
 
     return as_csv
 
@@ -189,3 +195,137 @@ def _counted(contour: Contour) -> str:
         counts[name] = counts.get(name, 0) + line.nodes.size
     each = ", ".join(f"{name} {count}" for name, count in counts.items())
     return f"{contour.points} points ({each})" if len(counts) > 1 else f"{contour.points} points"
+
+
+_SHARE = 0.7
+"""Of a page's height."""
+
+
+class NoContourFile(GearlinkError):
+    """The contour is no body."""
+
+
+def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
+    """The bytes of the file and a word on it.
+
+    Raises
+        NoContourFile - for formats other than SVG and CSV
+        NoSolution - for a gear on a rack
+    """
+    design.require_two_gears("a blocking contour")
+    points = sum(map(len, design.contour.points.values())) if form in (FileFormat.SVG, FileFormat.CSV) else 0
+    if form is FileFormat.SVG:
+        return _svg(design), f"{points} points of {len(design.contour.lines)} lines"
+    if form is FileFormat.CSV:
+        return _csv(design), f"{points} points of {len(design.contour.lines)} lines"
+    raise NoContourFile(f"the blocking contour is no profile for {form}: take --as svg or --as csv")
+
+
+def _svg(design: Any) -> bytes:
+    from gearlink.cli.views.figures.drawing import panels
+    from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.gears.contour import contour_plot
+    from gearlink.cli.views.figures.write import save
+
+    def made() -> Figure:
+        figure = panels.page(design.spec.name, _SHARE)
+        grid = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.12))
+        contour_plot(figure.add_subplot(grid[0]), figure.add_subplot(grid[1]), design.contour)
+        return settled(figure)
+
+    stream = io.BytesIO()
+    save(made, design.spec.name, stream, "svg")
+    return stream.getvalue()
+
+
+def _csv(design: Any) -> bytes:
+    """Comment lines with the design, its shifts and margins, then a row for each point of a line."""
+    text, contour = io.StringIO(), design.contour
+    x1, x2 = contour.pair.profile_shift
+    said = {"program": f"gearlink {VERSION}", "design": " ".join(design.spec.name.split())}
+    said |= {"design_sha256": design_hash(design.spec), "x1": repr(x1), "x2": repr(x2)}
+    for key, value in said.items():
+        text.write(f"# {key}: {value}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    for line in contour.lines:
+        less, more = contour.margins[line.name]
+        text.write(f"# margin of {line.name}: {_way(less)} to {_way(more)} in x1 at the same shift sum\n")
+    writer.writerow(["line", "x1", "x2"])
+    writer.writerows((name, *point) for name, points in contour.points.items() for point in points)
+    return text.getvalue().encode("utf-8")
+
+
+def _way(value: float | None) -> str:
+    return "none" if value is None else repr(value)
+
+
+_HEADS = {
+    "PROFILE": ("x [mm]", "y [mm]"),
+    "PITCH_CURVE": ("pitch_x [mm]", "pitch_y [mm]"),
+    "PATH": ("x [mm]", "y [mm]"),
+}
+_LEADING = ("k", "cam_angle [deg]", "input_angle [deg]", "input_position [mm]")
+
+
+def as_csv(contour: Contour, spec: Any) -> bytes:
+    """The part as a CSV file; of a closed curve the last row is the first point again.
+
+    Notes
+        The rows of a spline are the points that the cubics pass through. A value that does not exist (no contact,
+        a straight pitch curve, the pressure angle at a corner) is left empty; the column `curve` stands where a piece
+        of the contour has a name.
+    """
+    text = io.StringIO()
+    for key, value in describe(contour, spec).items():
+        text.write(f"# {key}: {' '.join(value.encode('utf-8', 'replace').decode().split())}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows(_rows(contour))
+    return text.getvalue().encode("utf-8")
+
+
+def _rows(contour: Contour) -> Iterator[list[Any]]:
+    drawn = tuple(piece for piece in contour.pieces if piece.stretch.layers[0] in _HEADS)  # no construction lines
+    layers = tuple(dict.fromkeys(layer for piece in drawn for layer in piece.stretch.layers))
+    leading = [head for head in contour.part.extra_columns if head in _LEADING]
+    trailing = [head for head in contour.part.extra_columns if head not in leading]
+    named = ["curve"] if any(piece.stretch.name for piece in drawn) else []
+    yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, *named]
+    if contour.part.teeth:
+        yield from _tooth_by_tooth(contour)
+        return
+    for piece, shown in rows_of(drawn):
+        columns = _columns(piece, layers, contour.part.extra_columns, len(leading))
+        for row in zip(*(column[shown] for column in columns), strict=True):
+            yield [*(_cell(value) for value in row), *([piece.stretch.name] if named else ())]
+
+
+def _tooth_by_tooth(contour: Contour) -> Iterator[list[Any]]:
+    """Rows of a gear: x, y and the name of the curve."""
+    (line,) = contour.lines
+    names = [piece.stretch.name for piece in line.pieces for _ in piece.parameter[1:]]
+    curves = chain(*repeat(names, contour.part.teeth), names[-1:])
+    nodes = line.nodes
+    yield from map(list, zip(nodes.real.tolist(), nodes.imag.tolist(), curves, strict=True))
+
+
+def _columns(
+    piece: Sampled, layers: tuple[str, ...], extra_columns: tuple[str, ...], leading: int
+) -> list[list[float]]:
+    """The columns of a piece: leading extras, x and y of each layer, the other extras."""
+    count = piece.parameter.size
+    empty = [math.nan] * count
+    extra = [empty] * len(extra_columns)
+    if piece.stretch.extra is not None:
+        extra = piece.stretch.extra(piece.parameter).tolist()
+    places: list[list[float]] = []
+    for layer in layers:
+        if layer in piece.stretch.layers:
+            nodes = piece.nodes[piece.stretch.layers.index(layer)]
+            places += [nodes.real.tolist(), nodes.imag.tolist()]
+        else:
+            places += [empty, empty]
+    return [*extra[:leading], *places, *extra[leading:]]
+
+
+def _cell(value: float) -> float | str:
+    return value if math.isfinite(value) else ""

@@ -458,16 +458,16 @@ class TestBatch:
     ) -> None:
         for name in ("a", "b"):
             (tmp_path / f"{name}.yaml").write_text(CRANK)
-        from gearlink.cli.batch import pool
+        from gearlink.cli.batch import run
 
-        original = pool.build
+        original = run.build
 
         def sometimes(loaded: Any, kind: Any, command: str, spec: Any, *rest: Any, **options: Any) -> Any:
             if spec.name == "a":
                 raise ZeroDivisionError("planted")
             return original(loaded, kind, command, spec, *rest, **options)
 
-        monkeypatch.setattr(pool, "build", sometimes)
+        monkeypatch.setattr(run, "build", sometimes)
         ended = gearlink("batch", tmp_path, "--format", "json")
         assert ended.status == ExitCode.FAULT
         assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]

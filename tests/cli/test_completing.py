@@ -14,10 +14,10 @@ from factory import DESIGNS, each_kind
 from sweeps import mostly_slow
 
 from gearlink.cli import completing
+from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.export.parts import kinds, makers
 from gearlink.cli.options import Options
-from gearlink.cli.views.figures.sheets.sheet_list import sheets_of
 from gearlink.core.base.kinds import FILES, KINDS
 
 BIN = Path(sys.executable).parent

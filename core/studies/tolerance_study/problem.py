@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from gearlink.core.base.design import Design
+from gearlink.core.base.design_axis import Evaluated
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.spec_paths import part_at
@@ -19,7 +20,6 @@ from gearlink.core.studies.explore.base import Base, Refused
 from gearlink.core.studies.explore.entries import beyond_lists, no_lists, odd_comparisons
 from gearlink.core.studies.explore.requirements import Condition, FaultFound, Names, condition
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
-from gearlink.core.studies.tolerance.axis import ToleranceAxis
 from gearlink.core.studies.tolerance.correlation import coordinate_root, together
 from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
@@ -228,7 +228,7 @@ class Problem:
         Parameters
             points : (N, coordinates) array - in (0, 1)
         Returns
-            columns : (N,) arrays by source - as `gearlink.core.studies.tolerance.axis` wants them
+            columns : (N,) arrays by source - as `gearlink.core.studies.tolerance_study.problem` wants them
         """
         points = together(points, self.correlation)
         columns: dict[str, Reals | Points] = {}
@@ -307,3 +307,60 @@ def _with_links(base: Base) -> Base:
 def no(code: str, message: str, *place: str | int) -> WrongStudy:
     """What is wrong at a key of the section."""
     return WrongStudy([Fault(code, message, ("tolerance", *place))])
+
+
+class ToleranceAxis(Protocol):
+    """Samples of one nominal design.
+
+    parts : centre distances, pins and gears that may scatter beside the keys of the file; extra : quantities that only
+    samples have; reference : input angle at which designs as made and nominal design are set to agree [deg], None: as
+    they are
+    """
+
+    parts: Parts
+    extra: tuple[str, ...]
+
+    @property
+    def reference(self) -> float | None:
+        """Where the outputs are set to agree."""
+        ...
+
+    def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
+        """Whether these sources and quantities can be computed over arrays."""
+        ...
+
+    def sets(self, key: str) -> bool:
+        """Whether a source is a size that `design` sets; the others are keys of the file."""
+        ...
+
+    def design(self, values: Mapping[str, Any], cut: Any = None) -> Any:
+        """The design of one sample, of the class that computes it alone.
+
+        Parameters
+            values : by source, of those that it sets
+            cut : the design with the sample's other keys; None: the nominal one
+        """
+        ...
+
+    def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
+        """The designs as made.
+
+        Parameters
+            columns : (N,) arrays by source - sizes and centre distances as made, in the unit of the file; of a pin its
+                offset as a vector x + i y [mm]
+            names : of quantities
+        Returns
+            evaluated : Evaluated - findings of every check of the kind's analysis
+        """
+        ...
+
+    def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
+        """By how much the outputs lie above that of the nominal design.
+
+        Parameters
+            columns : as `evaluate` takes them
+            input_angle : (K,) array [rad]
+        Returns
+            off : (K, N) array [rad] - NaN where a design does not exist
+        """
+        ...

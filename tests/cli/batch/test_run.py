@@ -282,11 +282,11 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
 def test_what_is_finished_is_not_computed_again_where_processes_fail(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
     from gearlink.cli.batch.outcome import Outcome
 
-    real = pool.workers
+    real = run.workers
 
     @contextmanager
     def failing(count: int) -> Iterator[Any]:
@@ -294,9 +294,9 @@ def test_what_is_finished_is_not_computed_again_where_processes_fail(
             yield executor
         raise OSError("no descriptors are left")
 
-    monkeypatch.setattr(pool, "outcomes", lambda path, _: [Outcome(str(path), "", path.stem, "", 0)])
-    monkeypatch.setattr(pool, "workers", failing)
-    results, _ = pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    monkeypatch.setattr(run, "outcomes", lambda path, _: [Outcome(str(path), "", path.stem, "", 0)])
+    monkeypatch.setattr(run, "workers", failing)
+    results, _ = run.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
     assert len(results) == len({result.file for result in results}) == 100
 
 
@@ -306,7 +306,7 @@ def test_what_is_finished_is_not_computed_again_where_processes_fail(
 def test_a_process_that_dies_costs_its_one_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], deadly: set[str]
 ) -> None:
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
     from gearlink.cli.batch.outcome import Outcome
 
@@ -317,8 +317,8 @@ def test_a_process_that_dies_costs_its_one_file(
             os.kill(os.getpid(), signal.SIGKILL)
         return [Outcome(str(path), "", path.stem, "", 0)]
 
-    monkeypatch.setattr(pool, "outcomes", outcome)
-    results, interrupted = pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    monkeypatch.setattr(run, "outcomes", outcome)
+    results, interrupted = run.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
     assert not interrupted
     assert len(results) == len({result.file for result in results}) == 100
     assert {Path(result.file).name for result in results if result.errors} == deadly
@@ -328,7 +328,7 @@ def test_a_process_that_dies_costs_its_one_file(
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One tried file of a fifth of a second says enough; no second one waits here for its turn."""
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
     from gearlink.cli.batch.outcome import Outcome
 
@@ -338,9 +338,9 @@ def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, mo
         time.sleep(0.2 if path == first else 0.0)
         return [Outcome(str(path), "here" if os.getpid() == parent else "there", path.stem, "", 0)]
 
-    monkeypatch.setattr(pool, "outcomes", outcome)
-    monkeypatch.setattr(pool, "processors", lambda: 2)
-    found, _ = pool.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
+    monkeypatch.setattr(run, "outcomes", outcome)
+    monkeypatch.setattr(run, "processors", lambda: 2)
+    found, _ = run.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
     assert len({outcome.file for outcome in found}) == len(found) == 40
     assert [Path(outcome.file).name for outcome in found if outcome.kind == "here"] == ["00"]
 
@@ -362,7 +362,7 @@ def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, m
 
 def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Pipes of a pool that was half made took the last descriptors, and no file could be opened."""
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
     from gearlink.cli.batch.outcome import Outcome
 
@@ -381,9 +381,9 @@ def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monke
     def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
         return [Outcome(str(path), "" if not held or held[0]() is None else "held", path.stem, "", 0)]
 
-    monkeypatch.setattr(pool, "workers", refused)
-    monkeypatch.setattr(pool, "outcomes", outcome)
-    found, _ = pool.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
+    monkeypatch.setattr(run, "workers", refused)
+    monkeypatch.setattr(run, "outcomes", outcome)
+    found, _ = run.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
     assert len(found) == 40
     assert held
     assert not [each.file for each in found if each.kind]
@@ -392,7 +392,7 @@ def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monke
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
     from gearlink.cli.batch.outcome import Outcome
 
@@ -404,15 +404,15 @@ def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, m
             os.kill(os.getpid(), signal.SIGKILL)
         return [Outcome(str(path), "", path.stem, "", 0)]
 
-    monkeypatch.setattr(pool, "outcomes", outcome)
-    results, _ = pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    monkeypatch.setattr(run, "outcomes", outcome)
+    results, _ = run.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
     assert len({result.file for result in results}) == 100
     assert not any(result.errors for result in results)
 
 
 def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Designs know their parts and these the design: 0.3 MB of each file of wide swings stayed."""
-    from gearlink.cli.batch import pool
+    from gearlink.cli.batch import run
 
     asked: list[int] = []
 
@@ -420,8 +420,8 @@ def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pyte
         if phase == "start" and found["generation"] == 2:
             asked.append(1)
 
-    monkeypatch.setattr(pool, "_files", itertools.count(1))
-    monkeypatch.setattr(pool, "_AT_A_TIME", 2)
+    monkeypatch.setattr(run, "_files", itertools.count(1))
+    monkeypatch.setattr(run, "_AT_A_TIME", 2)
     gc.disable()
     gc.callbacks.append(collected)
     try:

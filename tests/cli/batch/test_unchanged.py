@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import yaml
 
-from gearlink.cli.batch import unchanged
+from gearlink.cli.batch import run as batches
 from gearlink.cli.exit_codes import ExitCode
 
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
@@ -63,9 +63,9 @@ def test_what_passed_is_skipped_and_the_summary_stays_the_same(gearlink: Any, ru
 
 
 def other_code(monkeypatch: pytest.MonkeyPatch) -> None:
-    own = dict(unchanged.program())
-    unchanged._program.cache_clear()
-    monkeypatch.setattr(unchanged, "program", lambda: {**own, "gearlink": "0.2.0 (code 0123456789ab)"})
+    own = dict(batches.program())
+    batches._program.cache_clear()
+    monkeypatch.setattr(batches, "program", lambda: {**own, "gearlink": "0.2.0 (code 0123456789ab)"})
 
 
 CHANGES: dict[str, Any] = {
@@ -86,7 +86,7 @@ def test_what_has_changed_is_computed(run: Any, monkeypatch: pytest.MonkeyPatch,
     try:
         again = run()
     finally:
-        unchanged._program.cache_clear()
+        batches._program.cache_clear()
     assert skipped(again) == set()
     assert json.loads(Path("out/designs/pass-crank.json").read_text())["kind"] == "slider-crank"
 

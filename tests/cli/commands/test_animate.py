@@ -25,10 +25,9 @@ from sweeps import mostly_slow
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.options import Options
 from gearlink.cli.views.films import gif, raster
-from gearlink.cli.views.films.backdrop import backdrop
 from gearlink.cli.views.films.brush import FINER
 from gearlink.cli.views.films.page import page, player_stage
-from gearlink.cli.views.films.raster import Raster
+from gearlink.cli.views.films.raster import Raster, backdrop
 from gearlink.cli.views.films.stage import ChartScale, Stage
 from gearlink.cli.views.scenes.loops import build, moving_kinds, pictures_for
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from sweeps import ALL, mostly_slow
 
+from gearlink.cli.commands.chart import draw
 from gearlink.cli.views.figures.chart_list import CHARTS, Marked
-from gearlink.cli.views.figures.design_charts import draw
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = {

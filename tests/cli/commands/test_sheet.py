@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from factory import design, worked
 
+from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
-from gearlink.cli.views.figures.sheets.sheet_list import sheets_of
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),

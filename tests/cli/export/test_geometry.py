@@ -604,7 +604,7 @@ def test_dxf_layers_and_marks(tmp_path: Path) -> None:
 def test_csv_rows_are_the_kernels(build: Any) -> None:
     import csv
 
-    from gearlink.cli.export.csv import as_csv
+    from gearlink.cli.export.command import as_csv
 
     design = build()
     lines = as_csv(made(design, "return_cam"), design.spec).decode().splitlines()
@@ -629,7 +629,7 @@ def test_csv_rows_are_the_kernels(build: Any) -> None:
 def test_csv_of_a_swing_cam_leaves_the_slot_empty() -> None:
     import csv
 
-    from gearlink.cli.export.csv import as_csv
+    from gearlink.cli.export.command import as_csv
 
     design = swing(0)
     exported = made(design, "main_cam")

@@ -9,8 +9,9 @@ import pytest
 from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
+from gearlink.cli.commands import chart
 from gearlink.cli.files import CannotWrite
-from gearlink.cli.views.figures import design_charts, write
+from gearlink.cli.views.figures import write
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [
@@ -113,7 +114,7 @@ def test_a_picture_that_cannot_be_made_takes_no_result_with_it(
     words = [designs / word if word.endswith(".yaml") else word for word in line]
     alone = gearlink(*words, "--format", "json")
     monkeypatch.setattr(write, "save", fails)
-    monkeypatch.setattr(design_charts, "save", fails)
+    monkeypatch.setattr(chart, "save", fails)
     ended = gearlink(*words, "--format", "json", "--plot", "--out", tmp_path)
     assert (alone.status, ended.status) == (0, status)
     assert ended.out == alone.out

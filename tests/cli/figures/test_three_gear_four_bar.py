@@ -18,7 +18,7 @@ from sheets import curve, lines, odd_sheets, panel, placed_sheet, points, sheet,
 from sweeps import mostly_slow
 
 from gearlink.cli.options import Options
-from gearlink.cli.views.figures.three_gear_mechanism import dwell_position
+from gearlink.cli.views.figures.three_gear_four_bar import dwell_position
 from gearlink.cli.views.figures.write import write_plot
 from gearlink.core.parts.linkages.fourbar.position import solve
 

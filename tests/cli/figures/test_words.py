@@ -10,7 +10,7 @@ import pytest
 from factory import design, worked
 from sheets import curve, labels, panel, sheet, words
 
-from gearlink.cli.views.figures import design_charts
+from gearlink.cli.commands.chart import draw
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.figures.geared_five_bar import _gears
@@ -193,7 +193,7 @@ def test_least_contact_torques_have_a_true_minus_sign() -> None:
 def test_a_pointed_chart_reaches_its_point() -> None:
     """Drawn by the rows of its table alone, the longest dwell of these gears would be 3 deg too short."""
     chart, curves = CHARTS["dwell-frame"], (-2.4, -1.8)
-    figure = design_charts.draw(chart, chart.table(*chart.range, curves, 91), curves, None)
+    figure = draw(chart, chart.table(*chart.range, curves, 91), curves, None)
     for i, (parameter, near) in enumerate(zip(curves, ((6.355, 6.365), (5.175, 5.185)), strict=True)):
         _, drawn = curve(figure, f"curve-{i}")
         longest = float(np.nanmax(chart.values(np.linspace(*near, 41), parameter)))

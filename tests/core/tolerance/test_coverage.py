@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 from scipy.special import ndtr, ndtri
 
-from gearlink.core.studies.tolerance.quantiles import quantile, window
 from gearlink.core.studies.tolerance.sampling import Estimate, estimate, replications, share_estimate
 from gearlink.core.studies.tolerance_study.sensitivity import _estimated, _indices
-from gearlink.core.studies.tolerance_study.statistics import Spread, _numbers, _spread, capabilities
+from gearlink.core.studies.tolerance_study.statistics import Spread, _numbers, _spread, capabilities, quantile, window
 
 GAINS = np.array([1.0, 0.5, 0.3])
 SIGMA = math.sqrt(float(GAINS @ GAINS))

@@ -16,7 +16,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.studies.study.faults import WrongStudy
 from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law
-from gearlink.core.studies.tolerance_study import corners
+from gearlink.core.studies.tolerance_study import design
 from gearlink.core.studies.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
 from gearlink.core.studies.tolerance_study.samples import evaluated
 
@@ -116,7 +116,7 @@ def test_the_worst_case_of_many_sizes_is_climbed_to() -> None:
     few = study(CANDY, sources=FOUR, require=["dwell_swing <= 10.17 deg"], samples=16)
     (wanted,) = rows(few.table_corners())
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(corners, "_MOST", 3)
+        patch.setattr(design, "_MOST", 3)
         made = study(CANDY, sources=FOUR, require=["dwell_swing <= 10.17 deg"], samples=16)
         (found,) = rows(made.table_corners())
     assert found["greatest"] == pytest.approx(wanted["greatest"], rel=1e-12)

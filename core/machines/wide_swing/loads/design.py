@@ -241,7 +241,7 @@ def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table
             raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
         message = "harmonics are those of a whole turn: give cycle in place of cycle_angle"
         raise MissingSection(message, key="cycle_angle")
-    return tables.harmonics_table(design, samples)
+    return tables.harmonics(design, samples)
 
 
 class SwingVibrating(Vibrating):

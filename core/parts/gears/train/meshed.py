@@ -28,8 +28,10 @@ from gearlink.core.parts.gears.train.single_mesh import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from gearlink.core.parts.gears.data import GearData
-    from gearlink.core.parts.gears.train.meshes import Train
+    from gearlink.core.parts.gears.train.meshes import Place, Train
 
 QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
 _OF_MESHES, _OF_PAIRS = frozenset(QUANTITIES), frozenset(MESH_QUANTITIES)
@@ -253,7 +255,6 @@ class Meshed(GearQuantities, Design):
 
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear tables of the meshes, one below the other."""
-        from gearlink.core.parts.gears.train.drawing import drawings
 
         with at_key("gears"):
             return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
@@ -268,7 +269,6 @@ class Meshed(GearQuantities, Design):
             return super().check(name)
         if not self._judged(name):
             return []
-        from gearlink.core.parts.gears.train.drawing import judgement
 
         with at_key("gears"):
             known = {mesh: data for mesh, data in self.mesh_data.items() if self._has_involutes(mesh)}
@@ -296,3 +296,49 @@ class Meshed(GearQuantities, Design):
             "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
         }.get(name, (gears.load,))
         return any(each is not None for each in needed)
+
+
+def drawings(found: Mapping[str, GearData], hands: Sequence[str] | None, places: Sequence[Place]) -> Table:
+    """The gear tables of the meshes, one below the other; a single one as it is.
+
+    Parameters
+        found : GearData of the meshes by name, a ring second; the columns have the order of the file's lists
+        hands : of helix of all gears, or None
+        places : Places of the meshes
+    """
+    from gearlink.core.parts.gears.drawing import drawing_table
+
+    tables = {
+        mesh: _in_order(
+            drawing_table(data, None if hands is None else (hands[place.gears[0]], hands[place.gears[1]])), place
+        )
+        for (mesh, data), place in zip(found.items(), places, strict=True)
+    }
+    one, *_ = tables.values()
+    if len(tables) == 1:
+        return one
+    names = [mesh for mesh, table in tables.items() for _ in range(table.length)]
+    columns = [[value for table in tables.values() for value in table.data[i]] for i in range(len(one.columns))]
+    return Table("drawing", ("mesh", *one.columns), ("", *one.units), (names, *columns))
+
+
+def _in_order(table: Table, place: Place) -> Table:
+    """The gears in the order of the file's lists, where a ring stands before its mate."""
+    if place.gears[0] < place.gears[1]:
+        return table
+    item, symbol, pinion, ring, *rest = table.data
+    return Table(table.name, table.columns, table.units, (item, symbol, ring, pinion, *rest))
+
+
+def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> dict[str, list[Check]]:
+    """The findings of one of TRAIN_CHECKS on each mesh.
+
+    Parameters
+        name : str
+        found : GearData of the meshes by name
+        spec : of the design, with sections `gears` and `limits`
+    """
+    from gearlink.core.parts.gears.drawing_checks import pair_check
+
+    radial = spec.gears.assembly == "radial"
+    return {mesh: pair_check(name, data, spec.limits, mesh=mesh, radial=radial) for mesh, data in found.items()}
