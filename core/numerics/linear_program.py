@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+
+
+class Solution(NamedTuple):
+    """What solves a linear program.
+
+    Fields
+        x : (N,) array
+        duals : (M,) array - of the rows; of a row at its upper limit none is positive
+    """
+
+    x: Reals
+    duals: Reals
 
 
 def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -> Reals | None:
@@ -23,27 +36,62 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
     Source
         Q. Huangfu, J. A. J. Hall, Mathematical Programming Computation 10 (2018) 119
     """
+    found = solution(cost, rows, np.full(limits.size, -np.inf), limits, lower, upper)
+    return None if found is None else found.x
+
+
+def solution(
+    cost: Reals, rows: Reals, least_: Reals, most: Reals, lower: Reals, upper: Reals, *, tolerance: float = 1e-7
+) -> Solution | None:
+    """The x of least cost @ x with least_ <= rows @ x <= most and lower <= x <= upper, and the duals of the rows.
+
+    Parameters
+        as of `least`; tolerance : float - of limits and reduced costs
+    """
     from highspy import HighsLp, HighsModelStatus, HighsStatus, MatrixFormat
 
     program = HighsLp()
     program.num_row_, program.num_col_ = rows.shape
     program.col_cost_, program.col_lower_, program.col_upper_ = cost, lower, upper
-    program.row_lower_, program.row_upper_ = np.full(limits.size, -np.inf), limits
+    program.row_lower_, program.row_upper_ = least_, most
     row, column = np.nonzero(rows)
     program.a_matrix_.format_ = MatrixFormat.kRowwise
-    program.a_matrix_.start_ = np.searchsorted(row, np.arange(limits.size + 1))
+    program.a_matrix_.start_ = np.searchsorted(row, np.arange(most.size + 1))
     program.a_matrix_.index_, program.a_matrix_.value_ = column, rows[row, column]
     solver = _silent()
     solver.setOptionValue("presolve", "off")  # takes longer than it saves
     solver.setOptionValue("solver", "simplex")
     solver.setOptionValue("threads", 1)  # so that a process may fork afterwards
+    solver.setOptionValue("primal_feasibility_tolerance", tolerance)
+    solver.setOptionValue("dual_feasibility_tolerance", tolerance)
     solver.passModel(program)
     if solver.run() == HighsStatus.kError:  # of its threads there is one number in a process: who came first set it
         solver.setOptionValue("threads", 0)
         solver.run()
     if solver.getModelStatus() != HighsModelStatus.kOptimal:
         return None
-    return np.array(solver.getSolution().col_value)
+    found = solver.getSolution()
+    return Solution(np.array(found.col_value), np.array(found.row_dual))
+
+
+def proved_bound(
+    found: Solution, cost: Reals, rows: Reals, least_: Reals, most: Reals, lower: Reals, upper: Reals
+) -> float:
+    """A bound that cost @ x of no x within all limits lies below, whatever the duals are worth.
+
+    y b + sum min over lower <= x <= upper of (c - y A) x,  y with the sign that its row's limits allow
+
+    Parameters
+        found : Solution - whose duals are taken; the rest as of `solution`, all of lower and upper finite
+    Source
+        weak duality of linear programs
+    """
+    y = np.where(np.isinf(least_), np.minimum(found.duals, 0.0), found.duals)
+    y = np.where(np.isinf(most), np.maximum(y, 0.0), y)
+    limits = np.where(y == 0.0, 0.0, np.where(y > 0.0, least_, most))
+    left = cost - y @ rows
+    terms = np.concatenate([y * limits, np.minimum(left * lower, left * upper)])
+    return math.fsum(terms.tolist()) - 1e-14 * float(np.sum(np.abs(terms)))
 
 
 def _silent() -> Any:

@@ -1,0 +1,496 @@
+"""Motion laws that are least in something among all polynomials of a degree: found by linear programmes, and proved.
+
+s'' is a polynomial of degree n on [0, 1] that vanishes at both ends. A programme that knows its limits at finitely
+many places has fewer limits than the true one, so its dual bounds every law of the class from below; the law itself
+is proved afterwards, everywhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics import bernstein
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.linear_program import Solution, proved_bound, solution
+
+_TWO_PI = 2.0 * math.pi
+_ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
+_USUAL = {"velocity": 1.7, "acceleration": 5.0, "jerk": 45.0, "residual": 0.01, "torque": 4.0}
+_GRID, _FIRST_PLACES = 1025, 24
+_EXCESS = 1e-7  # of a limit: what may pass it between the places of the programme
+_ROUNDS, _TIGHTER, _SOLVER = 24, 8, 1e-9
+_DIGITS = 12
+
+
+class Wish(NamedTuple):
+    """What a law is to be least in, and what it keeps; phase units.
+
+    Fields
+        minimize : str - velocity, acceleration, jerk, residual or torque
+        degree : int - of s''
+        velocity, acceleration, jerk : float or None - greatest magnitudes
+        band : (from, to) or None - natural periods per phase, of `residual`
+        damping : float - of the oscillator
+        symmetric : bool - s(1 - x) = 1 - s(x), or v(1 - x) = 1 - v(x) from rest to speed
+        to_speed : bool - ends with v = 1 and whatever rise, not at rest with rise 1
+    """
+
+    minimize: str
+    degree: int = 15
+    velocity: float | None = None
+    acceleration: float | None = None
+    jerk: float | None = None
+    band: tuple[float, float] | None = None
+    damping: float = 0.0
+    symmetric: bool = True
+    to_speed: bool = False
+
+
+class Optimum(NamedTuple):
+    """A law that is least in something, with what is proved of it.
+
+    Fields
+        coefficients : (n + 1,) tuple - of s'' by Bernstein polynomials
+        value : float - what was minimized, from above, everywhere
+        lower_bound : float - below it lies no law of the degree that keeps the limits; of `torque` no law at all
+        lower_bound_all_laws : float or None - below it lies no law of any form; None where no closed form is known
+    """
+
+    coefficients: tuple[float, ...]
+    value: float
+    lower_bound: float
+    lower_bound_all_laws: float | None
+
+    @property
+    def gap(self) -> float:
+        """How much lower a law of the class may be, as a share of it."""
+        return self.value / self.lower_bound - 1.0
+
+
+@lru_cache(maxsize=64)
+def optimum(wish: Wish) -> Optimum:
+    """The law of a wish.
+
+    Raises
+        NoSolution - where no law, or none of the degree, keeps the limits; at the key within the law
+    Example
+        >>> found = optimum(Wish("jerk", acceleration=6.0))
+        >>> round(found.value, 3), found.gap < 1e-4
+        (39.227, True)
+    """
+    _require_possible(wish)
+    if wish.minimize == "torque":
+        from gearlink.core.parts.cams.least_torque import least_torque
+
+        return least_torque(wish)
+    programme = Programme(wish)
+    coefficients, solved = programme.shipped()
+    value = programme.proved_value(coefficients)
+    bound = programme.lower_bound(solved, value)
+    return Optimum(tuple(coefficients.tolist()), value, bound, bound_of_all_laws(wish))
+
+
+def _require_possible(wish: Wish) -> None:
+    """Refuse limits that no law can keep, whatever its form."""
+    least = {"jerk": 4.0, "acceleration": 1.0, "velocity": 1.0} if wish.to_speed else _LEAST
+    for key, low in least.items():
+        given = getattr(wish, key)
+        attained = key == "jerk" or (wish.to_speed and key == "velocity")
+        if given is not None and (given < low if attained else given <= low):
+            words = "below" if attained else "not above"
+            raise NoSolution(f"{key} {given:g} is {words} {low:g}, which no law keeps: raise it", key=key)
+    if wish.minimize == "residual" and wish.acceleration is None and wish.jerk is None:
+        raise NoSolution("minimize: residual needs a limit of acceleration or jerk: give one", key="acceleration")
+
+
+_LEAST = {"jerk": 32.0, "acceleration": 4.0, "velocity": 1.0}
+
+
+def bound_of_all_laws(wish: Wish) -> float | None:
+    """What no law of any form lies below; None where no closed form is known.
+
+    rest to rest: acceleration (J/4) (1 - sqrt(1 - 32/J)), velocity (A/2) (1 - sqrt(1 - 4/A)), jerk 32, torque 9/4;
+    from rest to speed: acceleration (J/2) (1 - sqrt(1 - 4/J)), jerk 4, velocity 1, torque 1/2
+
+    Source
+        own derivation: bang-bang laws; torque from |K'| <= M of the kinetic energy K = v^2/2
+    """
+    if wish.to_speed:
+        return {"acceleration": _ramp(wish.jerk), "jerk": 4.0, "velocity": 1.0, "torque": 0.5}.get(wish.minimize)
+    if wish.minimize == "acceleration":
+        return 4.0 if wish.jerk is None else 0.25 * wish.jerk * (1.0 - math.sqrt(1.0 - 32.0 / wish.jerk))
+    return {"velocity": _ramp(wish.acceleration), "jerk": 32.0, "torque": 2.25}.get(wish.minimize)
+
+
+def _ramp(slope: float | None) -> float:
+    """Least height of a trapezoid of area 1 over [0, 1] whose sides are no steeper."""
+    return 1.0 if slope is None else 0.5 * slope * (1.0 - math.sqrt(1.0 - 4.0 / slope))
+
+
+class Basis:
+    """Polynomials s'' by Chebyshev series, with s, s', s''' as linear functions of their coefficients."""
+
+    def __init__(self, wish: Wish) -> None:
+        orders = np.arange(wish.degree + 1)
+        if wish.symmetric:
+            orders = orders[::2] if wish.to_speed else orders[1::2]
+        self.wish, self.orders = wish, orders
+        unit = np.eye(wish.degree + 1)[:, orders]
+        velocity = chebyshev.chebint(unit, lbnd=-1, scl=0.5)
+        self._series = {
+            0: chebyshev.chebint(velocity, lbnd=-1, scl=0.5),
+            1: velocity,
+            2: unit,
+            3: chebyshev.chebder(unit, scl=2),
+        }
+
+    @property
+    def size(self) -> int:
+        """Number of coefficients."""
+        return int(self.orders.size)
+
+    def rows(self, order: int, x: Reals) -> Reals:
+        """A derivative of s at places, (places, coefficients)."""
+        return np.asarray(chebyshev.chebval(2.0 * x - 1.0, self._series[order]).T)
+
+    @cached_property
+    def conditions(self) -> tuple[Reals, Reals]:
+        """Rows and values of what holds at the ends."""
+        ends, wish = np.array([0.0, 1.0]), self.wish
+        rows, values = [self.rows(2, ends)], [np.zeros(2)]
+        if wish.symmetric:  # what is left follows
+            rows, values = [self.rows(2, ends[:1])], [np.zeros(1)]
+        if wish.to_speed or not wish.symmetric:
+            rows, values = [*rows, self.rows(1, ends[1:])], [*values, np.array([float(wish.to_speed)])]
+        if not wish.to_speed:
+            rows, values = [*rows, self.rows(0, ends[1:])], [*values, np.ones(1)]
+        return np.concatenate(rows), np.concatenate(values)
+
+    def coefficients(self, series: Reals) -> Reals:
+        """Bernstein coefficients of s'' that end at 0 and make the rise, or the speed, 1; rounded to 1e-12."""
+        wish, full = self.wish, np.zeros(self.wish.degree + 1)
+        full[self.orders] = series
+        found = bernstein.from_chebyshev(full)
+        found[[0, -1]] = 0.0
+        mirror = 1.0 if wish.to_speed else -1.0
+        if wish.symmetric:
+            found = 0.5 * (found + mirror * found[::-1])
+        else:
+            found = _made_exact(found, to_speed=wish.to_speed)
+        places = _DIGITS - 1 - math.floor(math.log10(float(np.max(np.abs(found)))))
+        return np.round(found, places)
+
+
+def _made_exact(found: Reals, *, to_speed: bool) -> Reals:
+    """The nearest coefficients that keep their sum, and the rise."""
+    n = found.size - 1
+    i = np.arange(1, n)
+    rows, values = [np.ones(n - 1)], [(n + 1.0) if to_speed else 0.0]
+    if not to_speed:
+        rows, values = [*rows, n + 1.0 - i], [*values, (n + 1.0) * (n + 2.0)]
+    matrix = np.array(rows)
+    off = np.array(values) - matrix @ found[1:-1]
+    inner = found[1:-1] + matrix.T @ np.linalg.solve(matrix @ matrix.T, off)
+    return np.concatenate([[0.0], inner, [0.0]])
+
+
+class Residual:
+    """Vibration that a phase leaves, R = |Int s'' exp((-zeta w + i w_d) (1 - x)) dx|/w_d with w = 2 pi lambda.
+
+    Parameters
+        band : natural periods per phase for which it is asked
+    """
+
+    def __init__(self, basis: Basis, band: tuple[float, float], damping: float) -> None:
+        self.damping = damping
+        self.damped = math.sqrt(1.0 - damping * damping)
+        nodes, weights = gauss_legendre(40 + basis.wish.degree + math.ceil(math.pi * band[1]))
+        self._left = 1.0 - nodes
+        self._weighted = weights[:, None] * basis.rows(2, nodes)
+        self.even, self.real = basis.wish.to_speed, basis.wish.symmetric and damping == 0.0
+
+    def rows(self, periods: Reals) -> Any:
+        """The integral over w_d at numbers of periods, (places, coefficients): real where it has one phase."""
+        w = _TWO_PI * periods[:, None]
+        phase = self._left - 0.5 if self.real else self._left
+        found = np.exp((-self.damping + 1j * self.damped) * w * phase) @ self._weighted / (w * self.damped)
+        if self.real:
+            return found.real if self.even else found.imag
+        return found
+
+    def spread(self) -> float:
+        """Upper bound of |d^2/dlambda^2| of the integral for |s''| <= 1."""
+        # exp(...) is turned to the middle of the phase, which no magnitude feels
+        rate = self.damping * 1.0 + self.damped * 0.5
+        return _TWO_PI**2 * rate**2
+
+
+class Course(NamedTuple):
+    """Something linear in the coefficients whose magnitude has a limit, or is minimized.
+
+    Fields
+        rows : function of places -> (places, coefficients), real or complex
+        low, high : float - where it is asked for
+        limit : float or None - None: minimized
+    """
+
+    rows: Callable[[Reals], Any]
+    low: float
+    high: float
+    limit: float | None
+
+    def grid(self, count: int) -> Reals:
+        """Places, denser towards the ends."""
+        return 0.5 * (self.low + self.high - (self.high - self.low) * np.cos(np.linspace(0.0, math.pi, count)))
+
+
+class Program(NamedTuple):
+    """A linear programme in (coefficients, t)."""
+
+    cost: Reals
+    rows: Reals
+    least: Reals
+    most: Reals
+    lower: Reals
+    upper: Reals
+
+
+@dataclass
+class Solved:
+    """A programme with what solves it: coefficients of Chebyshev polynomials, size of the objective."""
+
+    series: Reals
+    scale: float
+    found: Solution
+    program: Program
+
+
+class Programme:
+    """The linear programme of a wish; it learns the places at which its courses pass their limits."""
+
+    def __init__(self, wish: Wish, objective: Course | None = None) -> None:
+        self.wish, self.basis = wish, Basis(wish)
+        half = 0.5 if wish.symmetric else 1.0
+        self.residual = None
+        if wish.minimize == "residual":
+            assert wish.band is not None
+            self.residual = Residual(self.basis, wish.band, wish.damping)
+            objective = Course(self.residual.rows, *wish.band, None)
+        elif objective is None:
+            objective = Course(self._rows(_ORDERS[wish.minimize]), 0.0, half, None)
+        self.courses = [
+            objective,
+            *(
+                Course(self._rows(order), 0.0, half, float(limit))
+                for key, order in _ORDERS.items()
+                if (limit := getattr(wish, key)) is not None and key != wish.minimize
+            ),
+        ]
+        self.scale = _USUAL[wish.minimize]
+        self.known = [begun(course) for course in self.courses]
+        self.around = np.full(self.basis.size, -np.inf), np.full(self.basis.size, np.inf)
+
+    def _rows(self, order: int) -> Callable[[Reals], Reals]:
+        return lambda x: self.basis.rows(order, x)
+
+    # The law
+
+    def shipped(self) -> tuple[Reals, Solved]:
+        """Bernstein coefficients of a law that keeps every limit everywhere, and what it was solved from."""
+        slack = 1e-6
+        for _ in range(_TIGHTER):
+            solved = self.solved(slack)
+            coefficients = self.basis.coefficients(solved.series)
+            excess = max((self.peak_of(key, coefficients) / limit - 1.0 for key, limit in self.limits), default=0.0)
+            if excess <= 0.0:
+                return coefficients, solved
+            slack += 2.0 * excess
+        raise NoSolution("the programme of the law does not settle: lower the degree", key="degree")
+
+    @property
+    def limits(self) -> list[tuple[str, float]]:
+        """The limits of the wish, but for what it minimizes."""
+        given = [(key, getattr(self.wish, key)) for key in _ORDERS if key != self.wish.minimize]
+        return [(key, float(limit)) for key, limit in given if limit is not None]
+
+    @staticmethod
+    def peak_of(key: str, coefficients: Reals) -> float:
+        """Upper bound of a derivative's magnitude, from the coefficients of s''."""
+        return bernstein.peak({1: bernstein.integral, 2: np.asarray, 3: bernstein.derivative}[_ORDERS[key]](coefficients))
+
+    def solved(self, slack: float = 0.0) -> Solved:
+        """The programme solved with its limits tightened, and with places added until none passes its limit."""
+        for _ in range(_ROUNDS):
+            solved = self._once(slack)
+            if not 0.1 <= (t := float(solved.found.x[-1])) <= 10.0 and solved.scale > 1e-14:
+                self.scale *= max(t, 1e-3)
+                continue
+            if not self._learn(solved, slack):
+                break
+        return solved
+
+    def _once(self, slack: float) -> Solved:
+        program = self.program()
+        both = program.least == -program.most
+        tighter = np.where(both, (1.0 - slack) * program.most, program.most)
+        found = solution(
+            *program._replace(least=np.where(both, -tighter, program.least), most=tighter), tolerance=_SOLVER
+        )
+        if found is None:
+            raise self._impossible()
+        return Solved(found.x[:-1], self.scale, found, program)
+
+    def program(self) -> Program:
+        """The programme with what is known; limits divided by themselves, the objective by its usual size."""
+        m, (equal, values) = self.basis.size, self.basis.conditions
+        blocks, least, most = [np.pad(equal, ((0, 0), (0, 1)))], [values], [values]
+        for course, known in zip(self.courses, self.known, strict=True):
+            if course.limit is None:
+                for sign in (1.0, -1.0):
+                    blocks.append(np.column_stack([sign * known / self.scale, np.full(len(known), -1.0)]))
+                    least.append(np.full(len(known), -np.inf))
+                    most.append(np.zeros(len(known)))
+            else:
+                blocks.append(np.pad(known / course.limit, ((0, 0), (0, 1))))
+                least.append(np.full(len(known), -1.0))
+                most.append(np.ones(len(known)))
+        cost = np.append(np.zeros(m), 1.0)
+        lower, upper = np.append(self.around[0], 0.0), np.append(self.around[1], np.inf)
+        return Program(cost, np.concatenate(blocks), np.concatenate(least), np.concatenate(most), lower, upper)
+
+    def _learn(self, solved: Solved, slack: float) -> bool:
+        """Add the places at which a course passes its limit; whether there are any."""
+        more = False
+        for k, course in enumerate(self.courses):
+            limit = solved.scale * float(solved.found.x[-1]) if course.limit is None else course.limit * (1.0 - slack)
+            added = _passed(course, solved.series, limit * (1.0 + _EXCESS))
+            if added is not None:
+                self.known[k] = np.concatenate([self.known[k], added])
+                more = True
+        return more
+
+    def _impossible(self) -> NoSolution:
+        wish = self.wish
+        given = ", ".join(f"{key} {limit:g}" for key, limit in self.limits)
+        text = f"no law of degree {wish.degree} keeps {given}: raise the degree or a limit"
+        if not wish.to_speed and wish.jerk is not None:
+            least = 0.25 * wish.jerk * (1.0 - math.sqrt(1.0 - 32.0 / wish.jerk))
+            text += f" (with jerk {wish.jerk:g} the acceleration of any law reaches {least:.6g})"
+        elif not wish.to_speed and wish.acceleration is not None:
+            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {_ramp(wish.acceleration):.6g})"
+        return NoSolution(text)
+
+    # What is proved
+
+    def proved_value(self, coefficients: Reals) -> float:
+        """What was minimized, from above, over all places."""
+        if self.residual is None:
+            return self.peak_of(self.wish.minimize, coefficients)
+        assert self.wish.band is not None
+        return greatest_residual(coefficients, self.wish.band, self.wish.damping)
+
+    def lower_bound(self, solved: Solved, value: float) -> float:
+        """Below it no law of the class lies: from the duals, with the limits themselves."""
+        box = 2.0 * self._greatest_acceleration(value)  # of the Chebyshev coefficients of what is bounded so
+        size = np.full(self.basis.size, box)
+        lower, upper = np.append(-size, 0.0), np.append(size, 2.0 * value / solved.scale)
+        return solved.scale * proved_bound(solved.found, *solved.program._replace(lower=lower, upper=upper))
+
+    def _greatest_acceleration(self, value: float) -> float:
+        """What |s''| of a law that keeps the limits and is no worse does not pass."""
+        wish = self.wish
+        limits = {key: value if key == wish.minimize else getattr(wish, key) for key in _ORDERS}
+        found = []
+        if limits["acceleration"] is not None:
+            found.append(limits["acceleration"])
+        if limits["jerk"] is not None:
+            found.append(0.5 * limits["jerk"])
+        if limits["velocity"] is not None:  # Markov's inequality
+            found.append(2.0 * (wish.degree + 1) ** 2 * limits["velocity"])
+        return float(min(found))
+
+
+def gauss_legendre(count: int) -> tuple[Reals, Reals]:
+    """Nodes and weights on [0, 1]."""
+    x, w = np.polynomial.legendre.leggauss(count)
+    return 0.5 * (x + 1.0), 0.5 * w
+
+
+def begun(course: Course, places: int = _FIRST_PLACES) -> Reals:
+    """Rows of a course at its first places; of a complex one in four directions."""
+    rows = course.rows(course.grid(places))
+    if not np.iscomplexobj(rows):
+        return np.asarray(rows)
+    return np.concatenate([(rows * np.exp(-0.25j * math.pi * k)).real for k in range(4)])
+
+
+def _passed(course: Course, series: Reals, limit: float) -> Reals | None:
+    """Rows of the places between which a course has its peaks above a limit; None where it has none."""
+    places = course.grid(_GRID)
+    values = np.abs(course.rows(places) @ series)
+    inner = values[1:-1]
+    peaks = np.flatnonzero((inner >= values[:-2]) & (inner >= values[2:]) & (inner > limit)) + 1
+    found = [_top(places[k - 1 : k + 2], values[k - 1 : k + 2]) for k in peaks]
+    found += [float(places[k]) for k in (0, -1) if values[k] > limit]
+    if not found:
+        return None
+    rows = course.rows(np.array(found))
+    if not np.iscomplexobj(rows):
+        return np.asarray(rows)
+    whole: Points = rows @ series
+    return np.asarray((rows * np.exp(-1j * np.angle(whole))[:, None]).real)
+
+
+def _top(x: Reals, y: Reals) -> float:
+    """Where the parabola through three points is greatest."""
+    (a, b, c), (p, q, r) = x, y
+    left, right = (q - p) / (b - a), (r - q) / (c - b)
+    bend = (right - left) / (c - a)
+    if bend >= 0.0:
+        return float(b)
+    return float(min(max(0.5 * (a + b) - 0.5 * left / bend, a), c))
+
+
+def greatest_residual(coefficients: Sequence[float] | Reals, band: tuple[float, float], damping: float) -> float:
+    """Upper bound of the residual of a law over a band of periods, 1e-6 of it too high at most, and 1e-15.
+
+    Parameters
+        coefficients : of s'' by Bernstein polynomials
+    Notes
+        Between two places the integral is off its chord by h^2/8 of the bound of its second derivative.
+    """
+    c = np.asarray(coefficients, dtype=np.float64)
+    basis = Basis(Wish("residual", c.size - 1, symmetric=False))
+    course = Residual(basis, band, damping)
+    nodes, weights = gauss_legendre(40 + c.size + math.ceil(math.pi * band[1]))
+    left, values = 1.0 - nodes, weights * bernstein.evaluate(c, nodes)
+
+    def numerator(periods: Reals) -> Reals:
+        w = _TWO_PI * periods[:, None]
+        return np.asarray(np.abs(np.exp((-damping + 1j * course.damped) * w * left) @ values))
+
+    spread = course.spread() * bernstein.peak(c) / 8.0
+    low = np.linspace(*band, 257)[:-1]
+    high = np.append(low[1:], band[1])
+    at_low, at_high = numerator(low), numerator(high)
+    best = 0.0
+    for _ in range(60):
+        best = max(best, float(np.max(at_low / low)), float(np.max(at_high / high)))
+        bound = (np.maximum(at_low, at_high) + spread * (high - low) ** 2) / low
+        doubtful = bound > best * (1.0 + 1e-6) + 1e-15 * _TWO_PI
+        if not doubtful.any():
+            break
+        low, high, at_low, at_high = low[doubtful], high[doubtful], at_low[doubtful], at_high[doubtful]
+        middle = 0.5 * (low + high)
+        at = numerator(middle)
+        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+        at_low, at_high = np.concatenate([at_low, at]), np.concatenate([at, at_high])
+    return (best * (1.0 + 1e-6) + 1e-15 * _TWO_PI) / (_TWO_PI * course.damped)
