@@ -44,7 +44,7 @@ class CylindricalCamDesign(OfFollower, Design):
         from gearlink.core.parts.cams.follower_motion import motion_of
 
         with at_key("motion"):
-            return motion_of(self.spec.motion, self.spec.initial_lift)
+            return motion_of(self.spec.motion, self.spec.initial_lift, spec=self.spec)
 
     @cached_property
     def drum(self) -> Drum:

@@ -60,7 +60,8 @@ class FollowerCams:
     def motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm or rad]."""
         with at_key("motion"):
-            return motion_of(self.spec.motion, self.spec.initial_lift, unit=DEGREE if self.spec.oscillates else 1.0)
+            spec = self.spec
+            return motion_of(spec.motion, spec.initial_lift, unit=DEGREE if spec.oscillates else 1.0, spec=spec)
 
     @cached_property
     def lifts(self) -> tuple[float, float]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.candidates import Sought, table
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Course
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.profile import RollerPath
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.mesh.pair import GearPair
@@ -317,6 +319,11 @@ _OF_SIZE = ("cam.base_radius", "cam")
 """Keys that say how large the cams are: the radius, or the section where `size` chooses it."""
 
 
+def _require_rest(return_law: Law) -> None:
+    if return_law.kind != "rest-to-rest":
+        raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} does not end at rest with rise 1")
+
+
 class PressCams(DiscCams):
     """The follower of the rack and the two cams that drive it both ways."""
 
@@ -336,11 +343,10 @@ class PressCams(DiscCams):
         from gearlink.core.parts.cams.laws import law
 
         cam, motion = self.section, self.motion
-        with at_key("cam.return_law"):
-            return_law = law(cam.return_law)
-            if return_law.kind != "rest-to-rest":
-                raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} goes from rest to speed")
-        return Compensation(
+        with in_section("cam.return_law"):
+            return_law = law("cycloidal" if self._shaped_return else cam.return_law)
+            _require_rest(return_law)
+        plain = Compensation(
             motion.bed,
             motion.cylinder,
             motion.sync_start,
@@ -352,6 +358,22 @@ class PressCams(DiscCams):
             return_law,
             self.spec.sync.end is not None,
         )
+        return replace(plain, return_law=self._return_of(plain.top)) if self._shaped_return else plain
+
+    @property
+    def _shaped_return(self) -> bool:
+        return not isinstance(self.section.return_law, str | Mapping)
+
+    def _return_of(self, rise: float) -> Law:
+        """The law of a return that numbers shape, over the rise that it takes back [mm]."""
+        from gearlink.core.parts.cams.laws import law
+        from gearlink.core.parts.cams.shaped import Drive
+
+        drive = Drive.of(self.spec, rate=2.0 * math.pi / 3600.0, unit="sheets/h")
+        with in_section("cam.return_law"):
+            found = law(self.section.return_law, drive.phase(math.radians(self.section.return_angle), rise))
+            _require_rest(found)
+        return found
 
     @property
     def transition_end(self) -> float:

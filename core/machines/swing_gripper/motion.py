@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.results import cached_property
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.loop import TwoWays
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.laws import Law
 
 _STATED = 1e-6
 _TURN = 2.0 * math.pi
@@ -47,16 +49,35 @@ class Motion:
     def law(self) -> SixPhaseLaw:
         """The six-phase law; its constant speed is R/l_EF."""
         from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
-        from gearlink.core.parts.cams.laws import law
-
-        spec, laws = self.spec, []
-        for key in ("accelerate", "decelerate", "return"):
-            with at_key(f"laws.{key}"):
-                laws.append(law(getattr(spec.laws, key if key != "return" else "return_")))
-        made = SixPhaseLaw(spec.phases.lengths(), spec.cylinder.radius / spec.arm.length, *laws)
+        spec, speed = self.spec, self.spec.cylinder.radius / self.spec.arm.length
+        fast, slow = (self._law_of(phase, speed) for phase in ("accelerate", "decelerate"))
+        phases = spec.phases
+        swing = speed * (fast.kappa * phases.accelerate + phases.constant + slow.kappa * phases.decelerate)
+        made = SixPhaseLaw(phases.lengths(), speed, fast, slow, self._law_of("return", swing))
         self._require_swing_below_a_turn(made)
         self._require_stated_swing(made)
         return made
+
+    def _law_of(self, phase: str, rise: float) -> Law:
+        """The law of a phase.
+
+        Parameters
+            rise : float - d beta/d theta at the end of a phase that ends at speed; the swing [deg] of the return
+        """
+        from gearlink.core.parts.cams.laws import law
+
+        definition = getattr(self.spec.laws, phase if phase != "return" else "return_")
+        with in_section(f"laws.{phase}"):
+            if isinstance(definition, str | Mapping):
+                return law(definition)
+            from gearlink.core.parts.cams.shaped import Drive
+
+            drive, to_speed = Drive.of(self.spec, rate=_TURN / 3600.0, unit="sheets/h"), phase != "return"
+            length = getattr(self.spec.phases, phase if phase != "return" else "return_")
+            return law(
+                definition,
+                drive.phase(math.radians(length), rise * length if to_speed else rise, to_speed=to_speed),
+            )
 
     def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
         swing = math.degrees(law.total_swing)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.errors import NoSolution, in_section
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.cams.laws import Law, law
 
@@ -42,6 +42,8 @@ class Piece:
         coefficients : (6,) tuple - of a polynomial in x, the lift itself; empty: no polynomial
         joints : floats in (0, 1) - where its law changes
         ends : (velocity, acceleration) at start and end - what the law imposes on its neighbours, by the cam angle
+        law : Law or None - a law with numbers of its own
+        waits : Segment or None - whose law takes the values of a neighbour, and is made when that is known
     """
 
     number: int
@@ -54,6 +56,8 @@ class Piece:
     coefficients: tuple[float, ...] = ()
     joints: tuple[float, ...] = ()
     ends: tuple[tuple[float, float], tuple[float, float]] = ((0.0, 0.0), (0.0, 0.0))
+    law: Law | None = None
+    waits: Segment | None = None
 
     @property
     def width(self) -> float:
@@ -159,7 +163,7 @@ class FollowerMotion:
             cuts = [0.0, *_turning_places(piece), 1.0]
             for low, high in pairwise(cuts):
                 sense = piece.rises
-                if piece.coefficients:
+                if len(cuts) > 2 or piece.coefficients:  # noqa: PLR2004
                     sense = _sign(float(piece.evaluate(np.array([0.5 * (low + high)]), 1)[1][0]))
                 found.append(Stroke(piece.start + low * piece.width, piece.start + high * piece.width, sense))
         return tuple(found)
@@ -173,11 +177,14 @@ class FollowerMotion:
         ]
 
 
-def motion_of(motion: list[Segment] | MotionTable, initial_lift: float = 0.0, *, unit: float = 1.0) -> FollowerMotion:
+def motion_of(
+    motion: list[Segment] | MotionTable, initial_lift: float = 0.0, *, unit: float = 1.0, spec: Any = None
+) -> FollowerMotion:
     """The motion that a design file gives.
 
     Parameters
         unit : float - of its lifts: 1 for mm, pi/180 for deg
+        spec : the design file, of whose speed and vibration laws may be shaped; None: they know of none
     Raises
         NoSolution - at `motion`, for a law that cannot be or a lift that does not return
     """
@@ -192,7 +199,7 @@ def motion_of(motion: list[Segment] | MotionTable, initial_lift: float = 0.0, *,
             pieces += _mirrored_rise(pieces, number, start, end)
         else:
             target = lift if segment.lift is None else unit * segment.lift
-            pieces.append(_piece(segment, number, (start, end), (lift, target)))
+            pieces.append(_piece(segment, number, (start, end), (lift, target), unit, spec))
             if segment.end_velocity is not None or segment.end_acceleration is not None:
                 v, a = segment.end_velocity, segment.end_acceleration
                 given[len(pieces) - 1] = None if v is None else unit * v, None if a is None else unit * a
@@ -200,7 +207,7 @@ def motion_of(motion: list[Segment] | MotionTable, initial_lift: float = 0.0, *,
     if abs(lift - unit * initial_lift) > 1e-9 * max(1.0, abs(lift)):
         message = f"the lift ends at {lift / unit:.9g} and starts at {initial_lift:.9g}: let it return"
         raise NoSolution(message, key="motion")
-    return FollowerMotion(_joined(pieces, given))
+    return FollowerMotion(_joined(_awaited(pieces, unit), given))
 
 
 def spline(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
@@ -222,7 +229,14 @@ def spline(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
 # Pieces of the laws of a file
 
 
-def _piece(segment: Segment, number: int, span: tuple[float, float], lifts: tuple[float, float]) -> Piece:
+def _piece(
+    segment: Segment,
+    number: int,
+    span: tuple[float, float],
+    lifts: tuple[float, float],
+    unit: float,
+    spec: Any,
+) -> Piece:
     blank = Piece(number, *span, *lifts, DWELL)
     if segment.law == POLYNOMIAL:
         return replace(blank, name=POLYNOMIAL, coefficients=(0.0,) * 6)
@@ -232,25 +246,35 @@ def _piece(segment: Segment, number: int, span: tuple[float, float], lifts: tupl
     if segment.law == "constant-velocity":
         return replace(blank, name="constant-velocity", shape=_even, ends=((slope, 0.0), (slope, 0.0)))
     try:
-        return _of_law(blank, segment, slope)
+        if getattr(segment.law, "joins", False) and "join" in (segment.law.start, segment.law.end):  # type: ignore[union-attr]
+            return replace(blank, name=segment.law.type, waits=segment)  # type: ignore[union-attr]
+        return _of_law(blank, segment, slope, unit, spec)
     except NoSolution as error:
         raise NoSolution(f"segment {number}: {error.message}", key=error.key or f"motion[{number - 1}].law") from error
 
 
-def _of_law(blank: Piece, segment: Segment, slope: float) -> Piece:
-    definition = "modified-sine" if segment.law is None else segment.law
+def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any) -> Piece:
+    definition: Any = "modified-sine" if segment.law is None else segment.law
+    one: Law | None = None
     if isinstance(definition, Mapping) and "type" in definition:
         shape, joints, name = _mapped(definition)
     else:
-        one = law(definition)
+        phase = None
+        if not isinstance(definition, str | Mapping):
+            from gearlink.core.parts.cams.shaped import Drive
+
+            phase = Drive.of(spec).phase(blank.width, (blank.high - blank.low) / unit)
+        with in_section(f"motion[{blank.number - 1}].law"):
+            one = law(definition, phase)
         joints, name = one.joints, one.name
+        blank = replace(blank, law=one if one.shaping is not None else None)
         if one.kind == "rest-to-speed":
             shape, speed = _to_speed(one), (slope / one.kappa, 0.0)
             if segment.mirrored:
                 shape, joints = _backwards(shape), tuple(sorted(1.0 - x for x in joints))
             ends = (speed, (0.0, 0.0)) if segment.mirrored else ((0.0, 0.0), speed)
             return replace(blank, name=name, shape=shape, joints=joints, ends=ends)
-        shape = _plain(one)
+        shape = _normalised(one) if one.kind == "given-ends" else _plain(one)
     if segment.mirrored:
         raise NoSolution(f"mirrored goes with a law from rest to speed; {name} runs from rest to rest")
     _, v, a = shape(np.array([0.0, 1.0]), 2)
@@ -264,6 +288,47 @@ def _even(x: Reals, order: int) -> list[Reals]:
 
 def _plain(one: Law) -> Shape:
     return lambda x, order: one.derivatives(x, 0, order)
+
+
+def _normalised(one: Law) -> Shape:
+    """From 0 to 1, whatever its own ends are."""
+    (start,), (end,) = one.derivatives(0.0, 0, 0), one.derivatives(1.0, 0, 0)
+    rise = end - start
+    if not rise:
+        raise NoSolution(f"the {one.name} law ends where it starts: between two lifts its s runs from 0 to 1")
+
+    def shape(x: Reals, order: int) -> list[Reals]:
+        first, *rates = one.derivatives(x, 0, order)
+        return [(first - start) / rise, *(each / rise for each in rates)]
+
+    return shape
+
+
+def _awaited(pieces: list[Piece], unit: float) -> list[Piece]:
+    """The pieces, those made whose laws take position, speed and acceleration of their neighbours."""
+    if not any(piece.waits for piece in pieces):
+        return pieces
+    from gearlink.core.parts.cams.shaped import Phase, shaped_law
+
+    made = list(pieces)
+    for k, piece in enumerate(pieces):
+        if piece.waits is None:
+            continue
+        definition, rise = piece.waits.law, piece.high - piece.low
+        with in_section(f"motion[{piece.number - 1}].law"):
+            values = {}
+            for key, beside, side in (("start", pieces[k - 1], 1), ("end", pieces[(k + 1) % len(pieces)], 0)):
+                if (given := getattr(definition, key)) != "join":
+                    values[key] = given
+                    continue
+                if beside.waits is not None or beside.coefficients:
+                    message = f"{key}: join takes the values of a neighbour with a law of its own: give it one"
+                    raise NoSolution(message, key=key)
+                v, a = beside.ends[side]
+                values[key] = [float(key == "end"), v * piece.width / rise, a * piece.width**2 / rise]
+            one = shaped_law(definition.model_copy(update=values), Phase(piece.width, rise / unit))  # type: ignore[union-attr]
+        made[k] = replace(piece, shape=_normalised(one), joints=one.joints, law=one, waits=None)
+    return made
 
 
 def _to_speed(one: Law) -> Shape:
@@ -353,8 +418,8 @@ def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: floa
     while first > 0 and pieces[first - 1].high > pieces[first - 1].low:
         first -= 1
     rise = pieces[first : last + 1]
-    if any(piece.coefficients for piece in rise):
-        message = f"segment {number} repeats a rise backwards that has polynomials: give lift and law"
+    if any(piece.coefficients or piece.waits for piece in rise):
+        message = f"segment {number} repeats a rise backwards that depends on its neighbours: give lift and law"
         raise NoSolution(message, key="motion")
     share = (end - start) / (rise[-1].end - rise[0].start)
     found: list[Piece] = []
@@ -463,12 +528,24 @@ def _polynomial(coefficients: Sequence[float], x: Reals, order: int) -> list[Rea
 
 def _turning_places(piece: Piece) -> list[float]:
     """Places in (0, 1) at which a polynomial turns round."""
+    if piece.law is not None and piece.law.kind == "given-ends":
+        return _turns_of_law(piece)
     if not piece.coefficients:
         return []
     rate = [k * c for k, c in enumerate(piece.coefficients)][1:]
     roots = np.roots(np.trim_zeros(np.array(rate[::-1]), "f")) if any(rate) else np.zeros(0)
     real = [float(root.real) for root in roots if abs(root.imag) < 1e-7]
     return sorted(x for x in real if _NOTHING < x < 1.0 - _NOTHING)
+
+
+def _turns_of_law(piece: Piece) -> list[float]:
+    """The same of a law with given ends, whose velocity changes its sign there."""
+    from gearlink.core.numerics.roots import roots_on
+
+    def velocity(x: float) -> float:
+        return float(piece.evaluate(np.array([x]), 1)[1][0])
+
+    return [x for x in roots_on(velocity, np.linspace(0.0, 1.0, 129).tolist()) if _NOTHING < x < 1.0 - _NOTHING]
 
 
 def _sign(value: float) -> int:

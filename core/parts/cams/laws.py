@@ -80,6 +80,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from gearlink.core.parts.cams.shaped import Phase, Shaping
+
     X = TypeVar("X", float, NDArray[np.float64])
 else:
     X = TypeVar("X")
@@ -94,7 +96,7 @@ class Law:
 
     Attributes
         name : str - as the design file writes it
-        kind : 'rest-to-rest' or 'rest-to-speed'
+        kind : 'rest-to-rest', 'rest-to-speed', or 'given-ends' where it begins or ends otherwise
         derivatives : (x, low, high) -> derivatives low to high, without a check of the range
         kappa : float - s(1): 1 for rest-to-rest, the share of (end speed) x (time) for rest-to-speed
         peak_velocity, peak_acceleration, peak_power : float - largest v, |a| and v a (Cv, Ca, Cm)
@@ -102,10 +104,11 @@ class Law:
         peak_jerk : float - the same (Cj), or inf where the acceleration jumps inside or at an end
         end_jumps : bool - the acceleration is not zero at an end, so the law must not join a dwell
         joints : floats in (0, 1) - where the acceleration or a derivative of it may jump
+        shaping : Shaping or None - how a law that numbers shape came to be
     """
 
     name: str
-    kind: Literal["rest-to-rest", "rest-to-speed"]
+    kind: Literal["rest-to-rest", "rest-to-speed", "given-ends"]
     derivatives: Callable[[Any, int, int], tuple[Any, ...]]
     kappa: float
     peak_velocity: float
@@ -115,6 +118,7 @@ class Law:
     peak_power: float
     end_jumps: bool = False
     joints: tuple[float, ...] = ()
+    shaping: Shaping | None = None
 
     def evaluate(self, x: X, order: int = 3) -> tuple[X, ...]:
         """Rise and its derivatives with respect to x.
@@ -281,14 +285,16 @@ REST_TO_SPEED: tuple[str, ...] = (
 )
 
 
-def law(definition: str | Mapping[str, object]) -> Law:
+def law(definition: Any, phase: Phase | None = None) -> Law:
     """The motion law that a design file names.
 
     Parameters
         definition : str or mapping - simple-harmonic, cycloidal, modified-trapezoid, modified-sine, polynomial-345,
             polynomial-4567, mcv-NN (modified sine with NN percent of constant velocity; 33 is one third),
             half-<law>, velocity-<law> (also half-345, velocity-4567, ...), {scca: [a, b, c, d]},
-            {half-scca: ...}, {velocity-scca: ...}, {quintic: kappa}, {septic: kappa}
+            {half-scca: ...}, {velocity-scca: ...}, {quintic: kappa}, {septic: kappa}, and the mappings with a `type`
+            of `shaped_spec`, or their models
+        phase : Phase - what a design says of the phase; None: nothing
     Returns
         law : Law
     Raises
@@ -307,6 +313,10 @@ def law(definition: str | Mapping[str, object]) -> Law:
     """
     if isinstance(definition, str):
         return _named(definition)
+    if not isinstance(definition, Mapping) or "type" in definition:
+        from gearlink.core.parts.cams.shaped import Phase, shaped_law
+
+        return shaped_law(definition, phase or Phase())
     if len(definition) != 1:
         raise NoSolution(f"motion law {dict(definition)!r}: give one key, scca, quintic or septic")
     (key, value), *_ = definition.items()

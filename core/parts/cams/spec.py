@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic_core import core_schema
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
 
 class _LawNames:
-    """Gives editors the names of the motion laws; `gearlink.core.parts.cams.laws.law` is what judges them."""
+    """Reads laws that numbers shape, and gives editors the names of all; `laws.law` judges what else is written."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+        written = core_schema.wrap_serializer_function_ser_schema(
+            _written, info_arg=True, schema=core_schema.any_schema()
+        )
+        return core_schema.no_info_wrap_validator_function(_validated, handler(source), serialization=written)
 
     def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
         from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
@@ -17,11 +28,37 @@ class _LawNames:
         numbers |= {"quintic": {"type": "number"}, "septic": {"type": "number"}}
         return {
             "anyOf": [
+                *_shaped_schemas(handler),
                 {"enum": [*REST_TO_REST, *REST_TO_SPEED, *short]},
                 {"type": "string", "pattern": r"^(half-|velocity-)?mcv-[0-9.]+$"},
                 {"type": "object", "properties": numbers, "additionalProperties": False, "minProperties": 1},
             ]
         }
+
+
+def _validated(value: Any, handler: Any) -> Any:
+    """The model of a mapping with a type of `shaped_spec`; a model that a spec brings is valid already."""
+    if isinstance(value, dict) and "type" in value:
+        from gearlink.core.parts.cams.shaped_spec import shaped
+
+        found = shaped(value)
+        return handler(value) if isinstance(found, dict) else found
+    return value if hasattr(type(value), "model_fields") else handler(value)
+
+
+def _written(value: BaseModel | str | dict[str, Any], handler: Any, info: Any) -> Any:
+    if isinstance(value, str | dict):
+        return handler(value)
+    return value.model_dump(mode=info.mode, exclude_unset=info.exclude_unset, by_alias=True)
+
+
+def _shaped_schemas(handler: Any) -> list[Any]:
+    """The schemas of the models, which are read when a schema is asked for."""
+    from pydantic import TypeAdapter
+
+    from gearlink.core.parts.cams.shaped_spec import MODELS
+
+    return [handler(TypeAdapter(model).core_schema) for model in MODELS.values()]
 
 
 MotionLaw = Annotated[str | dict[str, Any], _LawNames()]

@@ -1,0 +1,462 @@
+"""Motion laws that a file shapes by numbers: given end values, polydyne, optimal, and what vibration they leave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.numerics import bernstein
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.roots import roots_on
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.optimal import Optimum, Wish
+    from gearlink.core.parts.cams.shaped_spec import OptimalLaw, Polydyne
+
+_TWO_PI = 2.0 * math.pi
+_LEAST_PERIODS = 0.5
+_LEAST_SPEED_BAND = 100.0
+_SAME = 1e-9
+_PHASE_OF_PANEL, _NODES = 6.0, 24
+
+
+class Phase(NamedTuple):
+    """What a design says of the phase that a law fills; None where it does not say.
+
+    Fields
+        angle : float [rad] - of the input over the phase
+        rise : float - over the phase, in the unit of the file
+        time : float [s] - of the phase at the design's speed
+        speed : float - of the design, in `unit`
+        unit : str - of speeds and of bands of speeds; empty: bands are natural periods per phase
+        frequency : float [Hz], damping : float - of what the design drives
+        to_speed : bool - the phase ends at speed
+    """
+
+    angle: float | None = None
+    rise: float | None = None
+    time: float | None = None
+    speed: float | None = None
+    unit: str = ""
+    frequency: float | None = None
+    damping: float | None = None
+    to_speed: bool = False
+
+
+class Drive(NamedTuple):
+    """What a design says of the speed at which its laws run, and of what vibrates behind them.
+
+    Fields
+        speed : float or None - in `unit`
+        rate : float [rad/s] - of the input at speed 1
+        unit : str - of speeds
+        frequency : float [Hz] or None, damping : float or None
+    """
+
+    speed: float | None = None
+    rate: float = math.pi / 30.0
+    unit: str = "rev/min"
+    frequency: float | None = None
+    damping: float | None = None
+
+    @classmethod
+    def of(cls, spec: Any, *, rate: float = math.pi / 30.0, unit: str = "rev/min") -> Drive:
+        """The drive of a design file with the keys `speed` and `loads.vibration`, where it has them."""
+        vibration = getattr(getattr(spec, "loads", None), "vibration", None)
+        frequency, damping = (getattr(vibration, key, None) for key in ("frequency", "damping"))
+        return cls(getattr(spec, "speed", None), rate, unit, frequency, damping)
+
+    def phase(self, angle: float, rise: float | None = None, *, to_speed: bool = False) -> Phase:
+        """A phase over an angle of the input [rad]."""
+        time = None if self.speed is None else angle / (self.speed * self.rate)
+        return Phase(angle, rise, time, self.speed, self.unit, self.frequency, self.damping, to_speed)
+
+
+class Shaping(NamedTuple):
+    """What is known of a shaped law beside its motion.
+
+    Fields
+        type : str - polynomial, harmonic, polydyne, optimal, bernstein
+        acceleration : coefficients of s'' by Bernstein polynomials; empty where it is no polynomial
+        periods : float or None - natural periods per phase for which it is shaped
+        damping : float - of the oscillator
+        wish, optimum : of an optimal law
+    """
+
+    type: str
+    acceleration: tuple[float, ...] = ()
+    periods: float | None = None
+    damping: float = 0.0
+    wish: Wish | None = None
+    optimum: Optimum | None = None
+
+
+def shaped_law(definition: Any, phase: Phase = Phase()) -> Law:
+    """The law of a mapping with a `type`.
+
+    Parameters
+        definition : model of `shaped_spec`, or the mapping itself
+        phase : Phase - what the design says of it
+    Raises
+        NoSolution - for what no law can be, at the key within the mapping
+    Example
+        >>> law = shaped_law({"type": "polydyne", "periods": 1.5})
+        >>> round(law.peak_acceleration, 9), law.evaluate(1.0, 1)
+        (6.017812472, (1.0, 0.0))
+    """
+    from pydantic import ValidationError
+
+    from gearlink.core.parts.cams.shaped_spec import MODELS, shaped
+
+    try:
+        model = shaped(dict(definition)) if isinstance(definition, dict) else definition
+    except ValidationError as error:
+        first = error.errors()[0]
+        key = ".".join(str(part) for part in first["loc"]) or str(first.get("ctx", {}).get("key", ""))
+        raise NoSolution(f"motion law {definition.get('type')}: {key}: {first['msg']}", key=key) from error
+    if isinstance(model, dict):
+        raise NoSolution(f"unknown type of law {model.get('type')!r}: {', '.join(MODELS)}; in a cam blend, shifted")
+    return _made(_Asked(model, model.model_dump_json(), phase))
+
+
+class _Asked:
+    """A law that is asked for, told apart by what the file says and by its phase."""
+
+    def __init__(self, model: Any, text: str, phase: Phase) -> None:
+        self.model, self.phase, self._key = model, phase, (text, phase)
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Asked) and self._key == other._key
+
+
+@lru_cache(maxsize=128)
+def _made(asked: _Asked) -> Law:
+    model, phase = asked.model, asked.phase
+    if model.type in ("polynomial", "harmonic"):
+        start, end = (_end_values(model, key, phase) for key in ("start", "end"))
+        return _polynomial(start, end) if model.type == "polynomial" else _harmonic(start, end)
+    if model.type == "polydyne":
+        periods = _design_periods(model, phase)
+        return polydyne(periods, model.damping)
+    if model.type == "bernstein":
+        return of_acceleration(model.acceleration, "bernstein")
+    return _optimal(model, phase)
+
+
+# Given end values
+
+
+def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
+    given = getattr(model, key)
+    if isinstance(given, list):
+        return list(given)
+    if given == "join":
+        raise NoSolution(f"{key}: join takes the values of a neighbour, which only a segment of a cam has", key=key)
+    if phase.angle is None or not phase.rise:
+        raise NoSolution(f"{key}: speed and acceleration of a lift belong to a segment of a cam: give [s, v, a]", key=key)
+    scale = phase.angle / phase.rise
+    return [1.0 if key == "end" else 0.0, given.speed * scale, given.acceleration * scale * phase.angle]
+
+
+def _polynomial(start: Sequence[float], end: Sequence[float]) -> Law:
+    """The polynomial of degree 5, or 7 with the jerk, of given end values: unique."""
+    m = len(start)
+    if len(end) != m:
+        raise NoSolution("start and end have as many values each; what is joined has three, s, v, a", key="end")
+    # powers by the Taylor series at 0, the rest by the values at 1
+    powers = [Fraction(value) / math.factorial(k) for k, value in enumerate(start)]
+    rows = [[Fraction(math.perm(p, k)) for p in range(m, 2 * m)] for k in range(m)]
+    right = [Fraction(end[k]) - sum(math.perm(p, k) * powers[p] for p in range(k, m)) for k in range(m)]
+    powers += _solved(rows, right)
+    return of_powers(powers, "polynomial", Shaping("polynomial"))
+
+
+def _solved(rows: list[list[Fraction]], right: list[Fraction]) -> list[Fraction]:
+    """Gauss-Jordan in fractions."""
+    n = len(right)
+    table = [[*row, value] for row, value in zip(rows, right, strict=True)]
+    for k in range(n):
+        pivot = next(i for i in range(k, n) if table[i][k])
+        table[k], table[pivot] = table[pivot], table[k]
+        table[k] = [value / table[k][k] for value in table[k]]
+        for i in range(n):
+            if i != k and (factor := table[i][k]):
+                table[i] = [a - factor * b for a, b in zip(table[i], table[k], strict=True)]
+    return [row[-1] for row in table]
+
+
+def _harmonic(start: Sequence[float], end: Sequence[float]) -> Law:
+    """The sum c0 + c1 x + sum of c cos k pi x, d sin k pi x, k = 1, 2, of given s, v, a at both ends."""
+    pi = math.pi
+
+    def basis(x: Any, order: int) -> list[Any]:
+        one = np.ones_like(x)
+        found = [one if order == 0 else 0.0 * one, x if order == 0 else one if order == 1 else 0.0 * one]
+        for k in (1, 2):
+            shift = 0.5 * pi * order
+            found += [(k * pi) ** order * np.cos(k * pi * x + shift), (k * pi) ** order * np.sin(k * pi * x + shift)]
+        return found
+
+    ends = np.array([0.0, 1.0])
+    rows = [np.array(basis(ends, order)).T for order in range(3)]
+    matrix = np.concatenate([np.array([row[0] for row in rows]), np.array([row[1] for row in rows])])
+    c = np.linalg.solve(matrix, np.array([*start, *end]))
+
+    def derivatives(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        at = np.asarray(x, dtype=np.float64)
+        found = [sum(each * part for each, part in zip(c, basis(at, n), strict=True)) for n in range(low, high + 1)]
+        return tuple(float(value) for value in found) if isinstance(x, float) else tuple(found)
+
+    return _law("harmonic", derivatives, _peaks_by_slopes(derivatives), Shaping("harmonic"))
+
+
+def _peaks_by_slopes(derivatives: Callable[[Any, int, int], tuple[Any, ...]]) -> tuple[float, ...]:
+    places = [i / 64.0 for i in range(65)]
+
+    def greatest(f: Callable[[float], float], slope: Callable[[float], float]) -> float:
+        return max(abs(f(x)) for x in (0.0, 1.0, *roots_on(slope, places)))
+
+    def single(k: int) -> Callable[[float], float]:
+        return lambda x: float(derivatives(x, k, k)[0])
+
+    def power(x: float) -> float:
+        v, a = derivatives(x, 1, 2)
+        return float(v * a)
+
+    def power_slope(x: float) -> float:
+        v, a, j = derivatives(x, 1, 3)
+        return float(a * a + v * j)
+
+    return (*(greatest(single(k), single(k + 1)) for k in (1, 2, 3)), greatest(power, power_slope))
+
+
+# Polynomials
+
+
+def of_powers(powers: Sequence[float | Fraction], name: str, shaping: Shaping) -> Law:
+    """The law s = sum p_k x^k, its derivatives rounded once."""
+    exact, orders = [Fraction(p) for p in powers], []
+    for _ in range(5):
+        orders.append(bernstein.from_powers(exact or [0.0]))
+        exact = [k * p for k, p in enumerate(exact)][1:] or [Fraction(0)]
+    return _of_orders(name, orders, shaping._replace(acceleration=tuple(orders[2].tolist())))
+
+
+def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping = Shaping("bernstein")) -> Law:
+    """The law from rest whose second derivative is sum c_i B_i,n; from rest to rest with rise 1, or to speed 1.
+
+    Raises
+        NoSolution - where it ends neither way within 1e-9, at the key `acceleration`
+    """
+    c = np.asarray(coefficients, dtype=np.float64)
+    v = bernstein.integral(c)
+    s = bernstein.integral(v)
+    size = float(np.max(np.abs(v))) or 1.0
+    rests, runs = abs(v[-1]) <= _SAME * size, abs(v[-1] - 1.0) <= _SAME * size
+    if not runs and not (rests and abs(s[-1] - 1.0) <= _SAME * size):
+        message = f"this acceleration ends with s = {s[-1]:.9g}, v = {v[-1]:.9g}: from rest to rest they are 1 and 0, "
+        raise NoSolution(f"{message}from rest to speed v is 1", key="acceleration")
+    if rests:
+        c, v, s = c / s[-1], v / s[-1], s / s[-1]
+    v[-1] = 0.0 if rests else 1.0
+    j = bernstein.derivative(c)
+    return _of_orders(name, [s, v, c, j, bernstein.derivative(j)], shaping._replace(acceleration=tuple(coefficients)))
+
+
+def _of_orders(name: str, orders: Sequence[Reals], shaping: Shaping) -> Law:
+    def derivatives(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        return tuple(bernstein.evaluate(orders[n], x) for n in range(low, high + 1))
+
+    peaks = [bernstein.peak(orders[n]) for n in (1, 2, 3)]
+    power = bernstein.peak(bernstein.product(orders[1], orders[2]))
+    return _law(name, derivatives, (*peaks, power), shaping)
+
+
+def _law(
+    name: str, derivatives: Callable[[Any, int, int], tuple[Any, ...]], peaks: Sequence[float], shaping: Shaping
+) -> Law:
+    from gearlink.core.parts.cams.laws import Law
+
+    (s0, v0, a0), (s1, v1, a1) = derivatives(0.0, 0, 2), derivatives(1.0, 0, 2)
+    small = [_SAME * (1.0 + peak) for peak in peaks]
+    jumps = abs(a0) > small[1] or abs(a1) > small[1]
+    starts = abs(s0) <= _SAME and abs(v0) <= small[0]
+    kind: Any = "given-ends"
+    if starts and abs(v1 - 1.0) <= small[0]:
+        kind = "rest-to-speed"
+    elif starts and abs(v1) <= small[0] and abs(s1 - 1.0) <= _SAME:
+        kind = "rest-to-rest"
+    return Law(
+        name=name,
+        kind=kind,
+        derivatives=derivatives,
+        kappa=1.0 if kind == "rest-to-rest" else float(s1),
+        peak_velocity=peaks[0],
+        peak_acceleration=peaks[1],
+        interior_jerk=peaks[2],
+        peak_jerk=math.inf if jumps else peaks[2],
+        peak_power=peaks[3],
+        end_jumps=jumps,
+        shaping=shaping,
+    )
+
+
+# Polydyne
+
+
+def polydyne(periods: float, damping: float = 0.0) -> Law:
+    """The law that moves what hangs on a spring by y = 126 x^5 - 420 x^6 + 540 x^7 - 315 x^8 + 70 x^9.
+
+    s = y + (2 zeta/w) y' + y''/w^2,  w = 2 pi lambda;  the deflection -y''/w^2 rests at both ends
+
+    Parameters
+        periods : float - lambda, natural periods per phase
+    Raises
+        NoSolution - below 0.5, at the key `periods`
+    Source
+        D. A. Stoddart, Machine Design 25 (1953); base polynomial and damping: own derivation
+    """
+    if periods < _LEAST_PERIODS:
+        message = f"a polydyne law of {periods:.6g} natural periods per phase accelerates without measure: "
+        raise NoSolution(f"{message}allow at least {_LEAST_PERIODS:g}, by a longer phase or less speed", key="periods")
+    y = [Fraction(c) for c in (0, 0, 0, 0, 0, 126, -420, 540, -315, 70)]
+    w = Fraction(_TWO_PI * periods)
+    first = [k * c for k, c in enumerate(y)][1:] + [Fraction(0)]
+    second = [k * c for k, c in enumerate(first)][1:] + [Fraction(0)]
+    ratio = 2 * Fraction(damping) / w
+    powers = [a + ratio * b + c / w**2 for a, b, c in zip(y, first, second, strict=True)]
+    return of_powers(powers, f"polydyne {periods:.6g}", Shaping("polydyne", periods=periods, damping=damping))
+
+
+def _design_periods(model: Polydyne, phase: Phase) -> float:
+    if model.periods is not None:
+        return model.periods
+    frequency = _frequency(model.frequency, phase)
+    if phase.time is None:
+        raise NoSolution("frequency needs the time of the phase: give speed, or periods", key="frequency")
+    time = phase.time
+    if model.speed is not None:
+        if phase.speed is None:
+            raise NoSolution("speed of a law needs the speed of the design: give it, or periods", key="speed")
+        time *= phase.speed / model.speed
+    with at_key("frequency"):
+        return _possible(frequency * time)
+
+
+def _possible(periods: float) -> float:
+    if periods < _LEAST_PERIODS:
+        polydyne(periods)
+    return periods
+
+
+def _frequency(given: float | None, phase: Phase) -> float:
+    found = given if given is not None else phase.frequency
+    if found is None:
+        raise NoSolution("this law needs the natural frequency: give frequency (Hz), or periods", key="frequency")
+    return found
+
+
+# Optimal laws
+
+
+def _optimal(model: OptimalLaw, phase: Phase) -> Law:
+    from gearlink.core.parts.cams.optimal import Wish, optimum
+
+    bounds = {key: _bound(model, key, phase) for key in model.KEYS}
+    damping = model.damping
+    if damping is None:
+        damping = phase.damping or 0.0
+    band = None if model.band is None else _band(model, phase)
+    wish = Wish(
+        model.minimize,
+        model.degree,
+        band=band,
+        damping=damping if band else 0.0,
+        symmetric=model.symmetric,
+        to_speed=phase.to_speed,
+        **bounds,
+    )
+    try:
+        found = optimum(wish)
+    except NoSolution as error:
+        real = getattr(model.limit, error.key, None) if error.key in model.KEYS else None
+        if real is None:
+            raise
+        message = f"limit.{error.key} {real:g} is, over this rise and time, {error.message}"
+        raise NoSolution(message, key=f"limit.{error.key}") from error
+    periods = _known_periods(model.frequency, phase)
+    shaping = Shaping("optimal", periods=periods, damping=damping, wish=wish, optimum=found)
+    return of_acceleration(found.coefficients, f"optimal {model.minimize} {model.degree}", shaping)
+
+
+def _known_periods(given: float | None, phase: Phase) -> float | None:
+    frequency = given if given is not None else phase.frequency
+    return None if frequency is None or phase.time is None else frequency * phase.time
+
+
+def _bound(model: OptimalLaw, key: str, phase: Phase) -> float | None:
+    """A limit in phase units."""
+    given: float | None = getattr(model, key)
+    real: float | None = getattr(model.limit, key) if model.limit is not None else None
+    if real is None:
+        return given
+    if phase.time is None or not phase.rise:
+        raise NoSolution("limit needs the rise and the time of the phase: give the speed", key="limit")
+    order = model.KEYS.index(key) + 1
+    return real * phase.time**order / abs(phase.rise)
+
+
+def _band(model: OptimalLaw, phase: Phase) -> tuple[float, float]:
+    """The band in natural periods per phase."""
+    assert model.band is not None
+    low, high = model.band
+    if model.unit == "periods" or not phase.unit:
+        return low, high
+    if phase.speed is None or phase.time is None:
+        message = f"a band of speeds ({phase.unit}) needs the speed of the design: give it, or unit: periods"
+        raise NoSolution(message, key="band")
+    if high < _LEAST_SPEED_BAND <= phase.speed:
+        message = f"the band {low:g} to {high:g} is of speeds ({phase.unit}), and the design runs at {phase.speed:g}: "
+        raise NoSolution(f"{message}for natural periods per phase say unit: periods", key="band")
+    per_speed = _frequency(model.frequency, phase) * phase.time * phase.speed
+    return per_speed / high, per_speed / low
+
+
+# Vibration
+
+
+def residuals(law: Law, periods: Reals, damping: float = 0.0) -> Reals:
+    """Amplitude of vibration that a phase leaves, over its rise, at numbers of natural periods per phase.
+
+    R = |Int s'' exp((-zeta w + i w_d) (1 - x)) dx|/w_d,  w = 2 pi lambda
+
+    Example
+        >>> from gearlink.core.parts.cams.laws import law
+        >>> round(float(residuals(law("cycloidal"), np.ones(1))[0]), 12)
+        0.5
+    """
+    joints = [0.0, *law.joints, 1.0]
+    step = _PHASE_OF_PANEL / (_TWO_PI * float(np.max(periods)))
+    edges = np.concatenate(
+        [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in zip(joints[:-1], joints[1:], strict=True)]
+        + [np.ones(1)]
+    )
+    x, weight = np.polynomial.legendre.leggauss(_NODES)
+    width = np.diff(edges)[:, None]
+    nodes, weights = (edges[:-1, None] + 0.5 * width * (x + 1.0)).ravel(), (0.5 * width * weight).ravel()
+    values = weights * np.asarray(law.derivatives(nodes, 2, 2)[0])
+    w = _TWO_PI * np.asarray(periods, dtype=np.float64)
+    damped = math.sqrt(1.0 - damping * damping)
+    rates = (-damping + 1j * damped) * w
+    found = [abs(complex(np.sum(values * np.exp(rate * (1.0 - nodes))))) for rate in rates.ravel()]
+    return np.asarray(np.array(found).reshape(w.shape) / (w * damped))

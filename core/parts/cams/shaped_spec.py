@@ -1,0 +1,165 @@
+"""Motion laws that a design file shapes by numbers: end values, polydyne, optimal, solved."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Entries, Spec
+
+PLAIN = {"unit": "1"}
+Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra=PLAIN)]
+Bound = Annotated[float, Field(gt=0, le=1e9, json_schema_extra=PLAIN)]
+Hertz = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})]
+Periods = Annotated[float, Field(gt=0, le=100, json_schema_extra=PLAIN)]
+Damping = Annotated[float, Field(ge=0, lt=1, json_schema_extra=PLAIN)]
+Rate = Annotated[float, Field(gt=0, le=1e7, json_schema_extra=PLAIN)]
+Coefficients = Annotated[list[Number], Field(min_length=3, max_length=4), Entries("[s, v, a] or [s, v, a, j]", "[1, 0.8, 0]")]
+
+
+def _refused(key: str, message: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key})
+
+
+class EndInFile(Spec):
+    """What a law has at an end, by the lift's unit and rad of the cam angle."""
+
+    speed: Number = Field(0.0, description="velocity of the lift there, lift per rad of the cam angle")
+    acceleration: Number = Field(0.0, description="acceleration of the lift there, lift per rad^2")
+
+
+End = Coefficients | Literal["join"] | EndInFile
+
+
+class _WithEnds(Spec):
+    start: End = Field([0.0, 0.0, 0.0], description="s, v, a (, j) at x = 0; in a cam also join, or speed and acceleration")
+    end: End = Field([1.0, 0.0, 0.0], description="the same at x = 1")
+
+    @property
+    def joins(self) -> bool:
+        """Whether an end is taken from the neighbour, or given in the file's units."""
+        return not (isinstance(self.start, list) and isinstance(self.end, list))
+
+
+class PolynomialEnds(_WithEnds):
+    """The polynomial of least degree with given end values: quintic, with the jerk septic."""
+
+    type: Literal["polynomial"] = Field(description="how the law is shaped")
+
+    @model_validator(mode="after")
+    def _alike(self) -> PolynomialEnds:
+        if not self.joins and len(self.start) != len(self.end):
+            raise _refused("end", "start and end have as many values each: 3, or 4 with the jerk")
+        return self
+
+
+class HarmonicEnds(_WithEnds):
+    """Sum of 1, x, cos pi x, sin pi x, cos 2 pi x, sin 2 pi x with given end values."""
+
+    type: Literal["harmonic"] = Field(description="how the law is shaped")
+
+    @model_validator(mode="after")
+    def _three(self) -> HarmonicEnds:
+        for key in ("start", "end"):
+            if isinstance(value := getattr(self, key), list) and len(value) != 3:  # noqa: PLR2004
+                raise _refused(key, "a harmonic law has s, v and a at its ends: three values")
+        return self
+
+
+class Polydyne(Spec):
+    """A law that leaves no vibration at its design speed."""
+
+    type: Literal["polydyne"] = Field(description="how the law is shaped")
+    periods: Periods | None = Field(None, description="natural periods per phase, at least 0.5")
+    frequency: Hertz | None = Field(None, description="natural frequency, in place of periods; default: loads.vibration")
+    damping: Damping = Field(0.0, description="damping ratio")
+    speed: Rate | None = Field(None, description="speed for which it is shaped; default: the design's")
+
+    @model_validator(mode="after")
+    def _one(self) -> Polydyne:
+        if self.periods is not None and self.frequency is not None:
+            raise _refused("frequency", "periods and frequency say the same: give one")
+        if self.periods is not None and self.speed is not None:
+            raise _refused("speed", "speed goes with frequency; periods need none")
+        return self
+
+
+class LawLimits(Spec):
+    """Limits of a law in the units of the file, at the design's speed: mm (deg of what turns) and s."""
+
+    velocity: Bound | None = Field(None, description="greatest velocity")
+    acceleration: Bound | None = Field(None, description="greatest acceleration")
+    jerk: Bound | None = Field(None, description="greatest jerk")
+
+
+class OptimalLaw(Spec):
+    """The polynomial law that is least in something and keeps limits."""
+
+    type: Literal["optimal"] = Field(description="how the law is shaped")
+    minimize: Literal["acceleration", "velocity", "jerk", "residual", "torque"] = Field(description="what is least")
+    degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(15, description="of the acceleration")
+    symmetric: bool = Field(True, description="the second half mirrors the first")
+    velocity: Bound | None = Field(None, description="greatest |ds/dx|, rise 1 over x from 0 to 1")
+    acceleration: Bound | None = Field(None, description="greatest second derivative by x")
+    jerk: Bound | None = Field(None, description="greatest third derivative by x")
+    limit: LawLimits | None = Field(None, description="the same in the units of the file, at the design's speed")
+    band: Annotated[list[Bound], Field(min_length=2, max_length=2), Entries("[from, to]", "[8000, 12000]")] | None = (
+        Field(None, description="speeds (design's unit), or natural periods per phase, over which the residual is least")
+    )
+    unit: Literal["periods"] | None = Field(None, description="periods: the band is in natural periods per phase")
+    frequency: Hertz | None = Field(None, description="natural frequency; default: loads.vibration")
+    damping: Damping | None = Field(None, description="damping ratio; default: loads.vibration, else 0")
+
+    KEYS: ClassVar[tuple[str, ...]] = ("velocity", "acceleration", "jerk")
+
+    @model_validator(mode="after")
+    def _meaning(self) -> OptimalLaw:
+        if (self.band is None) != (self.minimize != "residual"):
+            raise _refused("band", "minimize: residual needs band, and nothing else has one")
+        if self.band is not None and self.band[0] >= self.band[1]:
+            raise _refused("band", f"the band runs from {self.band[0]:g} to {self.band[1]:g}: let it ascend")
+        if self.minimize in self.KEYS and getattr(self, self.minimize) is not None:
+            raise _refused(self.minimize, f"{self.minimize} is what is minimized: leave out its limit")
+        for key in self.KEYS if self.limit is not None else ():
+            if getattr(self.limit, key) is not None and (getattr(self, key) is not None or key == self.minimize):
+                raise _refused(f"limit.{key}", f"{key} has another limit, or is minimized: leave this one out")
+        bounded = any(getattr(at, key) is not None for at in (self, self.limit) if at for key in ("acceleration", "jerk"))
+        if self.minimize == "residual" and not bounded:
+            raise _refused("acceleration", "minimize: residual needs a limit of acceleration or jerk: give one")
+        return self
+
+
+class BernsteinLaw(Spec):
+    """A solved law by its acceleration."""
+
+    type: Literal["bernstein"] = Field(description="how the law is shaped")
+    acceleration: Annotated[
+        list[Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra=PLAIN)]],
+        Field(min_length=2, max_length=64),
+        Entries("[c0, c1, ...]", "[0, 12, -12, 0]"),
+    ] = Field(description="coefficients of the second derivative by x, of Bernstein polynomials")
+
+
+MODELS: dict[str, type[Spec]] = {
+    "polynomial": PolynomialEnds,
+    "harmonic": HarmonicEnds,
+    "polydyne": Polydyne,
+    "optimal": OptimalLaw,
+    "bernstein": BernsteinLaw,
+}
+Shaped = Annotated[
+    PolynomialEnds | HarmonicEnds | Polydyne | OptimalLaw | BernsteinLaw, Field(discriminator="type")
+]
+
+
+def shaped(definition: Any) -> Any:
+    """The model of a mapping; anything else as it is.
+
+    Raises
+        ValidationError - with the places within the mapping
+    """
+    kind = definition.get("type") if isinstance(definition, dict) else None
+    model = MODELS.get(kind) if isinstance(kind, str) else None
+    return definition if model is None else model.model_validate(definition)
