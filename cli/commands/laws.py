@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import Options
+from gearlink.cli.options import OPTIONS, Options
 from gearlink.cli.typer_options import offers, option, takes
 
 if TYPE_CHECKING:
@@ -18,9 +18,16 @@ if TYPE_CHECKING:
 _WHERE = "<--law>"
 
 
-@takes("format", "plot", "plot_format", "dpi", "out", "color", "quiet", plot="write the picture motion-laws.png")
+_OF_FILES = ("overrides", "quantities", "tables", "strict", "save", "force")
+
+
+@takes(
+    *("format", "plot", "plot_format", "dpi", "out", "color", "quiet", *_OF_FILES),
+    plot="write the picture motion-laws.png, of a design file NAME-laws.png",
+)
 def laws(
     options: Options,
+    spec: Annotated[str, typer.Argument(metavar="[SPEC]", help="design file of kind motion-law; default: all laws")] = "",
     law: Annotated[
         list[str],
         typer.Option(
@@ -32,10 +39,22 @@ def laws(
     """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, s, v, a, j of one law over x.
 
     NAME is written as in a design file: modified-sine, mcv-33, velocity-345, '{scca: [0.25, 0, 0.75, 0]}'.
+    With SPEC, a law with its vibration, and where it is optimal the proof.
 
     Example: gearlink laws --law modified-sine --law polynomial-345 --plot
     """
-    raise typer.Exit(run_laws(law, options._replace(samples=samples)))
+    options = options._replace(samples=samples)
+    if spec and law:
+        raise typer.BadParameter("a design file names its law: leave out --law, or the file", param_hint="--law")
+    if not spec:
+        for name in _OF_FILES:
+            if getattr(options, name) != getattr(Options(), name):
+                flag = OPTIONS[name].flags[0]
+                raise typer.BadParameter("goes with SPEC, a design file of kind motion-law", param_hint=flag)
+        raise typer.Exit(run_laws(law, options))
+    from gearlink.cli.commands.design import run_design
+
+    raise typer.Exit(run_design("laws", spec, options))
 
 
 def run_laws(names: Sequence[str], options: Options) -> int:

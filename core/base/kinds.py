@@ -386,6 +386,16 @@ KINDS: dict[str, Kind] = {
             scene="cli.views.scenes.cylindrical_cam:build",
             worked="barrel_cam",
         ),
+        Kind(
+            "motion-law",
+            "a motion law by itself: constants, vibration left, proof",
+            "machines.motion_law",
+            "spec:MotionLawSpec",
+            {"laws": "design:MotionLawDesign", "analyze": "design:MotionLawDesign"},
+            codes="",
+            picture="cli.views.figures.motion_laws:draw_design",
+            worked="quiet_law",
+        ),
     )
 }
 

@@ -55,3 +55,18 @@ MOTION_EXTREMES = {
     "return_max_pressure_angle_at": Term("", "deg", "cam angle of the return cam's greatest pressure angle"),
     "return_min_curvature_radius_at": Term("", "deg", "cam angle of the return cam's least radius of curvature"),
 }
+
+SHAPED_LAWS = {
+    "peak_velocity": Term("Cv", "1", "greatest velocity of a law, rise 1 over x from 0 to 1", "VDI 2143"),
+    "peak_acceleration": Term("Ca", "1", "greatest acceleration of a law, rise 1 over x from 0 to 1", "VDI 2143"),
+    "peak_jerk": Term("Cj", "1", "greatest jerk of a law beside jumps of its acceleration", "VDI 2143"),
+    "peak_power": Term("Cm", "1", "greatest product of velocity and acceleration: the inertia torque", "VDI 2143"),
+    "kappa": Term("kappa", "1", "rise at the end of the phase; from rest to speed over end speed and time"),
+    "degree": Term("n", "1", "degree of the acceleration of a law by Bernstein polynomials"),
+    "periods": Term("lambda", "1", "natural periods of what a law moves per phase"),
+    "residual": Term("R", "1", "greatest vibration that a phase leaves over a band of speeds, over the rise"),
+    "residual_at_design": Term("R_d", "1", "vibration that a phase leaves at the design's speed, over the rise"),
+    "lower_bound": Term("", "1", "no law of the degree that keeps the limits lies below: duals of the linear programme"),
+    "lower_bound_all_laws": Term("", "1", "no law of any form that keeps the limits lies below: closed form"),
+    "gap": Term("", "1", "what was minimized over its lower bound, less 1"),
+}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.gear_terms import GEAR_PAIR
 from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
-from gearlink.core.base.motion_terms import MOTION_EXTREMES
+from gearlink.core.base.motion_terms import MOTION_EXTREMES, SHAPED_LAWS
 from gearlink.core.base.planar_terms import PLANAR
 from gearlink.core.base.term import Term as Term
 
@@ -370,6 +370,7 @@ TERMS: dict[str, Term] = {
     **_HYPOCYCLOID,
     **_FIVE_BAR,
     **MOTION_EXTREMES,
+    **SHAPED_LAWS,
     **PLANAR,
     **_STUDY,
     **_TOLERANCE,

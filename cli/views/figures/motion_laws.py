@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.machines.motion_law.design import MotionLawDesign
+    from gearlink.core.base.report import Table
     from gearlink.core.parts.cams.laws import Law
 
 _HEADINGS = {
@@ -45,6 +47,44 @@ def draw(design: MotionLaws) -> Figure:
     for column, (name, laws) in enumerate(groups.items()):
         _column([row[column] for row in grid], _HEADINGS[name], laws)
     return figure
+
+
+def draw_design(command: str, design: MotionLawDesign) -> Figure:
+    """Rise and derivatives of the law of a file, and the vibration that it leaves beside that of usual laws."""
+    figure = panels.page(f"{design.spec.name}: {command}")
+    law, vibrates = design.law, design.band is not None
+    grid = figure.subplots(len(_AXES) + vibrates, 1, squeeze=False, height_ratios=[1.0] * 4 + [1.7] * vibrates)
+    for axes in grid[1:4, 0]:
+        axes.sharex(grid[0, 0])
+    _column([row[0] for row in grid[: len(_AXES)]], _HEADINGS.get(law.kind.replace("-", "_"), "Over x = 0 to 1"), [law])
+    if vibrates:
+        residual_panel(grid[-1, 0], [(law.name, design.law, design.damping)], design.table("residual", samples=600))
+    return figure
+
+
+def residual_panel(axes: Axes, laws: Sequence[tuple[str, Law, float]], table: Table) -> None:
+    """Vibration left over the natural periods per phase, of some laws and of the usual ones, on a logarithmic axis."""
+    import numpy as np
+
+    from gearlink.core.parts.cams.laws import law as law_of
+    from gearlink.core.parts.cams.shaped import residuals
+
+    periods = np.asarray(table["periods"], dtype=np.float64)
+    damping = laws[0][2]
+    curves = [*laws, *((name, law_of(name), damping) for name in BESIDE)]
+    panels.heading(axes, "Vibration left, over the rise")
+    found = [residuals(each, periods, ratio) for _, each, ratio in curves]
+    least = _FAINTEST * max(float(values.max()) for values in found)
+    for (name, *_), values, look in zip(curves, found, _looks(len(curves)), strict=True):
+        axes.semilogy(periods, np.maximum(values, least), linewidth=1.0 if name in BESIDE else 1.4, label=name, **look)
+    style.curves(axes, "", "residual R")
+    axes.set_xlim(float(periods.min()), float(periods.max()))
+    axes.set_xlabel("natural periods per phase (faster to the left)")
+    panels.legend_below(axes, 2, labelled=True)
+
+
+BESIDE = ("cycloidal", "modified-sine", "polynomial-4567")
+_FAINTEST = 1e-5  # of the greatest
 
 
 def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:

@@ -11,6 +11,7 @@ from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
+from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
 _TRACK = ("max_pressure_angle", "pressure_angle_outside", "min_curvature_radius", "least_wall_factor")
-_CHECKS = ("pressure-angle", "cam-undercut", "velocity-step", "acceleration-step", "jerk-step")
+_CHECKS = ("pressure-angle", "cam-undercut", "velocity-step", "acceleration-step", "jerk-step", *LAW_CHECKS)
 _OUTLINE = Outline((*FOLLOWER_QUANTITIES, *_TRACK), _CHECKS, ("follower", "track"))
 _FIT = 1e-9  # deg
 _THIN = 0.2
@@ -35,7 +36,7 @@ class CylindricalCamDesign(OfFollower, Design):
     kind = "cylindrical-cam"
     spec: CylindricalCamSpec
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
-    extra_tables = ("walls",)
+    extra_tables = ("walls", LAW_TABLE)
     advises = False
 
     @cached_property

@@ -11,6 +11,7 @@ from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam import checks
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
+from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.cams import FollowerCams
@@ -73,6 +74,7 @@ _CHECKS = (
     "face-length",
     "outer-wall",
     "cutter-radius",
+    *LAW_CHECKS,
 )
 _OUTLINE = Outline(_QUANTITIES, _CHECKS, ("follower", "main_cam", "return_cam"))
 
@@ -83,7 +85,7 @@ class DiscCamDesign(OfFollower, Design):
     kind = "disc-cam"
     spec: DiscCamSpec
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
-    extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo")
+    extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
     advises = False
 
     @cached_property

@@ -21,6 +21,7 @@ from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.disc_cams import DiscCams
 from gearlink.core.parts.cams.machine import OnDiscCams
+from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws, is_shaped
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.parts.linkages.dyad import acute
@@ -362,7 +363,7 @@ class PressCams(DiscCams):
 
     @property
     def _shaped_return(self) -> bool:
-        return not isinstance(self.section.return_law, str | Mapping)
+        return is_shaped(self.section.return_law)
 
     def _return_of(self, rise: float) -> Law:
         """The law of a return that numbers shape, over the rise that it takes back [mm]."""
@@ -629,6 +630,7 @@ _CAM_CHECKS = (
     "acceleration-step",
     "constant-sum",
     "sync-length",
+    *LAW_CHECKS,
 )
 _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
@@ -643,7 +645,7 @@ _EXTREMES = (
 )
 
 
-class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCams):
+class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuantities, OnDiscCams):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
     kind = "flatbed-press"
@@ -659,7 +661,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
     derived = DERIVED
     extreme_names = _EXTREMES
     motion_extremes: dict[str, float] = placed("motion.extremes")
-    extra_tables = ("chains", "drawing", "candidates")
+    extra_tables = ("chains", "drawing", "candidates", LAW_TABLE)
     requirements = Design.requirements | {"sync.print_length"}
     cost = 5.0
     candidates, ways_of = checks.candidates, checks.ways_of
@@ -669,6 +671,16 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, OnDiscCa
         if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.base_radius is None:
             yield Found("cam.base_radius", float(self.cams.base_radius), "found for size")
             yield Found("size", None)
+        yield from self.solved_laws()
+
+    @property
+    def law_definitions(self) -> Mapping[str, Any]:
+        """The law of the follower's return."""
+        return {} if self.spec.cam is None else {"cam.return_law": self.spec.cam.return_law}
+
+    def law_at(self, _path: str, /) -> Law:
+        """The law of the follower's return."""
+        return self.cams.follower.return_law
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """Input gears of other modules side by side."""

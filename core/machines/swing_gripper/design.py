@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.codes import LARGER
 from gearlink.core.parts.cams.disc_cams import DiscCams
 from gearlink.core.parts.cams.machine import OnDiscCams
+from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.profile import RollerPath
     from gearlink.core.parts.cams.size import RockingRoller
 
@@ -535,7 +537,15 @@ _CAM = ("max_pressure_angle", "min_curvature_radius", *_CAM_PLACES, "max_radius"
 _LAW = ("handover_speed", "handover_mismatch", "handover_center", "total_swing", "min_transmission_angle")
 _LOOP = ("newton_agreement", "newton_iterations", "condition_number")
 _CLOSURE = ("closing_torque", "lift_off_speed")
-_LAW_CHECKS = ("transmission-angle", "conditioning", "handover", "velocity-step", "acceleration-step", "jerk-step")
+_LAW_CHECKS = (
+    "transmission-angle",
+    "conditioning",
+    "handover",
+    "velocity-step",
+    "acceleration-step",
+    "jerk-step",
+    *LAW_CHECKS,
+)
 _CAM_CHECKS = ("pressure-angle", "cam-undercut", "shaft-clearance")
 
 
@@ -549,7 +559,7 @@ _NOT_OF_MOTION = {"name", "cam", "size"}
 _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
 
 
-class SwingGripper(WithExtremes, OnDiscCams):
+class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     """A swing gripper, from its design file to every quantity that is asked for."""
 
     kind = "swing-gripper"
@@ -559,7 +569,7 @@ class SwingGripper(WithExtremes, OnDiscCams):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline((*_LAW, *_LOOP, *_EXTREMES), _LAW_CHECKS, ("motion",)),
     }
-    extra_tables = ("forces", "newton", "handover_window", "tip")
+    extra_tables = ("forces", "newton", "handover_window", "tip", LAW_TABLE)
 
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
@@ -602,6 +612,18 @@ class SwingGripper(WithExtremes, OnDiscCams):
                 center = self.cam_center
                 yield Found("cam.center", [center.real, center.imag], "found for size")
                 yield Found("size", None)
+        yield from self.solved_laws()
+
+    @property
+    def law_definitions(self) -> Mapping[str, Any]:
+        """The laws of the three moving phases."""
+        laws = self.spec.laws
+        return {"laws.accelerate": laws.accelerate, "laws.decelerate": laws.decelerate, "laws.return": laws.return_}
+
+    def law_at(self, path: str, /) -> Law:
+        """The law of a phase."""
+        found: Law = getattr(self.motion.law, {"return": "return_"}.get(phase := path.removeprefix("laws."), phase))
+        return found
 
     # Quantities
 

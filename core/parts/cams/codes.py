@@ -99,3 +99,26 @@ LIFT_OFF = Rule(
     ("lift-off",),
     ("spring.torque", "spring", "cam.return_roller", "cam", "speed"),
 )
+LAW_GAP = Rule(
+    "GL517",
+    "an optimal law may not be the least",
+    "The gap between the law that was found and the bound below which no law of its degree lies is wide.",
+    "The proof says how much a better law could gain; a wide gap says that the programme was solved badly.",
+    "Lower the degree, or loosen a limit that hardly can be kept.",
+    "value/lower_bound - 1 <= 1e-3",
+    "weak duality of linear programmes",
+    ("law-gap",),
+    ("law.degree", "law", "laws", "motion", "cam.return_law"),
+    side="<=",
+)
+POLYDYNE_RANGE = Rule(
+    "GL518",
+    "a polydyne law of less than one natural period",
+    "The phase takes less than one natural period of what the law moves.",
+    "The peak acceleration of a polydyne law grows as 1/lambda^2, and the law hardly serves beside its own speed.",
+    "Give the phase more time, make what vibrates stiffer, or take an optimal law over a band.",
+    "lambda = f T >= 1",
+    "own derivation",
+    ("polydyne-range",),
+    ("law.periods", "law", "laws", "motion", "cam.return_law"),
+)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.report import Check, Table
@@ -11,9 +11,12 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import WithExtremes
 from gearlink.core.parts.cams.checks import step_check
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, VELOCITY_STEP
+from gearlink.core.parts.cams.shaped_design import WithShapedLaws
 
 if TYPE_CHECKING:
+    from gearlink.core.base.design import Found
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
+    from gearlink.core.parts.cams.laws import Law
 
 _CURVES = ("lift", "velocity", "acceleration", "jerk")
 _EXTREMES = (
@@ -36,7 +39,7 @@ _SPEEDS = tuple(f"follower_{curve}_{side}" for curve in ("velocity", "accelerati
 FOLLOWER_QUANTITIES = (*_EXTREMES, *_SPEEDS)
 
 
-class OfFollower(WithExtremes):
+class OfFollower(WithExtremes, WithShapedLaws):
     """A design whose file gives the motion of a follower over the cam angle."""
 
     extreme_names = _EXTREMES
@@ -46,6 +49,20 @@ class OfFollower(WithExtremes):
     def follower_motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm or rad]."""
         raise NotImplementedError
+
+    @property
+    def law_definitions(self) -> Mapping[str, Any]:
+        """The laws of the segments."""
+        motion = self.spec.motion
+        return {f"motion[{k}].law": one.law for k, one in enumerate(motion)} if isinstance(motion, list) else {}
+
+    def law_at(self, path: str, /) -> Law | None:
+        """The law of a segment."""
+        return next((each.law for each in self.follower_motion.pieces if path == f"motion[{each.number - 1}].law"), None)
+
+    def completion(self) -> Iterator[Found]:
+        """The optimal laws as they were solved."""
+        return self.solved_laws()
 
     @property
     def rocks(self) -> bool:

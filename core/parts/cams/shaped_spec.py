@@ -102,7 +102,7 @@ class OptimalLaw(Spec):
     degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(15, description="of the acceleration")
     symmetric: bool = Field(True, description="the second half mirrors the first")
     velocity: Bound | None = Field(None, description="greatest |ds/dx|, rise 1 over x from 0 to 1")
-    acceleration: Bound | None = Field(None, description="greatest second derivative by x")
+    acceleration: Bound | None = Field(None, description="greatest second derivative by x (bernstein: its coefficients)")
     jerk: Bound | None = Field(None, description="greatest third derivative by x")
     limit: LawLimits | None = Field(None, description="the same in the units of the file, at the design's speed")
     band: Annotated[list[Bound], Field(min_length=2, max_length=2), Entries("[from, to]", "[8000, 12000]")] | None = (

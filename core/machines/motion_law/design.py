@@ -1,0 +1,216 @@
+"""A motion law as a design: peaks, natural periods, residual vibration, and how far it is from the least."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Found, Outline, placed
+from gearlink.core.base.errors import in_section
+from gearlink.core.base.report import Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from gearlink.core.machines.motion_law.spec import MotionLawSpec
+    from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.optimal import Optimum
+    from gearlink.core.parts.cams.shaped import Shaping
+
+_QUANTITIES = (
+    "peak_velocity",
+    "peak_acceleration",
+    "peak_jerk",
+    "peak_power",
+    "kappa",
+    "degree",
+    "periods",
+    "residual",
+    "residual_at_design",
+    "lower_bound",
+    "lower_bound_all_laws",
+    "gap",
+    "follower_velocity_max",
+    "follower_acceleration_max",
+)
+_OUTLINE = Outline(_QUANTITIES, LAW_CHECKS, ("law", "residual", "coefficients"))
+_SLOWEST, _FASTEST = 0.5, 1.3
+_STEPS = 100
+
+
+class MotionLawDesign(WithShapedLaws, Design):
+    """The law of a design file."""
+
+    kind = "motion-law"
+    spec: MotionLawSpec
+    outlines = {"laws": _OUTLINE, "analyze": _OUTLINE}
+    extra_tables = (LAW_TABLE,)
+    advises = False
+
+    @cached_property
+    def law(self) -> Law:
+        """The law over x in [0, 1]."""
+        from gearlink.core.parts.cams.laws import law
+        from gearlink.core.parts.cams.shaped import Phase
+
+        spec = self.spec
+        angle = None if spec.angle is None else math.radians(spec.angle)
+        with in_section("law"):
+            return law(
+                spec.law,
+                Phase(angle, spec.stroke, spec.seconds, spec.speed, "", spec.frequency, spec.damping),
+            )
+
+    @property
+    def law_definitions(self) -> Mapping[str, Any]:
+        """The law of the file."""
+        return {"law": self.spec.law}
+
+    def law_at(self, _path: str, /) -> Law:
+        """The law of the file."""
+        return self.law
+
+    def completion(self) -> Iterator[Found]:
+        """The law as it was solved."""
+        return self.solved_laws()
+
+    def outline(self, command: str) -> Outline:
+        """The tables that this law has."""
+        found = super().outline(command)
+        has = {"residual": self.band is not None, "coefficients": bool(self.shaping and self.shaping.acceleration)}
+        return found._replace(tables=tuple(name for name in found.tables if has.get(name, True)))
+
+    @property
+    def shaping(self) -> Shaping | None:
+        """How numbers shaped the law."""
+        return self.law.shaping
+
+    @property
+    def optimum(self) -> Optimum | None:
+        """What is proved of the law."""
+        return None if self.shaping is None else self.shaping.optimum
+
+    # Peaks
+
+    peak_velocity: float = placed("law.peak_velocity")
+    peak_acceleration: float = placed("law.peak_acceleration")
+    peak_jerk: float = placed("law.interior_jerk")
+    peak_power: float = placed("law.peak_power")
+    kappa: float = placed("law.kappa")
+
+    @property
+    def degree(self) -> int | None:
+        """Degree of the acceleration, of an optimal or solved law."""
+        named = self.shaping is not None and self.shaping.type in ("optimal", "bernstein")
+        return len(self.shaping.acceleration) - 1 if named and self.shaping is not None else None
+
+    def _real(self, peak: float, order: int) -> float | None:
+        stroke, time = self.spec.stroke, self.spec.seconds
+        return None if stroke is None or time is None else peak * stroke / time**order
+
+    @property
+    def follower_velocity_max(self) -> float | None:
+        """Greatest velocity over stroke and time [mm/s]."""
+        return self._real(self.law.peak_velocity, 1)
+
+    @property
+    def follower_acceleration_max(self) -> float | None:
+        """Greatest acceleration [mm/s^2]."""
+        return self._real(self.law.peak_acceleration, 2)
+
+    # Vibration
+
+    @property
+    def damping(self) -> float:
+        """Damping ratio of what the law moves."""
+        if self.shaping is not None and self.shaping.type in ("polydyne", "optimal"):
+            return self.shaping.damping
+        return self.spec.damping or 0.0
+
+    @cached_property
+    def periods(self) -> float | None:
+        """Natural periods per phase."""
+        if self.shaping is not None and self.shaping.periods is not None:
+            return self.shaping.periods
+        frequency, time = self.spec.frequency, self.spec.seconds
+        return None if frequency is None or time is None else frequency * time
+
+    @property
+    def asked_band(self) -> tuple[float, float] | None:
+        """The band of natural periods over which the residual was minimized."""
+        return None if self.shaping is None or self.shaping.wish is None else self.shaping.wish.band
+
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """The natural periods of the table `residual`: the band, or 1.3 to 0.5 of the design's speed."""
+        if self.asked_band is not None:
+            return self.asked_band
+        return None if self.periods is None else (self.periods / _FASTEST, self.periods / _SLOWEST)
+
+    @property
+    def residual(self) -> float | None:
+        """Greatest vibration left over the band, over the rise, from above."""
+        return None if self.asked_band is None or self.optimum is None else self.optimum.value
+
+    def residuals(self, periods: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Vibration left over the rise at numbers of natural periods."""
+        from gearlink.core.parts.cams.shaped import residuals
+
+        return residuals(self.law, periods, self.damping)
+
+    @cached_property
+    def residual_at_design(self) -> float | None:
+        """Vibration left at the design's speed, over the rise."""
+        import numpy as np
+
+        return None if self.periods is None else float(self.residuals(np.array([self.periods]))[0])
+
+    # Proof
+
+    @property
+    def lower_bound(self) -> float | None:
+        """What no law of the degree that keeps the limits lies below."""
+        return None if self.optimum is None else self.optimum.lower_bound
+
+    @property
+    def lower_bound_all_laws(self) -> float | None:
+        """What no law of any form lies below."""
+        return None if self.optimum is None else self.optimum.lower_bound_all_laws
+
+    @property
+    def gap(self) -> float | None:
+        """value/lower_bound - 1."""
+        return None if self.optimum is None else self.optimum.gap
+
+    # Tables
+
+    def table_law(self, samples: int | None = None) -> Table:
+        """Rise and its derivatives over x, both ends."""
+        from gearlink.core.parts.cams.law_tables import course
+
+        found = course(self.law, samples or _STEPS)
+        return Table("law", found.columns, found.units, found.data)
+
+    def table_residual(self, samples: int | None = None) -> Table:
+        """Vibration left over the speed; without a design speed that of the least periods of the band is 1."""
+        import numpy as np
+
+        if self.band is None:
+            return Table.of("residual", {name: ([], "1") for name in ("speed", "periods", "residual")})
+        low, high = self.band
+        reference = self.periods or low
+        speed = np.linspace(reference / high, reference / low, (samples or _STEPS) + 1)
+        periods = reference / speed
+        known = self.spec.speed if self.periods else None
+        shown = (speed if known is None else speed * known, "1" if known is None else "1/min")
+        columns = {"speed": shown, "periods": (periods, "1"), "residual": (self.residuals(periods), "1")}
+        return Table.of("residual", columns)
+
+    def table_coefficients(self, _samples: int | None = None) -> Table:
+        """Coefficients of the second derivative by Bernstein polynomials."""
+        found = self.shaping.acceleration if self.shaping is not None else ()
+        return Table.of("coefficients", {"index": (list(range(len(found))), "1"), "acceleration": (list(found), "1")})
