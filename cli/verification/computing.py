@@ -60,7 +60,7 @@ def iso_limits(given: Given) -> Results:
 
 def cumulative_pitch(given: Given) -> Results:
     """Cumulative pitch tolerance [um] of ISO 1328-1."""
-    from gearlink.core.studies.tolerance.iso_1328 import cumulative_pitch
+    from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 
     return {"F_p": 1e3 * cumulative_pitch(given["class"], given["module"], given["diameter"], given["width"])}
 

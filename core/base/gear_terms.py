@@ -59,8 +59,12 @@ GEAR_PAIR = {
     ),
     "single_contact_factor": Term("Z_B, Z_D", "1", "single pair tooth contact factors", "ISO 6336-2"),
     "nominal_contact_stress": Term("sigma_H0", "N/mm^2", "nominal contact stress at the pitch point", "ISO 6336-2"),
-    "contact_stress": Term("sigma_H", "N/mm^2", "contact stress; K factors not computed, 1 unless given", "ISO 6336-2"),
-    "safety_pitting": Term("S_H", "1", "safety against pitting; K factors not computed, 1 unless given", "ISO 6336-2"),
+    "contact_stress": Term(
+        "sigma_H", "N/mm^2", "contact stress; K factors computed with rating, else 1 unless given", "ISO 6336-2"
+    ),
+    "safety_pitting": Term(
+        "S_H", "1", "safety against pitting; factors computed with rating, else 1 unless given", "ISO 6336-2"
+    ),
     "root_chord": Term("s_Fn", "mm", "thickness of the root section", "ISO 6336-3"),
     "bending_moment_arm": Term("h_Fe", "mm", "lever of the load above the root section", "ISO 6336-3"),
     "root_fillet_radius": Term("rho_F", "mm", "radius of the fillet at the root section", "ISO 6336-3"),
@@ -78,9 +82,76 @@ GEAR_PAIR = {
         "Y_eps", "1", "contact ratio factor of method C, with Y_Fa and Y_Sa alone", "ISO 6336-3:1996"
     ),
     "nominal_root_stress": Term("sigma_F0", "N/mm^2", "nominal root stress", "ISO 6336-3"),
-    "root_stress": Term("sigma_F", "N/mm^2", "root stress; K factors not computed, 1 unless given", "ISO 6336-3"),
+    "root_stress": Term(
+        "sigma_F", "N/mm^2", "root stress; K factors computed with rating, else 1 unless given", "ISO 6336-3"
+    ),
     "safety_bending": Term(
-        "S_F", "1", "safety against breaking at the root; K factors not computed, 1 unless given", "ISO 6336-3"
+        "S_F",
+        "1",
+        "safety against breaking at the root; factors computed with rating, else 1 unless given",
+        "ISO 6336-3",
+    ),
+    "dynamic_factor": Term("K_v", "1", "dynamic factor (method B)", "ISO 6336-1"),
+    "resonance_ratio": Term("N", "1", "speed over the resonance speed", "ISO 6336-1"),
+    "resonance_speed": Term("n_E1", "1/min", "resonance speed of gear 1", "ISO 6336-1"),
+    "reduced_mass": Term(
+        "m_red", "kg/mm", "mass of both gears, reduced to the line of action, per width", "ISO 6336-1"
+    ),
+    "single_stiffness": Term("c'", "N/(mm um)", "greatest stiffness of a pair of teeth", "ISO 6336-1"),
+    "mesh_stiffness": Term("c_gamma,alpha", "N/(mm um)", "mean stiffness of the mesh", "ISO 6336-1"),
+    "mesh_stiffness_face": Term(
+        "c_gamma,beta", "N/(mm um)", "mean stiffness for the load across the face", "ISO 6336-1"
+    ),
+    "face_load_factor_contact": Term("K_Hbeta", "1", "face load factor of the flank (method C)", "ISO 6336-1"),
+    "face_load_factor_bending": Term("K_Fbeta", "1", "face load factor of the root", "ISO 6336-1"),
+    "transverse_load_factor_contact": Term("K_Halpha", "1", "transverse load factor of the flank", "ISO 6336-1"),
+    "transverse_load_factor_bending": Term("K_Falpha", "1", "transverse load factor of the root", "ISO 6336-1"),
+    "load_cycles": Term("N_L", "1", "load cycles of the required life", "ISO 6336-1"),
+    "contact_limit": Term(
+        "sigma_Hlim", "N/mm^2", "allowable contact stress number, given or of the material", "ISO 6336-5"
+    ),
+    "bending_limit": Term(
+        "sigma_Flim", "N/mm^2", "nominal bending stress number, given or of the material", "ISO 6336-5"
+    ),
+    "lubricant_factor": Term("Z_L", "1", "lubricant factor", "ISO 6336-2"),
+    "velocity_factor": Term("Z_V", "1", "velocity factor", "ISO 6336-2"),
+    "roughness_factor": Term("Z_R", "1", "roughness factor", "ISO 6336-2"),
+    "work_hardening_factor": Term("Z_W", "1", "work hardening factor", "ISO 6336-2"),
+    "size_factor_contact": Term("Z_X", "1", "size factor of the flank", "ISO 6336-2"),
+    "life_factor_contact": Term("Z_NT", "1", "life factor of the flank at N_L", "ISO 6336-2"),
+    "pitting_limit_stress": Term("sigma_HG", "N/mm^2", "pitting stress limit at N_L", "ISO 6336-2"),
+    "notch_sensitivity_factor": Term("Y_delta,relT", "1", "relative notch sensitivity factor", "ISO 6336-3"),
+    "surface_factor": Term("Y_R,relT", "1", "relative surface factor of the root", "ISO 6336-3"),
+    "size_factor_bending": Term("Y_X", "1", "size factor of the root", "ISO 6336-3"),
+    "life_factor_bending": Term("Y_NT", "1", "life factor of the root at N_L", "ISO 6336-3"),
+    "mean_stress_factor": Term("Y_M", "1", "mean stress influence factor", "ISO 6336-3"),
+    "root_limit_stress": Term("sigma_FG", "N/mm^2", "tooth root stress limit at N_L", "ISO 6336-3"),
+    "single_pitch_deviation": Term("f_pt", "um", "allowed single pitch deviation", "ISO 1328-1"),
+    "base_pitch_deviation": Term("f_pb", "um", "allowed base pitch deviation", "ISO 1328-1"),
+    "profile_form_deviation": Term("f_f,alpha", "um", "allowed profile form deviation", "ISO 1328-1"),
+    "helix_slope_deviation": Term("f_H,beta", "um", "allowed helix slope deviation", "ISO 1328-1"),
+    "damage_pitting": Term(
+        "U_H", "1", "damage of the flanks in the required life, at the required safety", "ISO 6336-6"
+    ),
+    "damage_bending": Term(
+        "U_F", "1", "damage of the roots in the required life, at the required safety", "ISO 6336-6"
+    ),
+    "pitting_life": Term(
+        "L_H", "h", "life of the flanks at the required safety; none where nothing damages", "ISO 6336-6"
+    ),
+    "bending_life": Term(
+        "L_F", "h", "life of the roots at the required safety; none where nothing damages", "ISO 6336-6"
+    ),
+    "integral_temperature": Term("theta_int", "deg C", "integral temperature of the flanks", "ISO/TR 13989-2"),
+    "scuffing_temperature": Term(
+        "theta_intS", "deg C", "integral temperature at which the oil fails", "ISO/TR 13989-2"
+    ),
+    "safety_scuffing": Term("S_intS", "1", "safety against scuffing, by temperatures", "ISO/TR 13989-2"),
+    "generated_root_factor": Term(
+        "Y_gen", "1", "root stress on the generated fillet over F_t/(b m), by boundary integral", "own derivation"
+    ),
+    "generated_root_stress": Term(
+        "sigma_gen", "N/mm^2", "root stress on the generated fillet, with all load factors", "own derivation"
     ),
     "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
     "radial_assembly_margin": Term(

@@ -162,6 +162,7 @@ class DrawingLimits(Spec):
     backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
     safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
     safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
+    safety_scuffing: Ratio = Field(1.8, description="least safety against scuffing, with rating")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

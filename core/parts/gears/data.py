@@ -14,17 +14,21 @@ from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
 from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
-from gearlink.core.parts.gears.rating.load import Load, Material
+from gearlink.core.parts.gears.rating.load import Factors, Load, Material, Required
 from gearlink.core.parts.gears.rating.root_stress import RootStress
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.measures.backlash import Backlash
     from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.parts.gears.rating.conditions import Conditions
+    from gearlink.core.parts.gears.rating.rated import Rated
 
 Both = tuple[float | None, float | None]
 _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
 """Of method C: for comparison with a rating that was made by it."""
+_LIVES = frozenset(("pitting_life", "bending_life"))
+"""Without a value of either gear where none of them is damaged, which is known."""
 MAGNITUDES = frozenset(
     (
         "center_distance",
@@ -58,6 +62,8 @@ class GearData:
         accuracy_grade : int or None - of ISO 1328
         idlers : (bool, bool) - gears that have another mate besides
         roles : (str, str) - what findings call the two gears
+        conditions : Conditions or None - of the rating with all factors; None: K and life factors are inputs
+        required : Required - the safeties asked for
     """
 
     pair: GearPair
@@ -73,6 +79,8 @@ class GearData:
     accuracy_grade: int | None = None
     idlers: tuple[bool, bool] = (False, False)
     roles: Roles = GEARS
+    conditions: Conditions | None = None
+    required: Required = Required()
 
     @cached_property
     def path(self) -> PathOfContact:
@@ -156,6 +164,8 @@ class GearData:
     def cut_shift(self) -> Pair:
         """x_E of the upper allowances, nominal without allowances [module]."""
         found = self.generating_shift
+        if self.conditions is not None and not self.conditions.generating_root:
+            return self.pair.profile_shift
         return self.pair.profile_shift if found is None else (found[0][1], found[1][1])
 
     @cached_property
@@ -233,7 +243,54 @@ class GearData:
             "rims": self.rims,
             "accuracy_grade": self.accuracy_grade,
             "idlers": self.idlers,
+            **self._ring_fillet,
         }
+
+    @property
+    def _ring_fillet(self) -> dict[str, Any]:
+        """What the root of a shaped ring takes its fillet radius from."""
+        shaped = self.pair.shaped
+        if shaped is None:
+            return {}
+        if self.conditions is not None and not self.conditions.generated_ring:
+            return {"standard_ring": True}
+        return {"ring_fillet": shaped.fillet_radius}
+
+    @cached_property
+    def rated(self) -> Rated | None:
+        """The rating with all factors; None of a file without one."""
+        if self.conditions is None or self.load is None:
+            return None
+        from gearlink.core.parts.gears.rating.rated import Rated
+
+        return Rated(data=self, conditions=self.conditions, load=self.load, given=self.load.given)
+
+    @property
+    def factors(self) -> Factors:
+        """The K factors, given or computed."""
+        if self.rated is not None:
+            return self.rated.factors
+        return Factors() if self.load is None else self.load.factors
+
+    @property
+    def contact_stress(self) -> Both | None:
+        """sigma_H of gear 1 and 2."""
+        return self.flank.stress_under(self.factors)
+
+    @property
+    def root_stress(self) -> Both | None:
+        """sigma_F of gear 1 and 2."""
+        return self.root.stress_under(self.factors)
+
+    @property
+    def safety_pitting(self) -> Both | None:
+        """S_H of gear 1 and 2."""
+        return self.flank.safety if self.rated is None else self.rated.safety_pitting
+
+    @property
+    def safety_bending(self) -> Both | None:
+        """S_F of gear 1 and 2."""
+        return self.root.safety if self.rated is None else self.rated.safety_bending
 
     @property
     def measured(self) -> tuple[int, ...]:
@@ -252,6 +309,8 @@ class GearData:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""
         if name in _OF_TIP_LOAD and self.load is None:
             return None
+        if name in _LIVES and self.rated is not None:
+            return getattr(self.rated, name)
         value: Any = self
         for step in PLACES[name].split("."):
             if value is None:

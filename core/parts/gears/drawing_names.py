@@ -42,8 +42,8 @@ PLACES = {
     "helix_angle_factor_contact": "flank.helix_angle_factor",
     "single_contact_factor": "flank.single_contact_factor",
     "nominal_contact_stress": "flank.nominal_stress",
-    "contact_stress": "flank.stress",
-    "safety_pitting": "flank.safety",
+    "contact_stress": "contact_stress",
+    "safety_pitting": "safety_pitting",
     "root_chord": "root.chord",
     "bending_moment_arm": "root.moment_arm",
     "root_fillet_radius": "root.fillet_radius",
@@ -57,8 +57,46 @@ PLACES = {
     "tip_stress_correction_factor": "root.tip_stress_correction_factor",
     "contact_ratio_factor_bending": "root.contact_ratio_factor",
     "nominal_root_stress": "root.nominal_stress",
-    "root_stress": "root.stress",
-    "safety_bending": "root.safety",
+    "root_stress": "root_stress",
+    "safety_bending": "safety_bending",
+    "dynamic_factor": "rated.at_load.dynamic",
+    "resonance_ratio": "rated.at_load.resonance_ratio",
+    "resonance_speed": "rated.at_load.resonance_speed",
+    "reduced_mass": "rated.bodies.reduced_mass",
+    "single_stiffness": "rated.at_load.single_stiffness",
+    "mesh_stiffness": "rated.at_load.mesh_stiffness",
+    "mesh_stiffness_face": "rated.at_load.mesh_stiffness_face",
+    "face_load_factor_contact": "rated.at_load.face_contact",
+    "face_load_factor_bending": "rated.at_load.face_bending",
+    "transverse_load_factor_contact": "rated.at_load.transverse_contact",
+    "transverse_load_factor_bending": "rated.at_load.transverse_bending",
+    "load_cycles": "rated.load_cycles",
+    "contact_limit": "rated.contact_limits",
+    "bending_limit": "rated.bending_limits",
+    "lubricant_factor": "rated.lubricant_factor",
+    "velocity_factor": "rated.velocity_factor",
+    "roughness_factor": "rated.roughness_factor",
+    "work_hardening_factor": "rated.work_hardening_factor",
+    "size_factor_contact": "rated.size_factor_contact",
+    "life_factor_contact": "rated.life_factor_contact",
+    "pitting_limit_stress": "rated.pitting_limit_stress",
+    "notch_sensitivity_factor": "rated.notch_sensitivity_factor",
+    "surface_factor": "rated.surface_factor",
+    "size_factor_bending": "rated.size_factor_bending",
+    "life_factor_bending": "rated.life_factor_bending",
+    "mean_stress_factor": "rated.mean_stress_factor",
+    "root_limit_stress": "rated.root_limit_stress",
+    "single_pitch_deviation": "rated.single_pitch_deviation",
+    "base_pitch_deviation": "rated.bodies.base_pitch_deviations",
+    "profile_form_deviation": "rated.profile_form_deviation",
+    "helix_slope_deviation": "rated.helix_slope_deviation",
+    "damage_pitting": "rated.damage_pitting",
+    "damage_bending": "rated.damage_bending",
+    "pitting_life": "rated.pitting_life",
+    "bending_life": "rated.bending_life",
+    "integral_temperature": "rated.scuffing.integral_temperature",
+    "scuffing_temperature": "rated.scuffing.scuffing_temperature",
+    "safety_scuffing": "rated.scuffing.safety",
 }
 """Where each quantity of a drawing stands in a GearData."""
 _FORCE, _WIDTH = "load (torque, power with speed, or tangential_force)", "face_width"
@@ -102,7 +140,10 @@ def lacking(quantity: str, section: Any, prefix: str = "") -> str:
 
 
 DRAWING_QUANTITIES = tuple(PLACES)
-RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("flank.", "root.")))
+_SAFE = frozenset(("contact_stress", "safety_pitting", "root_stress", "safety_bending"))
+FACTORS = tuple(name for name, place in PLACES.items() if place.startswith("rated."))
+"""Quantities that stand only where the file has `rating`."""
+RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("flank.", "root.", "rated."))) | _SAFE
 """Strength by ISO 6336."""
 DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
 """Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""

@@ -11,7 +11,7 @@ from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.measures.allowances import js7, thickness_allowances
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
-from gearlink.core.parts.gears.rating.load import Factors, Load, Material, torque_of
+from gearlink.core.parts.gears.rating.load import Factors, Load, Material, Required, torque_of
 from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
     from gearlink.core.parts.gears.rack.rating import RackData
+    from gearlink.core.parts.gears.rating.conditions import Conditions
 
 _MOST_SHIFT = 5.0
 _AGREE = 1e-6
@@ -161,7 +162,26 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
         load_share=spec.load_share,
         rims=both(spec.rim_thickness) or (None, None),
         accuracy_grade=spec.accuracy_grade,
+        conditions=conditions_of(spec),
+        required=required_of(getattr(spec, "limits", None)),
     )
+
+
+def conditions_of(spec: GearPairSpec | PairKeys) -> Conditions | None:
+    """What the rating takes; None of a file without it."""
+    if spec.rating is None:
+        return None
+    materials = material_of(spec.material, 0), material_of(spec.material, 1)
+    limits = tuple((each.contact_limit, each.bending_limit) for each in materials)
+    found: Conditions = spec.rating.conditions(limits, spec.accuracy_grade)
+    return found
+
+
+def required_of(limits: Any) -> Required:
+    """The safeties that the section `limits` asks for."""
+    if limits is None:
+        return Required()
+    return Required(limits.safety_pitting, limits.safety_bending, limits.safety_scuffing)
 
 
 def _rack_data() -> type[RackData]:
@@ -202,7 +222,8 @@ def load_of(given: LoadSpec | None) -> Load | None:
     if given.power is not None and given.speed is not None:
         torque = torque_of(given.power, given.speed)
     factors = Factors(**given.factors.model_dump())
-    return Load(torque=torque, force=given.tangential_force, speed=given.speed, factors=factors)
+    named = frozenset(given.factors.model_fields_set)
+    return Load(torque=torque, force=given.tangential_force, speed=given.speed, factors=factors, given=named)
 
 
 def material_of(given: MaterialSpec, gear: int) -> Material:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from gearlink.core.base.spec import Deferred, Length, PressureAngle
 from gearlink.core.parts.gears.keys.types import ToothKeys, TwoShifts
@@ -49,6 +49,17 @@ class PairKeys(ToothKeys):
     load: Annotated[Any, Deferred("parts.gears.keys.sections:LoadSpec")] | None = Field(
         None, description="load of the rating by ISO 6336 (loads is for forces of a drive)"
     )
+    rating: Annotated[Any, Deferred("parts.gears.keys.rating:RatingSpec")] | None = Field(
+        None, description="rating by ISO 6336 with all factors computed: life, material, grade, oil"
+    )
     material: Annotated[Any, Deferred("parts.gears.keys.material:MaterialSpec")] = Field(
         default_factory=_usual_material, description="the materials; each key one number, or one for each gear"
     )
+
+    @model_validator(mode="after")
+    def _rated(self) -> Self:
+        if self.rating is not None:
+            from gearlink.core.parts.gears.keys.rating import require_rated
+
+            require_rated(self, self.rating)
+        return self

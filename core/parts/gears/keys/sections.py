@@ -86,9 +86,10 @@ class AllowanceSpec(Spec):
 
 
 class FactorSpec(Spec):
-    """The K factors of ISO 6336: not computed, 1 unless given."""
+    """The K factors of ISO 6336: computed only with `rating`, else 1 unless given."""
 
     application: Factor = Field(1.0, description="K_A")
+    distribution: Factor = Field(1.0, description="K_gamma, uneven share of several meshes such as planets")
     dynamic: Factor = Field(1.0, description="K_v")
     face_contact: Factor = Field(1.0, description="K_Hbeta")
     transverse_contact: Factor = Field(1.0, description="K_Halpha")

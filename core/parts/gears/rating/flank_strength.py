@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
-from gearlink.core.parts.gears.rating.load import Load, Material
+from gearlink.core.parts.gears.rating.load import Factors, Load, Material
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,10 +107,14 @@ class FlankStrength:
     @cached_property
     def stress(self) -> tuple[float | None, float | None] | None:
         """sigma_H of gear 1 and 2."""
+        return None if self.load is None else self.stress_under(self.load.factors)
+
+    def stress_under(self, factors: Factors) -> tuple[float | None, float | None] | None:
+        """sigma_H of gear 1 and 2 with other K factors."""
         nominal, single = self.nominal_stress, self.single_contact_factor
-        if nominal is None or single is None or self.load is None:
+        if nominal is None or single is None:
             return None
-        raised = nominal * math.sqrt(self.load.factors.contact)
+        raised = nominal * math.sqrt(factors.contact)
         return _times(single[0], raised), _times(single[1], raised)
 
     @cached_property

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 
 @dataclass(frozen=True, kw_only=True)
 class Factors:
-    """The K factors of ISO 6336: not computed, 1 unless given.
+    """The K factors of ISO 6336, 1 unless given, or computed by `rated`.
 
     Fields
-        application, dynamic : K_A, K_v
+        application, distribution, dynamic : K_A, K_gamma, K_v
         face_contact, transverse_contact : K_Hbeta, K_Halpha
         face_bending, transverse_bending : K_Fbeta, K_Falpha
     """
@@ -22,16 +23,17 @@ class Factors:
     transverse_contact: float = 1.0
     face_bending: float = 1.0
     transverse_bending: float = 1.0
+    distribution: float = 1.0
 
     @property
     def contact(self) -> float:
-        """K_A K_v K_Hbeta K_Halpha."""
-        return self.application * self.dynamic * self.face_contact * self.transverse_contact
+        """K_A K_gamma K_v K_Hbeta K_Halpha."""
+        return self.application * self.distribution * self.dynamic * self.face_contact * self.transverse_contact
 
     @property
     def bending(self) -> float:
-        """K_A K_v K_Fbeta K_Falpha."""
-        return self.application * self.dynamic * self.face_bending * self.transverse_bending
+        """K_A K_gamma K_v K_Fbeta K_Falpha."""
+        return self.application * self.distribution * self.dynamic * self.face_bending * self.transverse_bending
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,12 +45,14 @@ class Load:
         force : float or None [N] - F_t
         speed : float or None [1/min] - n_1, for sliding speeds
         factors : Factors
+        given : frozenset of str - names of the factors that the file gives
     """
 
     torque: float | None = None
     force: float | None = None
     speed: float | None = None
     factors: Factors = Factors()
+    given: frozenset[str] = frozenset()
 
     def tangential_force(self, reference_radius: float) -> float:
         """F_t = 2000 T_1/d_1 on the reference circle of gear 1 [N].
@@ -70,6 +74,14 @@ def torque_of(power: float, speed: float) -> float:
         63.662
     """
     return 1000.0 * power / (speed * math.pi / 30.0)
+
+
+class Required(NamedTuple):
+    """The safeties that a file asks for."""
+
+    pitting: float = 1.0
+    bending: float = 1.4
+    scuffing: float = 1.8
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,6 +32,7 @@ class RootSection:
         contact_radius : float or None [module] - radius on the virtual gear where the load acts, signed; None: the
             outer point of single contact (method B)
         contact_ratio : float or None - eps_alpha of the mesh; None: the pair's
+        given_fillet_radius : float or None [module] - of a ring, the one that its cutter leaves; None: the tool's
     Returns
         Properties: lengths in modules, angles in rad.
     Raises
@@ -56,6 +57,7 @@ class RootSection:
     shift: float
     contact_radius: float | None = None
     contact_ratio: float | None = None
+    given_fillet_radius: float | None = None
 
     @property
     def _ring(self) -> bool:
@@ -116,8 +118,16 @@ class RootSection:
     @cached_property
     def fillet_radius(self) -> float:
         """rho_F*, radius of the fillet at the tangent."""
+        return self._radius(self.virtual_teeth) if self.given_fillet_radius is None else self.given_fillet_radius
+
+    def _radius(self, virtual_teeth: float) -> float:
         g, cosine = self._depth, self.pair.fn.cos(self.theta)
-        return self.tool.rounding + 2.0 * g * g / (cosine * (self.virtual_teeth * cosine * cosine - 2.0 * g))
+        return self.tool.rounding + 2.0 * g * g / (cosine * (virtual_teeth * cosine * cosine - 2.0 * g))
+
+    @property
+    def standard_fillet_radius(self) -> float:
+        """rho_F* of a ring by ISO 6336-3:2006 and 2007, with |z_n|: a hollow root is not as flat as that of a gear."""
+        return self._radius(abs(self.virtual_teeth))
 
     @property
     def tip_radius(self) -> float:

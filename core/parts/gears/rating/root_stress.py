@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
-from gearlink.core.parts.gears.rating.load import Load, Material
+from gearlink.core.parts.gears.rating.load import Factors, Load, Material
 from gearlink.core.parts.gears.rating.root_strength import RootSection
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
@@ -45,6 +45,8 @@ class RootStress:
         rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
         accuracy_grade : int or None - of ISO 1328; 4 or better lowers the stress of deep teeth
         idlers : (bool, bool) - gears with two mates, which load one flank and the other
+        ring_fillet : float or None [module] - rho_F* of gear 2, a ring, as its cutter leaves it
+        standard_ring : bool - rho_F* of a ring by ISO 6336-3 with |z_n|
     Returns
         Properties: a pair is (gear 1, gear 2); lengths in mm, stresses in N/mm^2.
 
@@ -63,6 +65,8 @@ class RootStress:
     rims: Both = (None, None)
     accuracy_grade: int | None = None
     idlers: tuple[bool, bool] = (False, False)
+    ring_fillet: float | None = None
+    standard_ring: bool = False
 
     @cached_property
     def sections(self) -> tuple[RootSection | None, RootSection | None]:
@@ -82,7 +86,11 @@ class RootStress:
 
     def _made(self, gear: int) -> RootSection:
         pair, eps = self.path.pair, self.path.contact_ratio
-        return RootSection(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
+        made = RootSection(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
+        if gear == 0 or not pair.internal:
+            return made
+        radius = made.standard_fillet_radius if self.standard_ring else self.ring_fillet
+        return made if radius is None else replace(made, given_fillet_radius=radius)
 
     @cached_property
     def at_tip(self) -> tuple[RootSection | None, RootSection | None]:
@@ -222,10 +230,14 @@ class RootStress:
     @cached_property
     def stress(self) -> Both | None:
         """sigma_F."""
-        if self.nominal_stress is None or self.load is None:
+        return None if self.load is None else self.stress_under(self.load.factors)
+
+    def stress_under(self, factors: Factors) -> Both | None:
+        """sigma_F with other K factors."""
+        if self.nominal_stress is None:
             return None
         one, other = self.nominal_stress
-        raised = self.load.factors.bending
+        raised = factors.bending
         return None if one is None else one * raised, None if other is None else other * raised
 
     @cached_property
