@@ -32,10 +32,13 @@ def kinds(incomplete: str) -> Offer:
 def explained(incomplete: str) -> Offer:
     """Everything that `explain` knows."""
     from gearlink.cli.commands.explain import names, plain_names, symbols
+    from gearlink.cli.texts.glossary import glossary
 
     known = names() if "." in incomplete else plain_names()  # paths of keys only where one is begun: they take a second
     more = ((symbol, words) for symbol, words in symbols() if incomplete)  # many, and short
-    return _beginning(incomplete, (*((name, "") for name in known), *more))
+    begun = ((name.replace(" ", "-"), term) for term in glossary().values() for name in term.names() if incomplete)
+    terms = {name: term.definition.partition(". ")[0] for name, term in begun if re.fullmatch(r"[\w-]+", name)}
+    return _beginning(incomplete, (*((name, "") for name in known if name not in terms), *terms.items(), *more))
 
 
 def laws(incomplete: str) -> Offer:

@@ -53,11 +53,13 @@ def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
     command, *words = arguments or [""]
     if any(not word or word.startswith("-") for word in words):
         return None
-    served = command == "verify" or (command == "check" and words) or (command in REFERENCE and len(words) == 1)
+    served = (
+        command == "verify" or (command in ("check", "explain") and words) or (command in REFERENCE and len(words) == 1)
+    )
     return (command, *words) if served else None
 
 
-REFERENCE = ("explain", "new", "schema")
+REFERENCE = ("new", "schema")
 
 
 def run_reference(command: str, *words: str) -> int:
@@ -73,7 +75,7 @@ def run_reference(command: str, *words: str) -> int:
     if command == "explain":
         from gearlink.cli.commands.explain import run_explain
 
-        return run_explain(words[0], Format.TABLE)
+        return run_explain(" ".join(words), Format.TABLE)
     if command == "new":
         from gearlink.cli.commands.new import run_new
 

@@ -103,7 +103,7 @@ def test_files_that_are_named_are_there(page: Path) -> None:
     assert [path for path in parts if not (ROOT / path).is_dir() and not list(ROOT.glob(f"{path}.*"))] == []
 
 
-def test_nomenclature_page_is_the_nomenclature() -> None:
+def test_nomenclature_and_glossary_are_those_of_the_program() -> None:
     import importlib.util
 
     spec = importlib.util.spec_from_file_location("generate", ROOT / "docs" / "generate.py")
@@ -112,6 +112,7 @@ def test_nomenclature_page_is_the_nomenclature() -> None:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     assert (ROOT / "docs" / "nomenclature.md").read_text() == module.text(), "run `make docs`"
+    assert (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8") == module.glossary_text(), "run `make docs`"
 
 
 @pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.name)

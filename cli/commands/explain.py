@@ -1,4 +1,4 @@
-"""`gearlink explain`: what a code, quantity, check, kind of design or law of motion means."""
+"""`gearlink explain`: what a term of the field, a code, quantity, check, key, kind of design or law of motion means."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
+    from gearlink.cli.texts.glossary import Meaning, Place, Word
     from gearlink.core.base.kind import Kind
     from gearlink.core.base.report import Rule
 
@@ -90,7 +91,7 @@ _LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """An explanation: a headline and labelled paragraphs; `about` is code, quantity, check, kind or law."""
+    """An explanation: a headline and labelled paragraphs; `about` is term, place, word, code, quantity, check, ..."""
 
     about: str
     name: str
@@ -114,12 +115,22 @@ def run_explain(subject: str | None, format: Format) -> int:
 
 
 def find(subject: str) -> list[Topic]:
-    """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
+    """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter."""
+    from gearlink.cli.texts.glossary import meanings_of, named_places, named_terms
+
+    subject = " ".join(subject.split())
+    found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
+    found += _program_names(subject)
+    return [*found, *(_meaning(subject, meaning) for meaning in meanings_of(subject))] or list(_told_of(subject))
+
+
+def _program_names(subject: str) -> list[Topic]:
+    """Every topic of a name of the program; another spelling counts where nothing bears it as it stands."""
     if exact := _spelled(subject):
         return exact
-    spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
-    found = [topic for spelling in spellings if spelling != subject for topic in _spelled(spelling)]
-    return found or list(_told_of(subject))
+    joined = subject.lower().replace(" ", "-")
+    spellings = dict.fromkeys((subject.upper(), joined.replace("_", "-"), joined.replace("-", "_")))
+    return [topic for spelling in spellings if spelling != subject for topic in _spelled(spelling)]
 
 
 def _spelled(subject: str) -> list[Topic]:
@@ -203,6 +214,14 @@ def names() -> tuple[str, ...]:
     return tuple(dict.fromkeys([*plain_names(), *(key.path for key, _ in known_keys())]))
 
 
+def term_names() -> Iterator[str]:
+    """The terms of the field in all their languages."""
+    from gearlink.cli.texts.glossary import glossary
+
+    for term in glossary().values():
+        yield from term.names()
+
+
 def plain_names() -> tuple[str, ...]:
     """Codes, checks, kinds, quantities, laws, columns: what is known beside the keys of files."""
     from gearlink.cli.texts.codes import explanations
@@ -212,6 +231,43 @@ def plain_names() -> tuple[str, ...]:
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
     return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *index().laws, *COLUMNS, *CONSTANTS]))
+
+
+# Terms of the field, places of the sources, words of other tools
+
+
+def _term(term: Word) -> Topic:
+    names = {"Also": term.also, "German": term.german, "Chinese": term.chinese, "Symbol": (term.symbol,)}
+    program = {"Keys": term.keys, "Quantities": term.quantities, "Checks": term.checks, "Kinds": term.kinds}
+    told = {label: ", ".join(words) for label, words in (names | program).items()}
+    told |= {"Picture": f"`{term.picture}`" if term.picture else "", "See also": ", ".join(term.see)}
+    return Topic("term", term.name, term.definition, {label: words for label, words in told.items() if words})
+
+
+_CITED = {
+    "equation": r"\({}\)",
+    "figure": r"fig(?:ure|\.) {}(?![\w-])",
+    "section": r"\b{}(?![\w.])",
+    "sheet": r"sheet {}\b",
+}
+
+
+def _place(label: str, place: Place) -> Topic:
+    from gearlink.core.base.nomenclature import TERMS
+
+    shown = f"({label})" if place.what == "equation" else f"{place.what} {label}"
+    cited = re.compile(_CITED[place.what].format(re.escape(label)))
+    source = place.source.split()[-1]  # the source of a quantity may be named by its last word alone
+    given = [name for name, term in TERMS.items() if source in term.source and cited.search(term.source)]
+    told = {"Kinds": ", ".join(place.kinds), "Commands": ", ".join(f"gearlink {name}" for name in place.commands)}
+    told |= {"Quantities": ", ".join(given)}
+    return Topic("place", f"{place.source}, {shown}", place.says, {k: words for k, words in told.items() if words})
+
+
+def _meaning(word: str, meaning: Meaning) -> Topic:
+    where = ", ".join(meaning.kinds) or f"the section {meaning.section}"
+    told = {"Keys": ", ".join(meaning.keys), "Quantities": ", ".join(meaning.quantities), "How": meaning.says}
+    return Topic("word", word, f"in {where}: {meaning.means}", {k: words for k, words in told.items() if words})
 
 
 # Codes and checks
@@ -329,8 +385,13 @@ _LAW_FORMULAS = {
 
 def _as_text(topic: Topic) -> str:
     told = [f"{topic.name}: {topic.title}"]
-    told += [f"{label}: {words}" for label, words in topic.paragraphs.items() if words not in topic.title]
+    told += [f"{label}: {words}" for label, words in topic.paragraphs.items() if not _repeats(label, words, topic)]
     return "\n".join(map(hanging, told))
+
+
+def _repeats(label: str, words: str, topic: Topic) -> bool:
+    """Whether the headline says it already."""
+    return words in topic.title if label in ("Meaning", "What") else words == topic.title
 
 
 def _as_markdown(topic: Topic) -> str:
@@ -367,17 +428,22 @@ def _index(format: Format) -> str:
 
         return markdown_table(("code", "meaning", "check"), rows)
     known = listed((code, title + (f" [{checks}]" if checks else "")) for code, title, checks in rows)
-    more = "`gearlink explain NAME` takes a code, and the name of a check, quantity, symbol, key, column, kind or law."
+    more = (
+        "`gearlink explain NAME` takes a code, a term of the field in English, German or Chinese, a figure or equation of "
+        "a source such as (4-26), and the name of a check, quantity, symbol, key, column, kind or law."
+    )
     return f"{known}\n\n{hanging(more, '')}"
 
 
 def _unknown(subject: str, format: Format) -> int:
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
+    from gearlink.cli.texts.glossary import folded
     from gearlink.core.base.nomenclature import TERMS
 
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
-    near = near_names(subject, [*(name.rpartition(".")[2] for name in everything), *everything])
+    known = [*(name.rpartition(".")[2] for name in everything), *everything, *term_names()]
+    near = near_names(subject, {folded(name): name for name in reversed(known)}.values())
     remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes, `gearlink new` the kinds"
     wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))

@@ -89,22 +89,24 @@ def _schema(
 
 def _explain(
     name: Annotated[
-        str | None,
+        list[str] | None,
         typer.Argument(
             metavar="NAME",
-            help="code, check, quantity, symbol, key, column, kind or law",
+            help="term, code, check, quantity, symbol, key, column, kind or law; (4-26) or figure 2-4 of a source",
             autocompletion=offers("explained"),
         ),
     ] = None,
     format: PageOption = PageFormat.TABLE,
 ) -> None:
-    """Explain a code, check, quantity, symbol, key, column, kind or motion law; without NAME, list the codes.
+    """Explain a term of the field, a code, check, quantity, symbol, key, column, kind or motion law.
 
-    Example: gearlink explain GL301
+    Terms are known in English, German and Chinese; without NAME, list the codes.
+
+    Example: gearlink explain transmission angle
     """
     from gearlink.cli.commands.explain import run_explain
 
-    raise typer.Exit(run_explain(name, Format(format.value)))
+    raise typer.Exit(run_explain(" ".join(name) if name else None, Format(format.value)))
 
 
 @takes("format", "overrides", "strict", "quiet")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +50,10 @@ def spec_keys(kind: Kind) -> list[SpecKey]:
     schema = kind_schema(kind)
     found: dict[str, SpecKey] = {}
     for key in _keys(schema, schema["definitions"], ""):
-        found.setdefault(key.path, key)
+        before = found.setdefault(key.path, key)
+        if key.range not in before.range.split(" or "):  # `type` of a section that has several
+            either = f"{before.range} or {key.range}" if before.range and key.range else ""
+            found[key.path] = replace(before, range=either)
     return list(found.values())
 
 
@@ -104,12 +107,12 @@ def _narrowest(node: Node, bounds: tuple[tuple[str, str], ...], sign: float) -> 
 
 @cache
 def known_keys() -> list[tuple[SpecKey, list[str]]]:
-    """Each key of files with the kinds that have it in the same words."""
+    """Each key of files with the kinds that have it in the same words and range."""
     from gearlink.core.base.kinds import FILES
 
-    found: dict[tuple[str, str], tuple[SpecKey, list[str]]] = {}
+    found: dict[tuple[str, str, str], tuple[SpecKey, list[str]]] = {}
     for kind in FILES.values():
         for key in spec_keys(kind):
             if key.path != "kind":
-                found.setdefault((key.path, key.words), (key, []))[1].append(kind.name)
+                found.setdefault((key.path, key.words, key.range), (key, []))[1].append(kind.name)
     return list(found.values())

@@ -103,7 +103,7 @@ NAMES = names()
 def test_everything_can_be_explained(gearlink: Any, name: str) -> None:
     ended = gearlink("explain", name)
     assert (ended.status, ended.err) == (0, "")
-    assert ended.out.startswith(f"{name}: ")
+    assert re.search(rf"(?m)^{re.escape(name)}: ", ended.out)  # a term of the field of that name comes first
     assert max(map(len, ended.out.splitlines())) <= 120
 
 
@@ -128,18 +128,20 @@ def test_case_does_not_matter(gearlink: Any, written: str) -> None:
 
 
 def test_check_name_leads_to_its_code(gearlink: Any) -> None:
-    topic = gearlink("explain", "gear-collision", "--format", "json").json["topics"][0]
-    assert topic["about"] == "check"
+    concept, topic = gearlink("explain", "gear-collision", "--format", "json").json["topics"][:2]
+    assert (concept["about"], topic["about"]) == ("term", "check")
     assert "GL301" in topic["title"]
 
 
 def test_kinds_of_an_optional_check(gearlink: Any) -> None:
     """The lift-off check is shown only where a file has spring and masses, but the kind has it."""
-    assert gearlink("explain", "lift-off", "--format", "json").json["topics"][0]["kinds"] == "swing-gripper, disc-cam"
+    topics = gearlink("explain", "lift-off", "--format", "json").json["topics"]
+    assert next(each for each in topics if each["about"] == "check")["kinds"] == "swing-gripper, disc-cam"
 
 
 def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> None:
-    topic = gearlink("explain", "quick_return_ratio", "--format", "json").json["topics"][0]
+    topics = gearlink("explain", "quick_return_ratio", "--format", "json").json["topics"]
+    topic = next(each for each in topics if each["about"] == "quantity")
     assert topic["symbol"] == "K"
     assert topic["unit"] == "1 (no dimension)"
     assert topic["formula"].startswith("K = (180 + t)/(180 - t)")
@@ -159,7 +161,7 @@ def test_name_that_carries_its_mesh(gearlink: Any) -> None:
 
 def test_hyphen_for_underscore_finds_the_other_where_there_is_none(gearlink: Any) -> None:
     assert gearlink("explain", "frame-length").out.startswith("frame_length: ")
-    assert gearlink("explain", "gear_collision").out.startswith("gear-collision: ")
+    assert "\ngear-collision: " in gearlink("explain", "gear_collision").out
 
 
 def test_kind_names_its_commands_and_keys(gearlink: Any) -> None:
@@ -243,11 +245,9 @@ def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> No
     assert near in ended.err
 
 
-@pytest.mark.parametrize(
-    "word", ["envelope", "space", "indexing", "plate cam", "globoidal", "planetary", "translating"]
-)
+@pytest.mark.parametrize("word", ["envelope", "space", "indexing table", "teapot", "hovercraft"])
 def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
-    """Names that share some letters with it had been given: indexing: findings, sliding, bending."""
+    """Names that share some letters with it are no help: indexing: findings, sliding, bending."""
     ended = gearlink("explain", word)
     assert ended.status == 2
     assert "nearest" not in ended.err
@@ -258,11 +258,11 @@ def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
     ("word", "near"),
     [
         ("height", "path_height"),
-        ("four-bar", "two-gear-four-bar, three-gear-four-bar"),
+        ("gear-four-bar", "two-gear-four-bar, three-gear-four-bar"),
         ("gear-train", "gear-train-mobility"),
         ("dwel", "dwell"),
         ("phi31", "phi13"),
-        ("trasmission", "transmission-angle"),
+        ("trasmission-angle", "transmission-angle"),
         ("GL3O1", "GL301"),
     ],
 )

@@ -1,0 +1,215 @@
+"""The glossary is whole, names what there is, and is found by every way of writing. No tolerances: words."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections import Counter
+from typing import Any
+
+import pytest
+from factory import DESIGNS
+
+from gearlink.cli.commands.explain import find, plain_names
+from gearlink.cli.texts.codes import explanations
+from gearlink.cli.texts.glossary import folded, glossary, meanings, named_places, named_terms, places
+from gearlink.cli.texts.spec_keys import known_keys, spec_keys
+from gearlink.cli.views.figures.chart_list import CHARTS
+from gearlink.core.base.kinds import FILES
+from gearlink.core.base.nomenclature import TERMS
+from gearlink.core.parts.cams.laws import law
+
+KEYS_OF = {kind.name: {key.path for key in spec_keys(kind)} for kind in FILES.values()}
+KEYS = {key.path for key, _ in known_keys()}
+CHECKS = {check for rule in explanations().values() for check in rule.checks}
+SHEETS = {"motion", "timing", "pressure", "drawing"}
+
+FIELD = """
+    transmission angle; pressure angle; dwell; dead centre; dead center; limit position; return stroke; prime circle; base circle;
+    profile shift; contact ratio; undercut; backlash; tip clearance; addendum modification; polydyne; force closure; form closure;
+    jump of the follower; register; gripper; front lay; feeder; dog; Geneva drive; Grashof; coupler curve; cognate; pole; centrode;
+    pilgrim; pilgrim-step motion; progressive oscillation; back-step; instantaneous dwell; momentary dwell; non-uniform transmission;
+    variable-speed; coefficient of speed fluctuation; pick-up position; impression cylinder; sheet transfer; handover; conjugate cams;
+    primary and complementary cam; double-cam drive; cam-follower separation; force-closed; form-closed; positive drive;
+    prime-circle radius; prime_radius; distribution; contributor; sensitivities; Pareto front; knee; toggle position; change point;
+    overhung shaft; internal gear; ring gear; dimension over balls; diametral measurement; tip alteration; start of active profile; SAP;
+    base tangent length; mating gear; clearance; intermittent gear; mutilated gear; geared linkage; geared four-bar mechanism; bed drive;
+    cylinder drive; balancing device; crank; coupler; rocker; frame; crank-rocker; double-rocker; drag link; pitch curve; follower; lift;
+    modified sine; 345; MCV; profile shift coefficient; working pressure angle; specific sliding; span measurement; flywheel;
+    shaking force; energy fluctuation; preload; worst case; RSS; tip relief; plate cam; indexing; globoidal; translating; planetary;
+    dwell-rise-dwell-return; reducer; Druckwinkel; Rast; Pilgerschritt; Kurbelschwinge; Doppelkurbel; Totlage; Übertragungswinkel;
+    Uebertragungswinkel; Rollenmittelpunktsbahn; Vorgreifer; Vordermarke; Flankenspiel; Profilverschiebung; 传动角; 停歇; 根切; 槽轮机构
+"""
+NAMES = [" ".join(name.split()) for name in FIELD.split(";")]
+
+
+def test_there_are_terms_for_the_whole_field() -> None:
+    assert len(glossary()) >= 100
+    assert len(NAMES) == len(set(NAMES)) >= 100
+
+
+@pytest.mark.parametrize("name", glossary())
+def test_a_record_is_whole_and_names_what_there_is(name: str) -> None:
+    term = glossary()[name]
+    assert len(re.findall(r"\.(?= [A-Z]|$| gearlink)", term.definition)) == 2
+    assert term.definition[0].isupper()
+    assert term.german
+    assert term.chinese
+    assert all(re.search("[\u4e00-\u9fff]", each) for each in term.chinese)
+    assert term.keys or term.quantities or term.checks or term.kinds or term.see
+    assert set(term.keys) <= KEYS
+    assert set(term.quantities) <= set(TERMS)
+    assert set(term.checks) <= CHECKS
+    assert set(term.kinds) <= set(FILES)
+    assert set(term.see) <= set(glossary()) - {name}
+    assert folded(name) not in map(folded, term.also)
+
+
+@pytest.mark.parametrize("term", [term for term in glossary().values() if term.picture], ids=lambda term: term.name)
+def test_a_picture_is_a_command_with_what_there_is(term: Any) -> None:
+    program, command, *words = shlex.split(term.picture)
+    assert program == "gearlink"
+    if command == "synth":
+        command = f"synth {words.pop(0)}"
+    files = [word for word in words if word.endswith(".yaml")]
+    assert all((DESIGNS.parent / file).is_file() for file in files)
+    if command == "chart":
+        assert words[0] in CHARTS
+    elif command == "laws":
+        assert all(law(words[i + 1]) for i, word in enumerate(words) if word == "--law")
+    elif command == "sheet":
+        assert set(words[1:]) <= SHEETS
+    else:
+        kind = re.search(r"(?m)^kind: (\S+)", (DESIGNS.parent / files[0]).read_text())
+        assert kind is not None
+        assert command in FILES[kind[1]].commands
+    assert command == "sheet" or words[-1] == "--plot"
+
+
+def test_only_words_with_several_meanings_stand_twice() -> None:
+    """A name leads to more than one term where the field itself uses it so."""
+    known = Counter(spelled for term in glossary().values() for spelled in {folded(name) for name in term.names()})
+    several = {
+        "basecircle",
+        "grundkreis",
+        "基圆",
+        "pressureangle",
+        "压力角",
+        "undercut",
+        "undercutting",
+        "unterschnitt",
+    }
+    several |= {"clearance", "hub", "ruck", "loadreversal", "totlage", "死点", "连杆"}
+    assert {name for name, count in known.items() if count > 1} <= several
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_terms_of_the_field_are_found(name: str) -> None:
+    """However they are written, and before anything of the program that bears the name."""
+    assert named_terms(name)
+    for spelled in (name.upper(), name.replace(" ", "_"), name.replace("-", " "), name.replace(" ", "")):
+        assert [term.name for term in named_terms(spelled)] == [term.name for term in named_terms(name)]
+
+
+@pytest.mark.parametrize(
+    "name", ["dwell", "undercut", "register", "transmission-angle", "crank-rocker", "backlash", "stroke"]
+)
+def test_the_concept_comes_first_and_the_names_of_the_program_follow(name: str) -> None:
+    about = [topic.about for topic in find(name)]
+    assert about[0] == "term"
+    assert len(set(about)) > 1
+    assert about == sorted(about, key=lambda each: each != "term")
+
+
+def test_explain_takes_several_words_with_and_without_quotes(gearlink: Any) -> None:
+    ended = gearlink("explain", "transmission", "angle")
+    assert ended.status == 0
+    assert ended.out == gearlink("explain", "transmission angle").out
+    assert ended.out == gearlink("explain", "Transmission_Angle").out
+    assert "German: Übertragungswinkel" in ended.out
+    as_json = gearlink("explain", "Druckwinkel", "--format", "json").json["topics"][0]
+    assert (as_json["about"], as_json["name"]) == ("term", "pressure angle of a cam")
+    assert as_json["picture"] == "`gearlink sheet designs/lift_cam.yaml pressure`"
+
+
+def test_a_misspelled_term_has_its_neighbour(gearlink: Any) -> None:
+    for wrong, near in (
+        ("transmision angle", "transmission-angle"),
+        ("Druckwinkl", "Druckwinkel"),
+        ("centrod", "centrode"),
+    ):
+        ended = gearlink("explain", wrong)
+        assert ended.status == 2
+        assert f"nearest: {near}" in ended.err
+
+
+# Figures and equations
+
+
+@pytest.mark.parametrize("place", places(), ids=lambda place: f"{place.source}-{place.what}-{place.first}")
+def test_places_lead_to_kinds_and_commands_that_there_are(place: Any) -> None:
+    assert set(place.kinds) <= set(FILES)
+    for command in place.commands:
+        if command.startswith("chart "):
+            assert command.removeprefix("chart ") in CHARTS
+        elif command != "sheet":
+            assert any(command in FILES[kind].commands for kind in place.kinds), command
+    assert place.holds(place.first)
+    assert place.holds(place.last)
+
+
+@pytest.mark.parametrize(
+    ("name", "source", "what", "command"),
+    [
+        ("(4-26)", "thesis", "equation", "synth momentary-dwell"),
+        ("equation (4-26)", "thesis", "equation", "synth momentary-dwell"),
+        ("eq. 4-31", "thesis", "equation", "synth momentary-dwell"),
+        ("figure 2-4", "thesis", "figure", "analyze"),
+        ("Fig. 4-5", "thesis", "figure", "chart back-step"),
+        ("图4-5", "thesis", "figure", "chart back-step"),
+        ("thesis (4-16)", "thesis", "equation", "synth back-step"),
+        ("dissertation (18)", "wide-swing dissertation", "equation", "cam"),
+        ("TY-460 3.2", "TY-460 report", "section", "press"),
+        ("paper (5)", "swing-gripper paper", "equation", "gripper"),
+    ],
+)
+def test_a_place_of_a_source_leads_to_its_command(name: str, source: str, what: str, command: str) -> None:
+    found = [(place.source, place.what) for _, place in named_places(name)]
+    assert found == [(source, what)]
+    assert any(command in place.commands for _, place in named_places(name))
+
+
+def test_every_equation_and_figure_with_a_mechanism_of_the_thesis_is_known() -> None:
+    assert all(list(named_places(f"(4-{number})")) for number in range(1, 34))
+    assert all(list(named_places(f"figure 2-{number}")) for number in range(1, 8))
+    assert all(list(named_places(f"figure 4-{number}")) for number in range(1, 11))
+    assert all(list(named_places(f"dissertation ({number})")) for number in range(1, 28))
+    assert list(named_places("(4-34)")) == list(named_places("345")) == list(named_places("12")) == []
+
+
+def test_an_equation_names_the_quantities_that_cite_it(gearlink: Any) -> None:
+    topic = gearlink("explain", "(4-16)", "--format", "json").json["topics"][0]
+    assert topic["quantities"] == "back_step_angle"
+    assert topic["kinds"] == "three-gear-four-bar"
+
+
+# Keys
+
+
+def test_the_range_of_a_key_of_several_sections_has_them_all(gearlink: Any) -> None:
+    assert "Range: pneumatic or spring" in gearlink("explain", "unloader.type").out
+
+
+def test_no_term_is_named_as_a_code() -> None:
+    assert not {folded(name) for term in glossary().values() for name in term.names()} & {
+        folded(name) for name in plain_names() if name.startswith("GL")
+    }
+
+
+def test_words_of_other_tools_name_keys_of_their_kinds() -> None:
+    for meaning in meanings():
+        assert meaning.keys or meaning.quantities or meaning.says
+        assert set(meaning.quantities) <= set(TERMS)
+        assert meaning.kinds or meaning.section in KEYS
+        for kind in meaning.kinds:
+            assert set(meaning.keys) <= KEYS_OF[kind], (meaning.words, kind)
