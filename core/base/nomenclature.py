@@ -11,6 +11,7 @@ from gearlink.core.base.gear_terms import GEAR_PAIR
 from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
 from gearlink.core.base.motion_terms import MOTION_EXTREMES, SHAPED_LAWS
 from gearlink.core.base.planar_terms import PLANAR
+from gearlink.core.base.stepping_terms import STEPPING
 from gearlink.core.base.term import Term as Term
 
 _SLIDER_CRANK = {
@@ -324,7 +325,7 @@ _LOADS = {
     "counterweight_rocker": Term("U_3", "kg mm", "mass moment of the counterweight on the rocker"),
     "counterweight_rocker_direction": Term("arg U_3", "deg", "its direction in the rocker's coordinates"),
     "balanced_force_max": Term("F_s,bal", "N", "greatest shaking force with the counterweights"),
-    "contact_force_max": Term("N_max", "N", "greatest force between roller and cam"),
+    "contact_force_max": Term("N_max", "N", "greatest force between roller and cam, or pin and slot"),
     "contact_force_min": Term("N_min", "N", "least force between roller and cam"),
     "hertz_pressure_max": Term("p_H", "N/mm^2", "greatest Hertzian pressure of roller and cam", "Hertz, line contact"),
     "shear_depth": Term("z_tau", "mm", "depth of the greatest shear stress below the cam's surface", "Hertz"),
@@ -353,6 +354,7 @@ _LOADS = {
 }
 
 TERMS: dict[str, Term] = {
+    **STEPPING,
     **GEAR_LINKAGE,
     **REAL_SPEED,
     **SLIDER,

@@ -271,6 +271,7 @@ class SharedContact:
     Fields
         shares : by cam - (N,) array, 1 where it guides the roller, else 0
         curvature : (N,) array [1/mm] - of the pitch curve there, convex positive
+        hold : (N,) array [N mm] - couple of a lock in place of the force, where no cam guides the roller
     """
 
     name: str
@@ -280,11 +281,12 @@ class SharedContact:
     shares: Mapping[str, Reals]
     first: str = FRAME
     curvature: Reals | float = 0.0
+    hold: Reals | float = 0.0
 
     def columns(self) -> list[Column]:
-        """N n_out on the roller, the opposite on the cam that guides it."""
+        """N n_out on the roller, the opposite on the cam that guides it; a couple where it is locked."""
         cams = tuple(Act(cam, -share * self.normal, self.at, 0.0) for cam, share in self.shares.items())
-        return [Column(FRAME, self.second, self.normal, self.at, 0.0, cams)]
+        return [Column(FRAME, self.second, self.normal, self.at, self.hold, cams)]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,18 @@
+"""The words of Geneva drives, cycloidal reducers, racks on a crank, and mechanisms of gears or links with cams."""
+
+from __future__ import annotations
+
+from gearlink.core.base.term import Term
+
+GENEVA = {
+    "crank_radius": Term("r", "mm", "radius of the pin's circle", "thesis 4.2.1; own derivation: a sin(pi/n)"),
+    "wheel_radius": Term("R", "mm", "radius of the wheel to its slots' mouths", "own derivation: a cos(pi/n)"),
+    "slot_bottom_radius": Term("", "mm", "wheel axis to the bottoms of the slots"),
+    "lip_thickness": Term("", "mm", "metal between locking arc and slot", "own derivation: r - r_pin - locking_radius"),
+    "motion_angle": Term("2 f_0", "deg", "input angle of a step", "own derivation: 180 deg - s 360 deg/n"),
+    "locking_angle": Term("", "deg", "input angle between two steps, in which the wheel stands"),
+    "entry_acceleration_ratio": Term("tan(pi/n)", "1", "jump of the acceleration ratio at entry and exit"),
+    "steps_per_minute": Term("", "1/min", "steps in a minute", "thesis 4.2.1"),
+    "contact_force_max_at": Term("", "deg", "input angle of the greatest contact force"),
+}
+STEPPING = {**GENEVA}

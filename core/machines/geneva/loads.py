@@ -1,0 +1,52 @@
+"""The loads of a Geneva drive: crank and wheel, the pin in its slots, the lock in the dwell."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec import Spec
+from gearlink.core.machines.geneva.design import GenevaDrive
+from gearlink.core.machines.geneva.spec import GenevaDriveSpec
+from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.spec import Body, Loads
+
+
+class GenevaMasses(Spec):
+    """Masses of crank and wheel."""
+
+    crank: Body | None = Field(None, description="crank, from its axis A to a pin")
+    wheel: Body | None = Field(None, description="wheel with all that turns with it, about its axis D")
+
+
+class GenevaSection(Loads):
+    """Masses, forces and drive of a Geneva drive."""
+
+    links: GenevaMasses = Field(GenevaMasses.model_construct(), description="masses; what is left out has none")
+
+
+class GenevaLoads(LoadsDesign):
+    """Input angle: the crank's, from a pin on the line of centres; in the dwell the locking disc holds the wheel."""
+
+    kind = "geneva-drive"
+    spec: GenevaDriveSpec
+    section: GenevaSection
+    links, output = ("crank", "wheel"), "wheel"
+    pins, meshes = ("A", "D"), ()
+    stands = True
+    outlines = loads_outline(pins, meshes)
+
+    @cached_property
+    def design(self) -> GenevaDrive:
+        """The geometry."""
+        return GenevaDrive(self.spec)
+
+    @property
+    def transmission_angle(self) -> float | None:
+        """None: the pin pushes across its slot."""
+        return None
+
+    @property
+    def own_joints(self) -> list[float]:
+        """Crank angles at which a pin enters or leaves [rad]."""
+        return list(self.moving.input.joints)

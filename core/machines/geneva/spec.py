@@ -1,0 +1,96 @@
+"""The design file of a Geneva drive."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec
+from gearlink.core.parts.linkages.spec_parts import DwellTolerance
+
+Pins = Annotated[int, Field(ge=1, le=6, json_schema_extra={"unit": "1"})]
+
+
+class _WithoutKind(Deferred):
+    """A design inside another file, whose kind is known."""
+
+    def __init__(self, place: str, kind: str) -> None:
+        super().__init__(place)
+        self._kind = kind
+
+    def _validated(self, value: Any) -> Any:
+        return super()._validated({**value, "kind": self._kind} if isinstance(value, dict) else value)
+
+    def __get_pydantic_json_schema__(self, _schema: Any, _handler: Any) -> dict[str, Any]:
+        return {"type": "object"}
+
+
+class Wheel(Spec):
+    """What the wheel drives."""
+
+    inertia: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})] = Field(
+        0.0, description="moment of inertia of all that turns with the wheel"
+    )
+    resistance: Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "N m"})] = Field(
+        0.0, description="torque against its motion"
+    )
+
+
+class GenevaLimits(LoadLimits):
+    """Limits of the checks."""
+
+    steps_per_minute: Ratio = Field(200.0, description="steps in a minute that such a drive makes at most")
+
+
+class GenevaDriveSpec(DrivenSpec):
+    """A wheel with radial slots, and a crank whose pin enters them."""
+
+    kind: Literal["geneva-drive"]
+    type: Literal["external", "internal"] = Field(
+        description="external: the crank's axis lies beside the wheel; internal: within it"
+    )
+    slots: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] = Field(
+        description="slots of the wheel, which turns by 360/slots in a step"
+    )
+    center_distance: Length = Field(description="distance of both axes")
+    pin_radius: Length = Field(description="radius of the pin, or of its roller")
+    pins: Pins = Field(1, description="pins of the crank, equally spaced")
+    locking_radius: Length | None = Field(None, description="radius of the disc that locks the wheel in the dwell")
+    hub_radius: Length | None = Field(None, description="radius of the wheel's hub or shaft")
+    shaft_radius: Length | None = Field(None, description="radius of the crank's shaft")
+    wheel: Wheel | None = Field(None, description="what the wheel drives: with it contact force and torque are given")
+    compare: Annotated[Any, _WithoutKind("machines.three_gear.spec:ThreeGearSpec", "three-gear-four-bar")] | None = (
+        Field(None, description="a three-gear-four-bar, without its key kind, of the same step: table comparison")
+    )
+    compare_tolerance: DwellTolerance = Field(
+        0.25, description="half of what the output may cover in a dwell of the comparison"
+    )
+    limits: GenevaLimits = GenevaLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.geneva.loads:GenevaSection")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _pins_in_turn(self) -> GenevaDriveSpec:
+        sign = 1.0 if self.type == "external" else -1.0
+        step = 180.0 - sign * 360.0 / self.slots
+        if self.pins * step > 360.0 + 1e-9:
+            message = "a step takes {step} deg of the crank: at most {most} pins have room in a turn"
+            words = {"key": "pins", "step": f"{step:.6g}", "most": str(int((360.0 + 1e-9) // step))}
+            raise PydanticCustomError("GL111", message, words)
+        if self.pin_radius >= (crank := self._crank(sign)):
+            message = "the pin's radius {pin} mm reaches over the crank's axis: below {crank} mm"
+            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": f"{crank:.6g}"}
+            raise PydanticCustomError("GL111", message, words)
+        return self
+
+    def _crank(self, _sign: float) -> float:
+        from math import pi, sin
+
+        return self.center_distance * sin(pi / self.slots)
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))

@@ -1,0 +1,144 @@
+"""Geneva drives: closed forms against the pin's own geometry, differences and searches.
+
+Tolerances: differences of a step of 1e-4 rad are good to 1e-8; searches of smooth peaks to rounding.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import design
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.geneva.mechanism import Geneva
+
+GIVEN: dict[str, Any] = {
+    "kind": "geneva-drive",
+    "type": "external",
+    "slots": 6,
+    "center_distance": 120.0,
+    "pin_radius": 8.0,
+    "locking_radius": 42.0,
+    "input_speed": 60.0,
+    "wheel": {"inertia": 0.02, "resistance": 3.0},
+}
+
+
+@given(slots=st.integers(3, 24), sign=st.sampled_from([1.0, -1.0]), share=st.floats(-0.999, 0.999))
+def test_the_pin_is_in_its_slot(slots: int, sign: float, share: float) -> None:
+    """Direction of the pin from the wheel's axis; both derivatives by differences."""
+    drive = Geneva(slots, 1, 100.0, sign)
+    f, h = share * drive.half, 1e-4
+
+    def angle(place: float) -> float:
+        pin = cmath.rect(drive.crank, place)
+        return math.pi - cmath.phase(pin - 100.0) if sign > 0.0 else cmath.phase(pin + 100.0)
+
+    psi, speed, acceleration, jerk = (float(each[0]) for each in drive.rates(np.array([f]), 3))
+    assert cmath.rect(1.0, psi) == pytest.approx(cmath.rect(1.0, angle(f)), abs=1e-12)
+    there, back = (drive.rates(np.array([f + way * h]), 2) for way in (1.0, -1.0))
+    for k, exact in enumerate((speed, acceleration, jerk)):
+        scale = 1.0 + max(abs(float(each[k][0])) for each in (there, back)) + abs(jerk) * 40.0
+        assert (there[k][0] - back[k][0]) / (2.0 * h) == pytest.approx(exact, abs=1e-6 * scale)
+    assert drive.reach(np.array([f]))[0] == pytest.approx(abs(cmath.rect(drive.crank, f) - sign * 100.0), rel=1e-13)
+    if abs(psi) < 0.499 * drive.step:
+        assert drive.leaves(0.5 * drive.step - abs(psi)) == pytest.approx(abs(f), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("slots", "peak"), [(3, 31.392428), (4, 5.406981), (6, 1.349637), (8, 0.699757)]
+)  # published to six decimals
+def test_peaks_of_the_textbooks(slots: int, peak: float) -> None:
+    found = design(GIVEN, slots=slots, pin_radius=2.0, locking_radius=None)
+    assert found.acceleration_ratio_max == pytest.approx(peak, abs=5e-7)
+    f = np.linspace(-found.drive.half, found.drive.half, 200_001)
+    assert np.max(np.abs(found.drive.rates(f, 2)[2])) == pytest.approx(peak, abs=6e-7)
+
+
+@pytest.mark.parametrize("kind", ["external", "internal"])
+def test_ends_of_the_step(kind: str) -> None:
+    """The wheel starts and stops without a step in speed; its acceleration jumps by tan(pi/n)."""
+    found = design(GIVEN, type=kind)
+    ends = found.drive.rates(np.array([-found.drive.half, found.drive.half]), 2)
+    assert ends[0] == pytest.approx([-math.pi / 6.0, math.pi / 6.0], abs=1e-14)
+    assert ends[1] == pytest.approx([0.0, 0.0], abs=1e-14)
+    assert ends[2] == pytest.approx([math.tan(math.pi / 6.0), -math.tan(math.pi / 6.0)], rel=1e-13)
+    assert found.motion_angle + found.locking_angle == pytest.approx(2.0 * math.pi, rel=1e-15)
+    if kind == "internal":
+        assert found.acceleration_ratio_max == pytest.approx(found.entry_acceleration_ratio, rel=1e-13)
+
+
+def test_forces_are_those_of_the_links_in_motion() -> None:
+    """Closed form against Newton and Euler of the two links, and the torque against virtual power, to rounding."""
+    loads = design(
+        GIVEN, command="loads",
+        loads={"links": {"wheel": {"inertia": 0.02}}, "forces": [{"on": "wheel", "resistance": 3.0}]},
+    )  # fmt: skip
+    found = loads.design
+    f = np.linspace(-0.99, 0.99, 41) * found.drive.half
+    reactions = loads.machine.reactions(np.mod(f, 2.0 * math.pi))
+    force, torque = found.forces(f)
+    assert np.abs(reactions.unknowns["slot"][0]) == pytest.approx(force, rel=1e-11)
+    assert reactions.torque == pytest.approx(torque, abs=1e-11)
+    assert loads.power_identity < 1e-9
+    assert found.contact_force_max == pytest.approx(float(np.max(found.forces(np.linspace(-1, 1, 20001))[0])), rel=1e-7)
+
+
+def test_wheel_of_several_pins_runs_on() -> None:
+    found = design(GIVEN, slots=4, pins=2, pin_radius=3.0, locking_radius=None, wheel=None)
+    table = found.table("motion", samples=72)
+    assert table["wheel_angle"][[0, 18, 36, 54]] == pytest.approx([0.0, 45.0, 90.0, 135.0], abs=1e-12)
+    assert np.all(np.diff(table["wheel_angle"]) >= 0.0)
+    assert found.steps_per_minute == pytest.approx(120.0, rel=1e-15)
+    assert found.contact_force_max is None
+
+
+def test_comparison_at_equal_step() -> None:
+    """Dwells within the tolerance by dense rows of each motion; the cam's peaks those of a modified sine."""
+    found = design("geneva_drive")
+    table = found.table("comparison")
+    assert table["step"] == pytest.approx([60.0] * 3, rel=1e-14)
+    rows = np.radians(np.linspace(0.0, 360.0, 360_001))
+    angle = np.degrees(found.drive.over(rows, 0)[0][0])
+    inside = np.abs(angle - 30.0) <= 0.25
+    assert table["dwell"][0] == pytest.approx(np.count_nonzero(inside) * 1e-3, abs=2e-3)
+    share = math.radians(120.0)
+    assert table["acceleration_ratio_max"][1] == pytest.approx(
+        math.radians(60.0) * 4.0 * math.pi**2 / (math.pi + 4.0) / share**2, rel=1e-13
+    )
+    assert table["dwell"][2] == pytest.approx(math.degrees(found.compared.tolerance_dwell_angle), rel=1e-14)
+    peak = table["acceleration_ratio_max"]
+    assert table["steps_per_minute"] == pytest.approx(60.0 * np.sqrt(peak[0] / peak), rel=1e-14)
+
+
+def test_checks_on_both_sides_of_their_limits() -> None:
+    good = {
+        each.name: each.status for each in design(GIVEN, hub_radius=40.0, shaft_radius=14.0).report("analyze").checks
+    }
+    assert set(good.values()) == {"pass"}
+    for keys, name, status in (
+        ({"locking_radius": 52.0}, "locking", "fail"),
+        ({"locking_radius": None, "pin_radius": 31.0}, "locking", "fail"),
+        ({"hub_radius": 52.5}, "shaft-clearance", "fail"),
+        ({"shaft_radius": 16.0}, "shaft-clearance", "fail"),
+        ({"input_speed": 201.0}, "step-rate", "warn"),
+    ):
+        found = [each.status for each in design(GIVEN, **keys).report("analyze").checks if each.name == name]
+        assert status in found, keys
+
+
+def test_refusals() -> None:
+    with pytest.raises(NoSolution) as refused:
+        design("geneva_drive", compare__gears__output=121).table("comparison")
+    assert refused.value.key == "compare.gears"
+    with pytest.raises(MissingSection):
+        design(GIVEN).table("comparison")
+    for keys, key in (({"slots": 2}, "slots"), ({"pins": 4}, "pins"), ({"pin_radius": 60.0}, "axis")):
+        with pytest.raises(ValueError, match=key):
+            design(GIVEN, **keys)
