@@ -22,6 +22,7 @@ LOADS: dict[str, tuple[str, dict[str, Any]]] = {
     "geared-six-bar": ("six_bar_swing", {"speed": 60, "links": {"coupler_2": _MASSES, "output": _MASSES}}),
     "planar-mechanism": ("planar_watt", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
     "disc-cam": ("loaded_cam", {}),
+    "cycloidal-reducer": ("loaded_cycloidal", {}),
     "geneva-drive": ("loaded_geneva", {}),
     "hypocycloid-dwell": ("hypocycloid_slider", {"speed": 60, "links": {"planet": _MASSES, "slider": {"mass": 3}}}),
 }

@@ -96,6 +96,13 @@ def follower_cam(design: Any) -> Makers:
     return found
 
 
+def cycloidal(design: Any) -> Makers:
+    """The disc with its holes, and the ring with its pins."""
+    from gearlink.cli.export.cam_parts import cycloidal_disc, cycloidal_ring
+
+    return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
+
+
 def wide_swing(design: Any) -> Makers:
     """The profiles of the stroke, and the contours of the closed cams of a cycle."""
     if design.spec.cam is None:
@@ -532,6 +539,59 @@ def _swing_notes(cam: AnyCam, mirror: bool) -> tuple[str, ...]:
         f"profile given for k = {first:.9g} to {start:.9g} and {end:.9g} to {last:.9g}; between them the roller at "
         "mid-swing cuts its own circle (layer ROLLER_AT_MID_SWING)",
         "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
+    )
+
+
+def cycloidal_disc(design: Any) -> Part:
+    """A disc of a cycloidal reducer as it is ground, one lobe after the other, with its holes."""
+    spec, disc = design.spec, design.disc.ground(*design.changes)
+    pitch = _TURN / disc.lobes
+
+    def points(tau: Reals) -> Points:
+        return np.stack([disc.profile(tau)[0]])
+
+    def extra(tau: Reals) -> Reals:
+        return np.stack([np.degrees(tau), disc.profile(tau)[1]])
+
+    stretches = tuple(
+        Stretch(CAM_LAYERS[:1], points, k * pitch, (k + 1) * pitch, extra=extra) for k in range(disc.lobes)
+    )
+    circles = [] if spec.bearing_radius is None else [Circle("BORE", spec.bearing_radius)]
+    if spec.output_pins is not None:
+        given = spec.output_pins
+        places = (cmath.rect(given.circle_radius, _TURN * k / given.count) for k in range(given.count))
+        circles += [Circle("OUTPUT_HOLES", design.output_hole_radius, place) for place in places]
+    return Part(
+        name="disc",
+        title="cycloidal disc",
+        stretches=stretches,
+        closed=True,
+        circles=tuple(circles),
+        notes=(
+            f"ground for pins of radius {disc.pin:.9g} mm on a circle of radius {disc.circle:.9g} mm",
+            "frame: centre of the disc at the origin, a valley between two lobes on the x axis",
+        ),
+        findings=tuple(check.message for check in design.check("undercut") if check.status == "fail"),
+        extra_columns=("parameter [deg]", "curvature_radius [mm]"),
+        width=spec.width,
+    )
+
+
+def cycloidal_ring(design: Any) -> Part:
+    """The circle of the ring pins, with the pins."""
+    disc = design.disc
+    pins = (Circle("PINS", disc.pin, cmath.rect(disc.circle, _TURN * k / disc.pins)) for k in range(disc.pins))
+
+    def points(angle: Reals) -> Points:
+        return np.stack([disc.circle * np.exp(1j * angle)])
+
+    return Part(
+        name="ring",
+        title="ring with pins",
+        stretches=(Stretch(("PIN_CIRCLE",), points, 0.0, _TURN),),
+        closed=True,
+        circles=tuple(pins),
+        notes=(f"{disc.pins} pins of radius {disc.pin:.9g} mm, the first on the x axis",),
     )
 
 

@@ -15,4 +15,17 @@ GENEVA = {
     "steps_per_minute": Term("", "1/min", "steps in a minute", "thesis 4.2.1"),
     "contact_force_max_at": Term("", "deg", "input angle of the greatest contact force"),
 }
-STEPPING = {**GENEVA}
+REDUCER = {
+    "ratio": Term("i", "1", "speed of the input over that of the output, signed", "thesis 2.2.2 II"),
+    "lobes": Term("z", "1", "lobes of the disc, one less than pins", "thesis 2.2.2 II"),
+    "shortening": Term("K", "1", "shortening coefficient e Z/R", "own derivation"),
+    "pressure_angle_min": Term("", "deg", "least pressure angle at the pins that push, eccentric at 0"),
+    "pressure_angle_mean": Term("", "deg", "mean pressure angle at the pins that push, eccentric at 0"),
+    "pressure_angle_max": Term("", "deg", "greatest pressure angle at the pins that push, eccentric at 0"),
+    "pin_force_max": Term("F_P,max", "N", "greatest force of a ring pin, pins of equal stiffness", "own derivation"),
+    "output_pin_force_max": Term("Q_max", "N", "greatest force of an output pin", "own derivation"),
+    "efficiency": Term("eta", "1", "estimate from forces without loss; no churning, no seals", "own derivation"),
+    "backlash": Term("", "deg", "turn of the disc between both flanks of the pins", "own derivation"),
+    "output_hole_radius": Term("r_w + e", "mm", "radius of the holes for the output pins"),
+}
+STEPPING = {**GENEVA, **REDUCER}

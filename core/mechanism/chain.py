@@ -21,6 +21,7 @@ from gearlink.core.mechanism.dual import Shift, Value, joints_of, on_flanks, ori
 from gearlink.core.mechanism.dynamics import System
 from gearlink.core.mechanism.joints import (
     NEWTON_METER,
+    Act,
     Connection,
     Contact,
     Coupling,
@@ -28,6 +29,7 @@ from gearlink.core.mechanism.joints import (
     Guide,
     Mesh,
     Pin,
+    Shared,
     SharedContact,
 )
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -165,6 +167,8 @@ def _upright(part: Any, done: dict[int, Reals]) -> Any:
         return type(part)(*(_upright(each, done) for each in part))
     if isinstance(part, Mapping):
         return {name: _upright(each, done) for name, each in part.items()}
+    if isinstance(part, Act):
+        return Act(*(_upright(each, done) for each in part))
     if isinstance(part, (list, tuple)):
         return [_upright(each, done) for each in part]
     if is_dataclass(part) and not isinstance(part, type):
@@ -258,6 +262,11 @@ class _Moved:
             yield sum(share * self._contact(joint, cam) for cam, share in joint.shares.items())
         elif isinstance(joint, Contact):
             yield self._contact(joint, joint.first)
+        elif isinstance(joint, Shared):
+            yield sum(
+                dot(act.force, self.of(act.on, joint.name, act.at)) + act.couple * self.turned(act.on, joint.name)
+                for act in joint.acts
+            )
         else:
             assert isinstance(joint, (Pin, Guide)), "meshes touch on flanks"
             missed = self.of(joint.second, joint.name, joint.at) - self.of(joint.first, joint.name, joint.at)

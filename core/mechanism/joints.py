@@ -290,6 +290,26 @@ class SharedContact:
 
 
 @dataclass(frozen=True)
+class Shared:
+    """What joins several links with one another and carries in given shares: one unknown.
+
+    Fields
+        first, second : str - the links that it is counted to
+        acts : what its unit gives on each link, N or N mm; the frame takes what is left
+    """
+
+    name: str
+    first: str
+    second: str
+    at: Points
+    acts: tuple[Act, ...]
+
+    def columns(self) -> list[Column]:
+        """All shares of the unknown."""
+        return [Column(FRAME, self.second, 0j, self.at, 0.0, self.acts)]
+
+
+@dataclass(frozen=True)
 class Flank:
     """A mesh that touches on one flank: a force along the normal there, given by its tangential part.
 
@@ -322,7 +342,7 @@ class Flank:
         return [column._replace(force=np.asarray(column.force + self.side * radial.force))]
 
 
-Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | Feed | SharedContact | Flank
+Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | Feed | SharedContact | Shared | Flank
 Toothed = (Mesh, Rack, ToothDrive)
 
 

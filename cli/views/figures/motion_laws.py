@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.machines.motion_law.design import MotionLawDesign
     from gearlink.core.base.report import Table
+    from gearlink.core.machines.motion_law.design import MotionLawDesign
     from gearlink.core.parts.cams.laws import Law
 
 _HEADINGS = {

@@ -40,6 +40,8 @@ def draw(command: str, design: Any) -> Figure:
         )
         x_label = f"{given.column.replace('_', ' ')} [{'deg' if turning else 'mm'}]" if order == 2 else ""
         panels.turn_panel(axes, f"{_LABELS[order]} [{unit}]", x_label)
+        if given.turns != 1:
+            panels.few_ticks(axes.xaxis, 9)
         axes.set_xlim(*(math.degrees(end) if turning else end for end in (given.start, given.end)))
         axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
                   color=_COLORS[order], linewidth=1.6, label=output.name)  # fmt: skip

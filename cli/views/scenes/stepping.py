@@ -1,4 +1,4 @@
-"""Scenes of Geneva drives: the generic one of its links, with their bodies."""
+"""Scenes of stepping drives and reducers: the generic one of the links, with their bodies."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.scenes import of_motion
-from gearlink.cli.views.scenes.colors import BLUE, GREEN, ORANGE, pale
-from gearlink.cli.views.scenes.scene import TURN, Body, Part, Points, Reals, Scene, circle
+from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, pale
+from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Part, Points, Reals, Scene, circle
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.cycloidal.design import CycloidalReducer
     from gearlink.core.machines.geneva.design import GenevaDrive
 
 _ARC = np.linspace(-1.0, 1.0, 41)
@@ -83,3 +84,38 @@ def _locking_disc(design: GenevaDrive) -> Points:
         pieces.append(inside[np.argsort(np.angle(inside * np.exp(-1j * TURN * (k + 1) / drive.pins)))])
     whole = np.concatenate(pieces)
     return np.asarray([*whole, whole[0]])
+
+
+def cycloidal(design: CycloidalReducer, fraction: Reals) -> Scene:
+    """Positions over the turns of the eccentric that bring the output home: ring pins, discs, output pins."""
+    scene = of_motion.build(design, fraction)
+    links = design.moving.at(of_motion.inputs(design.moving.input, fraction), 0).links
+    spec, disc = design.spec, design.disc
+    still, axis = np.zeros_like(fraction), links["eccentric"].origin.value
+    output = links["output"].turn.value
+    held = spec.fixed == "output"
+    ring, flange = (output, still) if held else (still, output)
+    parts: list[Part] = []
+    outline = disc.ground(*design.changes).profile(np.linspace(0.0, TURN, 48 * disc.pins + 1))[0]
+    for k, color in zip(range(spec.discs, 0, -1), (ORANGE, BLUE, GREEN)[: spec.discs][::-1], strict=True):
+        link = links[f"disc_{k}"]
+        parts.append(Body(outline=outline, place=link.origin.value, turn=link.turn.value, color=color,
+                          fill=pale(color, 0.25), name=f"disc {k}"))  # fmt: skip
+        hole = design.output_hole_radius
+        if hole is not None and spec.output_pins is not None and k == 1:
+            parts += _round(link.origin.value, flange, spec.output_pins.circle_radius, hole,
+                            spec.output_pins.count, color)  # fmt: skip
+    parts += _round(axis, ring, disc.circle, disc.pin, disc.pins, GREY)
+    if (given := spec.output_pins) is not None:
+        parts += _round(axis, flange, given.circle_radius, given.radius, given.count, GREEN)
+    return replace(scene, parts=(*parts, *(each for each in scene.parts if isinstance(each, Chain))))
+
+
+def _round(center: Points, turn: Reals, circle_radius: float, radius: float, count: int, color: str) -> list[Part]:
+    """Equal circles on a circle that turns."""
+    around = circle(radius, 24)
+    return [
+        Body(outline=around, place=center + circle_radius * np.exp(1j * (turn + TURN * k / count)),
+             turn=np.zeros_like(turn), color=color, fill=pale(color, 0.4), repeats=0)
+        for k in range(count)
+    ]  # fmt: skip

@@ -163,7 +163,7 @@ class FollowerMotion:
             cuts = [0.0, *_turning_places(piece), 1.0]
             for low, high in pairwise(cuts):
                 sense = piece.rises
-                if len(cuts) > 2 or piece.coefficients:  # noqa: PLR2004
+                if len(cuts) > 2 or piece.coefficients:
                     sense = _sign(float(piece.evaluate(np.array([0.5 * (low + high)]), 1)[1][0]))
                 found.append(Stroke(piece.start + low * piece.width, piece.start + high * piece.width, sense))
         return tuple(found)

@@ -63,7 +63,7 @@ class HarmonicEnds(_WithEnds):
     @model_validator(mode="after")
     def _three(self) -> HarmonicEnds:
         for key in ("start", "end"):
-            if isinstance(value := getattr(self, key), list) and len(value) != 3:  # noqa: PLR2004
+            if isinstance(value := getattr(self, key), list) and len(value) != 3:
                 raise _refused(key, "a harmonic law has s, v and a at its ends: three values")
         return self
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec_paths import number_at, unit_at
+from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.bearings import radial_clearance
 from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations
-from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 from gearlink.core.studies.tolerance.laws import Law, normal_between
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 

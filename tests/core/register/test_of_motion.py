@@ -33,6 +33,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "five_bar_function": ("links.coupler", "links.follower", "links.output", "phase", "centers.gears", "pins.D"),
     "gear_pair": ("centers.gears", "pins.gear1", "gears.gear1", "gears.gear2"),
     "wide_swing_cycle": ("centers.cam", "cam.profile", "cam.roller_radius", "pins.roller", "pins.D"),
+    "loaded_cycloidal": ("eccentricity", "pins.E1", "pins.A"),
     "geneva_drive": ("center_distance", "pins.D", "pins.A"),
     "lift_cam": ("cam.profile", "follower.roller_radius", "follower.offset", "pins.roller", "pins.O"),
     "planar_watt": (
@@ -71,6 +72,7 @@ WITHOUT_MESH = (
     "wide_swing_cycle",
     "lift_cam",
     "geneva_drive",
+    "loaded_cycloidal",
     "planar_watt",
     "planar_quick_return",
 )

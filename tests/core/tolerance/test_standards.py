@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations, standard_tolerance
 from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
+from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations, standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law, normal_between
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))

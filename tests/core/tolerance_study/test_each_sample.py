@@ -67,6 +67,7 @@ STUDIES = {
         "crank_rocker_links", {"links.crank": 8, "links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 46.5}
     ),
     "crank": Study("ty460_slider_crank", {"stroke": 60, "rod": 150, "offset": 60}, set()),
+    "reducer": Study("cycloidal_reducer", {"pin_radius": 30, "pin_circle_radius": 20}, {"GL201"}),
     "geneva": Study("geneva_drive", {"center_distance": 8, "locking_radius": 20}, {"GL344"}),
     "drum": Study("barrel_cam", {"cam.radius": 2.0}, {"GL401"}, {"limits__pressure_angle": 26.5}),
     "disc cam": Study("loaded_cam", {"cam.prime_radius": 2.0}, {"GL401"}, {"limits__pressure_angle": 25.95}, "cam"),

@@ -25,6 +25,7 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "crank_rocker_links": (["links.crank", "links.frame"], "rocker_swing >= 1 deg"),
     "five_bar_path": (["links.input", "links.coupler", "phase"], "min_transmission_angle >= 1 deg"),
     "ty460_slider_crank": (["stroke", "rod", "offset"], "crank_length >= 1 mm"),
+    "cycloidal_reducer": (["pin_circle_radius", "eccentricity"], "min_curvature_radius >= 1 mm"),
     "geneva_drive": (["center_distance", "pin_radius"], "lip_thickness >= 1 mm"),
     "barrel_cam": (["cam.radius", "follower.roller_radius"], "least_wall_factor >= 0.1"),
     "loaded_cam": (["cam.prime_radius", "follower.roller_radius"], "min_curvature_radius >= 1 mm"),

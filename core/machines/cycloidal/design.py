@@ -1,0 +1,357 @@
+"""A cycloidal reducer: ratio, profile, forces of its pins, efficiency, backlash."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.real_speed import RealSpeed
+from gearlink.core.base.remedies.ways import either
+from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.cycloidal.codes import INTERFERENCE, SHORTENING
+from gearlink.core.parts.gears.codes import PITTING, UNDERCUT
+from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.cycloidal.disc import Disc
+    from gearlink.core.machines.cycloidal.spec import CycloidalReducerSpec
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
+
+TURN = 2.0 * math.pi
+_N_MM = 1e3
+_SIZES = (
+    "ratio", "lobes", "shortening", "min_curvature_radius", "pressure_angle_min", "pressure_angle_mean",
+    "pressure_angle_max", "output_hole_radius", "input_speed", "turn_time",
+)  # fmt: skip
+_FORCES = ("pin_force_max", "contact_stress", "output_pin_force_max", "efficiency", "backlash")
+_CHECKS = ("undercut", "gear-collision", "shaft-clearance", "interference", "shortening", "pitting")
+_NEAR = 0.8
+_USUAL = (0.4, 0.8)
+_PROFILE_ROWS = 1440
+
+
+class CycloidalReducer(RealSpeed, Design):
+    """Discs with lobes on an eccentric that roll in a ring of pins."""
+
+    kind = "cycloidal-reducer"
+    spec: CycloidalReducerSpec
+    outlines = {"analyze": Outline((*_SIZES, *_FORCES), _CHECKS, ("pins",))}
+    extra_tables = ("profile",)
+    requirements = Design.requirements | {"torque", "pins", "fixed"}
+    ways = {
+        "undercut": either("pin_radius", "eccentricity", "pin_circle_radius"),
+        "gear-collision": either("pin_radius", "pin_circle_radius"),
+        "shaft-clearance": either("output_pins.radius", "output_pins.circle_radius", "bearing_radius"),
+        "interference": either("modification.offset"),
+        "pitting": either("width", "pin_radius", "pin_circle_radius"),
+    }
+
+    # Geometry
+
+    @cached_property
+    def disc(self) -> Disc:
+        """The disc for the pins as they are."""
+        from gearlink.core.machines.cycloidal.disc import Disc
+
+        spec = self.spec
+        return Disc(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.eccentricity)
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """Offset and pin circle of the modification [mm]."""
+        found = self.spec.modification
+        return (0.0, 0.0) if found is None else (found.offset, found.pin_circle)
+
+    lobes: int = placed("disc.lobes")
+    shortening: float = placed("disc.shortening")
+    min_curvature_radius: float = placed("disc.min_convex_radius")
+
+    @property
+    def ratio(self) -> int:
+        """Speed of the input over that of the output: -z with the ring held, Z with the output pins held."""
+        return -self.disc.lobes if self.spec.fixed == "ring" else self.disc.pins
+
+    @property
+    def output_hole_radius(self) -> float | None:
+        """Radius of the holes for the output pins [mm]: r_w + e."""
+        pins = self.spec.output_pins
+        return None if pins is None else pins.radius + self.spec.eccentricity
+
+    @cached_property
+    def _pressure_angles(self) -> Reals:
+        """Between normal and motion of the contact point of the disc, at each pin that pushes, eccentric at 0 [rad]."""
+        import numpy as np
+
+        shares = self.disc.shares(np.zeros(1))
+        loaded = shares.pins[0] > 0.0
+        arm = shares.places[0][loaded] - self.spec.eccentricity
+        seen = np.conj(arm) * shares.normals[0][loaded]
+        return np.asarray(np.arctan2(np.abs(seen.real), np.abs(seen.imag)))
+
+    @property
+    def pressure_angle_min(self) -> float:
+        """Least pressure angle at the pins that push, eccentric at 0 [rad]."""
+        return float(self._pressure_angles.min())
+
+    @property
+    def pressure_angle_mean(self) -> float:
+        """Their mean [rad]."""
+        return float(self._pressure_angles.mean())
+
+    @property
+    def pressure_angle_max(self) -> float:
+        """Their greatest [rad]."""
+        return float(self._pressure_angles.max())
+
+    # Forces
+
+    @property
+    def disc_torque(self) -> float | None:
+        """Mean torque of a disc about its centre [N mm].
+
+        torque/discs with the ring held; with the output pins held the ring bears the torque, of which z/Z is a disc's
+        """
+        if self.spec.torque is None:
+            return None
+        share = 1.0 if self.spec.fixed == "ring" else self.disc.lobes / self.disc.pins
+        return _N_MM * share * self.spec.torque / self.spec.discs
+
+    @property
+    def worst_torque(self) -> float | None:
+        """Torque of the disc that carries most [N mm]."""
+        return None if self.disc_torque is None else self.disc_torque * self.spec.uneven
+
+    def needs(self, name: str, /) -> str:
+        """What a quantity rests on."""
+        if name in ("pin_force_max", "contact_stress", "output_pin_force_max", "efficiency") and not self.spec.torque:
+            return "torque"
+        return {
+            "contact_stress": "width", "output_pin_force_max": "output_pins", "efficiency": "friction",
+            "backlash": "modification",
+        }.get(name, "")  # fmt: skip
+
+    def _over_pitch(self, pins: int, course: Callable[[Reals], Reals]) -> Extreme:
+        """Greatest value over the eccentric's angle, which repeats after a pitch; a pin begins or ends to push."""
+        from gearlink.core.numerics.extremes import maximum_over
+
+        pitch = TURN / pins
+        return maximum_over(course, 0.0, pitch, joints=(0.5 * pitch,), samples=256)
+
+    @cached_property
+    def pin_force_max(self) -> float | None:
+        """Greatest force of a ring pin [N]."""
+        torque = self.worst_torque
+        if torque is None:
+            return None
+        return torque * self._over_pitch(self.disc.pins, lambda phi: self.disc.shares(phi).pins.max(axis=1)).value
+
+    def stresses(self, phi: Reals) -> Reals:
+        """Contact stress of every ring pin at angles of the eccentric, (N, Z) [N/mm^2].
+
+        sqrt(F E*/(pi b) (1/r_p + 1/(rho - r_p)))
+        """
+        import numpy as np
+
+        from gearlink.core.studies.loads.cams.contact import plane_modulus
+
+        assert self.worst_torque is not None
+        assert self.spec.width is not None
+        disc, material = self.disc, self.spec.material
+        u = (TURN / disc.pins) * np.arange(disc.pins) - phi[:, None]
+        bend = disc.curvature(u)
+        relative = 1.0 / (disc.pin * (1.0 - bend * disc.pin))
+        force = self.worst_torque * disc.shares(phi).pins
+        modulus = plane_modulus(material.elastic_modulus, material.poisson)
+        return np.sqrt(force * modulus * relative / (math.pi * self.spec.width))
+
+    @cached_property
+    def contact_stress(self) -> float | None:
+        """Greatest contact stress of a ring pin [N/mm^2]; None where an undercut flank has none."""
+        if self.worst_torque is None or self.spec.width is None or self.disc.pin >= self.min_curvature_radius:
+            return None
+        return self._over_pitch(self.disc.pins, lambda phi: self.stresses(phi).max(axis=1)).value
+
+    @cached_property
+    def output_pin_force_max(self) -> float | None:
+        """Greatest force of an output pin [N]."""
+        pins, torque = self.spec.output_pins, self.worst_torque
+        if pins is None or torque is None:
+            return None
+        circle = pins.circle_radius
+
+        def greatest(phi: Reals) -> Reals:
+            found: Reals = self.disc.shares(phi, pins.count, circle).outputs.max(axis=1)
+            return found
+
+        return torque * self._over_pitch(pins.count, greatest).value
+
+    def _losses(self, phi: Reals) -> Reals:
+        """Work lost at one disc per radian of the input, per N mm of its torque.
+
+        mu_1 sum F |q - pitch point| w_1 + mu_2 e w_2 sum Q + mu_3 r_b |sum F n + sum Q| w_2,  w_1, w_2 turning of disc
+        against ring, and of the eccentric against the disc.
+        """
+        import numpy as np
+
+        assert self.spec.friction is not None
+        assert self.spec.output_pins is not None
+        pins, mu = self.spec.output_pins, self.spec.friction
+        disc, e = self.disc, self.spec.eccentricity
+        shares = disc.shares(phi, pins.count, pins.circle_radius)
+        held = self.spec.fixed == "output"
+        rolling = 1.0 / (disc.pins if held else disc.lobes)
+        swinging = 1.0 if held else 1.0 + 1.0 / disc.lobes
+        slide = np.sum(shares.pins * np.abs(shares.places - e * disc.pins), axis=1)
+        outputs = np.sum(shares.outputs, axis=1)
+        bearing = np.abs(shares.of_ring + outputs) * (self.spec.bearing_radius or 0.0)
+        return np.asarray(mu.pins * slide * rolling + (mu.output_pins * e * outputs + mu.bearing * bearing) * swinging)
+
+    @cached_property
+    def efficiency(self) -> float | None:
+        """Estimate from the forces without loss, mean over a turn of the eccentric.
+
+        1/(1 + loss), loss per unit of the output's work; churning and seals are not in it. In the eccentric's bearing
+        ring pins and output pins are counted as pushing the same way, which is on the safe side.
+        """
+        import numpy as np
+
+        pins, torque = self.spec.output_pins, self.disc_torque
+        if self.spec.friction is None or pins is None or torque is None:
+            return None
+        nodes, weights = np.polynomial.legendre.leggauss(6)
+        count = 2 * math.lcm(self.disc.pins, pins.count)
+        step = TURN / count
+        edges = step * np.arange(count)
+        mean = 0.0
+        for part in np.array_split(edges, max(1, len(edges) // 256)):
+            phi = (part[:, None] + 0.5 * step * (nodes + 1.0)).ravel()
+            mean += float(np.sum(self._losses(phi).reshape(-1, nodes.size) @ weights)) * 0.5 * step / TURN
+        lost = self.spec.discs * torque / _N_MM * mean
+        work = (self.spec.torque or 0.0) / abs(self.ratio)
+        return work / (work + lost)
+
+    # Backlash
+
+    @cached_property
+    def tightest(self) -> Extreme | None:
+        """Least gap of the modified profile over 0 < u < 180 deg [mm], and where."""
+        if self.spec.modification is None:
+            return None
+        from gearlink.core.numerics.extremes import minimum_over
+
+        return minimum_over(lambda u: self.disc.gap(u, *self.changes), 0.0, math.pi)
+
+    @cached_property
+    def backlash(self) -> float | None:
+        """Turn of the disc between both flanks [rad]: 2 min gap Q/(e z sin u); None where disc and pins interfere."""
+        if self.tightest is None or self.tightest.value < 0.0:
+            return None
+        from gearlink.core.numerics.extremes import minimum_over
+
+        inside = 1e-6
+        found = minimum_over(lambda u: self.disc.gap(u, *self.changes) / self.disc.lever(u), inside, math.pi - inside)
+        return 2.0 * found.value
+
+    # Tables
+
+    def table_pins(self, _samples: int | None = None) -> Table:
+        """The ring pins with the eccentric at 0: lever, force, contact stress, gap."""
+        import numpy as np
+
+        disc, numbers = self.disc, np.arange(self.disc.pins)
+        u, at = (TURN / disc.pins) * numbers.astype(np.float64), np.zeros(1)
+        columns: dict[str, tuple[Any, str]] = {
+            "pin": (numbers + 1, ""),
+            "angle": (np.degrees(u), "deg"),
+            "lever": (np.abs(disc.lever(u)), "mm"),
+        }
+        if self.worst_torque is not None:
+            columns["force"] = self.worst_torque * disc.shares(at).pins[0], "N"
+            if self.spec.width is not None:
+                columns["stress"] = self.stresses(at)[0], "N/mm^2"
+        columns["gap"] = disc.gap(u, *self.changes), "mm"
+        return Table.of("pins", columns)
+
+    def table_profile(self, samples: int | None = None) -> Table:
+        """The ground profile of a disc in its own frame, with its own radius of curvature."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples or _PROFILE_ROWS)
+        points, radius = self.disc.ground(*self.changes).profile(np.radians(degrees))
+        columns = {
+            "parameter": (degrees, "deg"),
+            "x": (points.real, "mm"),
+            "y": (points.imag, "mm"),
+            "curvature_radius": (radius, "mm"),
+        }
+        return Table.of("profile", columns)
+
+    # Checks
+
+    def check_undercut(self) -> Check:
+        """GL201: the pin's radius against the least convex radius of the pitch curve."""
+        radius, least = self.spec.pin_radius, self.min_curvature_radius
+        share = radius / least
+        status: Status = "fail" if share >= 1.0 else "warn" if share > _NEAR else "pass"
+        text = f"the pin's radius is {share:.4g} of the least convex radius {least:.6g} mm of the pitch curve"
+        text += ": take thinner pins, or a smaller eccentricity" if status != "pass" else ""
+        return UNDERCUT.check(status, text, radius, least, "mm", side="<=")
+
+    def check_gear_collision(self) -> Check:
+        """GL301: ring pins beside each other."""
+        gap = 2.0 * (self.spec.pin_circle_radius * math.sin(math.pi / self.spec.pins) - self.spec.pin_radius)
+        text = f"{gap:.6g} mm are left between two ring pins"
+        text += ": take thinner pins or a larger pin circle" if gap <= 0.0 else ""
+        return GEAR_COLLISION.check("fail" if gap <= 0.0 else "pass", text, gap, 0.0, "mm")
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: webs between the holes for the output pins, to the bearing's bore and to the root of the lobes."""
+        pins, hole = self.spec.output_pins, self.output_hole_radius
+        if pins is None or hole is None:
+            return
+        root = self.spec.pin_circle_radius - self.spec.eccentricity - self.spec.pin_radius
+        webs = [
+            ("between two holes for output pins", 2.0 * (pins.circle_radius * math.sin(math.pi / pins.count) - hole)),
+            ("between these holes and the roots of the lobes", root - pins.circle_radius - hole),
+        ]
+        if self.spec.bearing_radius is not None:
+            webs.append(("between these holes and the bearing", pins.circle_radius - hole - self.spec.bearing_radius))
+        for where, web in webs:
+            text = f"the web {where} is {web:.6g} mm"
+            text += ": take thinner output pins, or another circle for them" if web <= 0.0 else ""
+            yield SHAFT_CLEARANCE.check("fail" if web <= 0.0 else "pass", text, web, 0.0, "mm")
+
+    def check_interference(self) -> Iterator[Check]:
+        """GL342."""
+        if self.tightest is None:
+            return
+        gap = self.tightest.value
+        text = f"the least gap between disc and pins is {gap:.6g} mm"
+        text += ": raise modification.offset" if gap < 0.0 else ""
+        yield INTERFERENCE.check("fail" if gap < 0.0 else "pass", text, gap, 0.0, "mm")
+
+    def check_shortening(self) -> Check:
+        """GL343."""
+        k, (low, high) = self.shortening, _USUAL
+        limit = low if k < low else high
+        text = f"the shortening coefficient e Z/R is {k:.6g}"
+        inside = low <= k <= high
+        text += "" if inside else f", outside {low:g} to {high:g}: change the eccentricity"
+        return SHORTENING.check("pass" if inside else "warn", text, k, limit)
+
+    def check_pitting(self) -> Iterator[Check]:
+        """GL210: what the material bears over the greatest contact stress."""
+        stress, bears = self.contact_stress, self.spec.material.contact_limit
+        if stress is None or bears is None:
+            return
+        safety, limit = bears / stress, self.spec.limits.safety_pitting
+        status: Status = "fail" if safety < limit else "pass"
+        text = f"contact stress {stress:.5g} N/mm^2, safety {safety:.4g}"
+        text += f", below {limit:g}: widen the discs or enlarge the pin circle" if status == "fail" else ""
+        yield PITTING.check(status, text, safety, limit)

@@ -1,0 +1,108 @@
+"""The design file of a cycloidal reducer."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec
+
+Count = Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})]
+Friction = Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})]
+Stress = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
+
+
+class OutputPins(Spec):
+    """Pins of the output in holes of the discs."""
+
+    count: Count = Field(description="how many")
+    circle_radius: Length = Field(description="radius of the circle on which they stand")
+    radius: Length = Field(description="radius of each pin; the holes are larger by the eccentricity")
+
+
+class ReducerFriction(Spec):
+    """Coefficients of friction, for the efficiency."""
+
+    pins: Friction = Field(0.0, description="of the ring pins; of pins with rollers an effective one")
+    output_pins: Friction = Field(0.0, description="of the output pins")
+    bearing: Friction = Field(0.0, description="of the eccentric's bearing, at bearing_radius")
+
+
+class Modification(Spec):
+    """How the disc is ground otherwise than for the pins as they are."""
+
+    offset: SignedLength = Field(0.0, description="ground for pins larger by so much in radius")
+    pin_circle: SignedLength = Field(0.0, description="ground for a pin circle larger by so much in radius")
+
+
+class ReducerMaterial(Spec):
+    """Disc and pins, of one material."""
+
+    elastic_modulus: Stress = Field(206_000.0, description="modulus of elasticity")
+    poisson: Annotated[float, Field(ge=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
+        0.3, description="Poisson's ratio"
+    )
+    contact_limit: Stress | None = Field(None, description="greatest contact stress that it bears")
+
+
+class ReducerLimits(LoadLimits):
+    """Limits of the checks."""
+
+    safety_pitting: Ratio = Field(1.0, description="contact_limit over the contact stress, at least")
+
+
+class CycloidalReducerSpec(DrivenSpec):
+    """Discs with lobes on an eccentric that roll in a ring of pins."""
+
+    kind: Literal["cycloidal-reducer"]
+    pins: Annotated[int, Field(ge=4, le=1000, json_schema_extra={"unit": "1"})] = Field(
+        description="pins of the ring; the disc has one lobe less"
+    )
+    pin_circle_radius: Length = Field(description="radius of the circle on which the ring pins stand")
+    pin_radius: Length = Field(description="radius of a ring pin")
+    eccentricity: Length = Field(description="eccentricity of the discs")
+    discs: Annotated[int, Field(ge=1, le=3, json_schema_extra={"unit": "1"})] = Field(
+        1, description="discs, evenly spaced about the eccentric shaft"
+    )
+    fixed: Literal["ring", "output"] = Field(
+        "ring", description="ring: the output pins drive the output; output: they are held, and the ring turns"
+    )
+    width: Length | None = Field(None, description="width of a disc: with torque the contact stress is given")
+    torque: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque of the output"
+    )
+    uneven: Annotated[float, Field(ge=1, le=10, json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="torque of the disc that carries most over the mean of all"
+    )
+    output_pins: OutputPins | None = None
+    friction: ReducerFriction | None = Field(None, description="coefficients of friction: the efficiency is given")
+    bearing_radius: Length | None = Field(None, description="radius of the bearing between eccentric and disc")
+    modification: Modification | None = Field(None, description="of the profile: the backlash is given")
+    material: ReducerMaterial = ReducerMaterial.model_construct()
+    limits: ReducerLimits = ReducerLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.cycloidal.loads:ReducerSection")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    @model_validator(mode="after")
+    def _no_loops(self) -> CycloidalReducerSpec:
+        most = self.pin_circle_radius / self.pins
+        if self.eccentricity >= most:
+            message = "the lobes have loops: eccentricity must lie below pin_circle_radius/pins, {most} mm"
+            raise PydanticCustomError("GL111", message, {"key": "eccentricity", "most": f"{most:.6g}"})
+        if self.pin_radius >= self.pin_circle_radius - self.eccentricity:
+            message = "a pin of {radius} mm leaves no disc: pin_radius below pin_circle_radius less eccentricity"
+            raise PydanticCustomError("GL111", message, {"key": "pin_radius", "radius": f"{self.pin_radius:g}"})
+        if self.friction is not None and self.friction.bearing > 0.0 and self.bearing_radius is None:
+            message = "friction of the bearing acts at its radius: give bearing_radius (mm)"
+            raise PydanticCustomError("GL106", message, {"key": "bearing_radius"})
+        if self.friction is not None and self.output_pins is None:
+            message = "the efficiency needs output_pins: {count, circle_radius, radius}"
+            raise PydanticCustomError("GL106", "{message}", {"key": "output_pins", "message": message})
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))

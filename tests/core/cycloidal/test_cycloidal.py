@@ -1,0 +1,146 @@
+"""Cycloidal reducers: closed forms against searches, pole geometry, and the profile itself.
+
+Tolerances: searches over fine rows are good to the square of the step; the backlash of many pins is that of some pins
+to some percent (own derivation).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import design
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gearlink.core.machines.cycloidal.disc import Disc
+
+GIVEN: dict[str, Any] = {
+    "kind": "cycloidal-reducer",
+    "pins": 12,
+    "pin_circle_radius": 60.0,
+    "pin_radius": 5.0,
+    "eccentricity": 3.0,
+    "discs": 2,
+    "width": 12.0,
+    "torque": 100.0,
+    "output_pins": {"count": 6, "circle_radius": 30.0, "radius": 4.0},
+}
+FRICTION = {"friction": {"pins": 0.05, "output_pins": 0.04, "bearing": 0.003}, "bearing_radius": 10.0}
+
+
+@given(pins=st.integers(4, 60), k=st.floats(0.05, 0.97))
+def test_least_convex_radius_is_the_least_of_all(pins: int, k: float) -> None:
+    disc = Disc(pins, 100.0, 1.0, k * 100.0 / pins)
+    bend = disc.curvature(np.linspace(0.0, math.pi, 20_001))
+    assert disc.min_convex_radius == pytest.approx(1.0 / bend.max(), rel=2e-6)
+    assert disc.min_convex_radius <= 1.0 / bend.max() * (1.0 + 1e-12)
+
+
+@given(pins=st.integers(4, 40), k=st.floats(0.2, 0.9), phi=st.floats(0.0, 6.28))
+def test_normals_pass_the_pitch_point(pins: int, k: float, phi: float) -> None:
+    """Levers by the moment of each normal; and a pin touches the profile there, in the disc's place."""
+    disc = Disc(pins, 100.0, 2.0, k * 100.0 / pins)
+    shares = disc.shares(np.array([phi]))
+    arm = shares.places[0] - disc.eccentricity
+    u = 2.0 * math.pi / pins * np.arange(pins) - phi
+    assert -(np.conj(arm) * shares.normals[0]).imag == pytest.approx(disc.lever(u), abs=1e-11 * disc.pitch_radius)
+    assert float(np.sum(shares.pins * np.abs(disc.lever(u)))) == pytest.approx(1.0, rel=1e-13)
+    tau = -u / disc.lobes  # seen from a disc that stands so that a valley of it meets the pin at u = 0
+    spot, _ = disc.profile(tau)
+    seen = (spot * np.exp(1j * (u - tau))) + disc.eccentricity
+    assert np.abs(seen - shares.places[0]) == pytest.approx(np.zeros(pins), abs=1e-10 * disc.circle)
+
+
+def test_profile_has_its_radius_of_curvature() -> None:
+    """By three points of the profile."""
+    disc = design(GIVEN).disc
+    tau, h = np.linspace(0.01, 1.0, 57), 1e-4
+    a, b, c = (disc.profile(tau + way)[0] for way in (-h, 0.0, h))
+    bend = 2.0 * ((b - a).conj() * (c - b)).imag / (np.abs(b - a) * np.abs(c - b) * np.abs(c - a))
+    assert bend == pytest.approx(1.0 / disc.profile(tau)[1], abs=1e-4)
+
+
+@pytest.mark.parametrize(("held", "ratio"), [("ring", -11.0), ("output", 12.0)])
+@pytest.mark.parametrize("discs", [1, 2, 3])
+def test_links_in_motion_carry_what_the_pins_do(held: str, ratio: float, discs: int) -> None:
+    """Virtual work of the whole machine; the eccentric's bearing bears the pins of ring and output."""
+    loads = design(
+        {key: value for key, value in GIVEN.items() if key not in ("torque", "width")}, command="loads",
+        discs=discs, fixed=held, loads={"speed": 100.0, "forces": [{"on": "output", "resistance": 100.0}]},
+    )  # fmt: skip
+    phi = np.linspace(0.1, 6.0, 23)
+    reactions = loads.machine.reactions(phi)
+    assert reactions.torque == pytest.approx(np.full(phi.size, 100.0 / abs(ratio)), rel=1e-9)
+    found = design(GIVEN, discs=discs, fixed=held)
+    assert found.ratio == ratio
+    seen = phi * (11.0 / 12.0 if held == "output" else 1.0)
+    ring = found.disc.shares(seen).of_ring
+    outputs = np.sum(found.disc.shares(phi if held == "output" else phi * 12.0 / 11.0, 6, 30.0).outputs, axis=1)
+    assert reactions.force("E1") == pytest.approx(-found.disc_torque * (ring - outputs) * np.exp(1j * phi), rel=1e-9)
+    assert found.disc_torque * discs * abs(ratio) == pytest.approx(1e5 * found.disc.lobes, rel=1e-12)
+
+
+def test_greatest_forces_are_those_of_fine_rows() -> None:
+    found = design(GIVEN, **FRICTION)
+    phi = np.linspace(0.0, 2.0 * math.pi, 7201)
+    shares = found.disc.shares(phi, 6, 30.0)
+    assert found.pin_force_max == pytest.approx(found.worst_torque * shares.pins.max(), rel=1e-6)
+    assert found.pin_force_max >= found.worst_torque * shares.pins.max() * (1.0 - 1e-12)
+    assert found.contact_stress == pytest.approx(found.stresses(phi).max(), rel=1e-6)
+    assert found.output_pin_force_max == pytest.approx(found.worst_torque * shares.outputs.max(), rel=1e-6)
+    lost = 2.0 * 50.0 * float(np.mean(found._losses(phi[:-1])))
+    assert found.efficiency == pytest.approx(100.0 / 11.0 / (100.0 / 11.0 + lost), rel=1e-6)
+    assert design(GIVEN, **FRICTION, uneven=1.5).pin_force_max == pytest.approx(1.5 * found.pin_force_max, rel=1e-12)
+
+
+def test_backlash_is_where_the_ground_disc_meets_a_pin() -> None:
+    """By the distance of the ground profile from every pin, the disc turned to and fro."""
+    many = design(GIVEN, pins=40, eccentricity=0.9, pin_radius=2.0, modification={"offset": 0.01, "pin_circle": -0.02})
+    disc = many.disc
+    ground = disc.ground(*many.changes)
+    points = ground.profile(np.linspace(0.0, 2.0 * math.pi, 120_001))[0]
+    pin = disc.circle * np.exp(2j * math.pi * np.arange(disc.pins) / disc.pins) - disc.eccentricity
+
+    def least(turn: float) -> float:
+        near = pin * np.exp(-1j * turn)
+        index = [int(np.argmin(np.abs(points - each))) for each in near]
+        return float(np.min(np.abs(points[index] - near))) - disc.pin
+
+    from scipy.optimize import brentq
+
+    ends = [brentq(least, 0.0, way * 2e-3, xtol=1e-7) for way in (1.0, -1.0)]
+    assert ends[0] - ends[1] == pytest.approx(many.backlash, rel=0.04)
+    plain = design(GIVEN, modification={"offset": 0.02})
+    assert plain.backlash == pytest.approx(2.0 * 0.02 / (3.0 * 11.0), rel=1e-9)
+
+
+def test_checks_on_both_sides_of_their_limits() -> None:
+    material = {"contact_limit": 700.0}
+    assert {each.status for each in design(GIVEN, material=material).report("analyze").checks} == {"pass"}
+    for keys, name, status in (
+        ({"pin_radius": 15.0}, "undercut", "warn"),
+        ({"pin_radius": 17.7}, "undercut", "fail"),
+        ({"pin_radius": 15.6}, "gear-collision", "fail"),
+        ({"output_pins__radius": 12.0}, "shaft-clearance", "fail"),
+        ({"modification": {"offset": 0.01, "pin_circle": 0.02}}, "interference", "fail"),
+        ({"eccentricity": 1.9}, "shortening", "warn"),
+        ({"eccentricity": 4.1}, "shortening", "warn"),
+        ({"material": {"contact_limit": 600.0}}, "pitting", "fail"),
+    ):
+        found = [each.status for each in design(GIVEN, **keys).report("analyze").checks if each.name == name]
+        assert status in found, keys
+    assert design(GIVEN, modification={"offset": 0.01, "pin_circle": 0.02}).backlash is None
+
+
+def test_refusals() -> None:
+    for keys, words in (
+        ({"eccentricity": 5.0}, "loops"),
+        ({"pin_radius": 57.0}, "no disc"),
+        ({"friction": {"bearing": 0.01}}, "bearing_radius"),
+        ({"friction": {"pins": 0.01}, "output_pins": None}, "output_pins"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            design(GIVEN, **keys)
