@@ -98,7 +98,6 @@ def follower_cam(design: Any) -> Makers:
 
 def cycloidal(design: Any) -> Makers:
     """The disc with its holes, and the ring with its pins."""
-    from gearlink.cli.export.cam_parts import cycloidal_disc, cycloidal_ring
 
     return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
 

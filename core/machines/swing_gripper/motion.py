@@ -49,6 +49,7 @@ class Motion:
     def law(self) -> SixPhaseLaw:
         """The six-phase law; its constant speed is R/l_EF."""
         from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+
         spec, speed = self.spec, self.spec.cylinder.radius / self.spec.arm.length
         fast, slow = (self._law_of(phase, speed) for phase in ("accelerate", "decelerate"))
         phases = spec.phases
