@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 
 
-def motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
+def _motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
     """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
     from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
     from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
@@ -53,7 +53,7 @@ def motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
     return motion_table("motion", design, shown, samples)
 
 
-def links_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
+def _links_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
     """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
     from gearlink.core.mechanism.courses import all_rates, motion_table, turned
 
@@ -326,7 +326,7 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """The bodies in the plane of the gears."""
         return two_gear_layout(self)
 
-    table_motion, table_links = motion_table, links_table
+    table_motion, table_links = _motion_table, _links_table
 
     # Checks
 

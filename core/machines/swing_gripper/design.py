@@ -46,18 +46,18 @@ def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Angles, velocities and accelerations of both rockers over the turn."""
     import numpy as np
 
-    degrees, motion_table = design.motion.rows(samples)
+    degrees, motion = design.motion.rows(samples)
     speed, square = design.motion.shaft_speed, design.motion.shaft_speed**2
     columns = {
         "theta": (degrees, "deg"),
-        "beta": (np.degrees(motion_table.beta), "deg"),
-        "input_angle": (np.degrees(motion_table.input_angle), "deg"),
-        "coupler_angle": (np.degrees(motion_table.coupler_angle), "deg"),
-        "output_angle": (np.degrees(motion_table.output_angle), "deg"),
-        "input_velocity": (motion_table.input_velocity * speed, "rad/s"),
-        "output_velocity": (motion_table.output_velocity * speed, "rad/s"),
-        "input_acceleration": (motion_table.input_acceleration * square, "rad/s^2"),
-        "output_acceleration": (motion_table.output_acceleration * square, "rad/s^2"),
+        "beta": (np.degrees(motion.beta), "deg"),
+        "input_angle": (np.degrees(motion.input_angle), "deg"),
+        "coupler_angle": (np.degrees(motion.coupler_angle), "deg"),
+        "output_angle": (np.degrees(motion.output_angle), "deg"),
+        "input_velocity": (motion.input_velocity * speed, "rad/s"),
+        "output_velocity": (motion.output_velocity * speed, "rad/s"),
+        "input_acceleration": (motion.input_acceleration * square, "rad/s^2"),
+        "output_acceleration": (motion.output_acceleration * square, "rad/s^2"),
     }
     return Table.of("motion", columns)
 
@@ -96,13 +96,13 @@ def newton_table(design: SwingGripper, samples: int | None = None) -> Table:
     from gearlink.core.machines.swing_gripper.loop import closed_form_error
 
     degrees, loop = design.motion.loop_at(samples)
-    _, motion_table = design.motion.rows(samples)
+    _, motion = design.motion.rows(samples)
     columns = {
         "theta": (degrees, "deg"),
         "deviation": (np.degrees(loop.deviation), "deg"),
         "iterations": (loop.iterations, "1"),
         "residual": (loop.residual, "mm"),
-        "error": (np.degrees(closed_form_error(design.linkage, motion_table)), "deg"),
+        "error": (np.degrees(closed_form_error(design.linkage, motion)), "deg"),
     }
     return Table.of("newton", columns)
 

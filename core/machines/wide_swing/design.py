@@ -233,9 +233,9 @@ def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Tab
     exact = motion.plain_law.energy_parameter
     columns = {
         "steps": (steps, "1"),
-        "passes": ([law_table.passes for law_table in laws], "1"),
-        "energy_parameter": ([law_table.energy_parameter for law_table in laws], "1"),
-        "relative_error": ([law_table.energy_parameter / exact - 1.0 for law_table in laws], "1"),
+        "passes": ([law.passes for law in laws], "1"),
+        "energy_parameter": ([law.energy_parameter for law in laws], "1"),
+        "relative_error": ([law.energy_parameter / exact - 1.0 for law in laws], "1"),
     }
     return Table.of("iteration", columns)
 
