@@ -147,11 +147,63 @@ def test_each_package_says_what_stands_there() -> None:
 _NESTED = (ast.FunctionDef, ast.ClassDef)
 
 
+@cache
+def _tree(module: str) -> ast.Module:
+    return ast.parse(MODULES[module].read_text(encoding="utf-8"))
+
+
 def test_a_function_fits_a_screen() -> None:
     """A module is a subject, whatever its length; a function has fewer than 50 lines, but for those in it."""
-    for name, path in MODULES.items():
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for name in MODULES:
+        for node in ast.walk(_tree(name)):
             if isinstance(node, ast.FunctionDef):
                 body = [each for each in node.body[bool(ast.get_docstring(node)) :] if not isinstance(each, _NESTED)]
                 lines = sum((each.end_lineno or 0) - each.lineno + 1 for each in body)
                 assert lines < 50, f"{name}.{node.name}: {lines} lines"
+
+
+MOST_LEVELS = 4
+"""Of inheritance among classes of our own: what reaches deeper is made of parts instead."""
+_ONE_MORE = {
+    f"core.machines.planet_linkages.two_gear_synthesis:{name}"
+    for name in ("MomentaryDwellSynthesis", "BackStepSynthesis", "DwellSynthesis")
+}
+"""Classes that have one level more."""
+
+
+@cache
+def _named(module: str) -> dict[str, str]:
+    """What the names at the head of a module stand for: "module:name" of what it imports, "module:" of a module."""
+    found = {}
+    for node in _tree(module).body:
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("gearlink."):
+            base = node.module.removeprefix("gearlink.")
+            for alias in node.names:
+                whole = f"{base}.{alias.name}"
+                found[alias.asname or alias.name] = f"{whole}:" if whole in MODULES else f"{base}:{alias.name}"
+        elif isinstance(node, ast.ClassDef):
+            found[node.name] = f"{module}:{node.name}"
+    return found
+
+
+@cache
+def _classes() -> dict[str, list[str]]:
+    """The bases of our own of each class, by "module:name"."""
+    found = {}
+    for module in MODULES:
+        for node in _tree(module).body:
+            if isinstance(node, ast.ClassDef):
+                words = (ast.unparse(base).partition("[")[0].partition(".") for base in node.bases)
+                bases = (_named(module).get(head, "") + rest for head, _, rest in words)
+                found[f"{module}:{node.name}"] = [base for base in bases if base]
+    return found
+
+
+def _levels(name: str) -> int:
+    return 1 + max((_levels(base) for base in _classes()[name] if base in _classes()), default=0)
+
+
+def test_no_class_stands_on_more_than_three_of_our_own() -> None:
+    assert _levels("core.machines.three_gear.dwell_synthesis:DwellSynthesis") == MOST_LEVELS
+    deep = {name: levels for name in _classes() if (levels := _levels(name)) > MOST_LEVELS}
+    assert deep == dict.fromkeys(_ONE_MORE, MOST_LEVELS + 1)

@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.options import Options
-from gearlink.core.machines.three_gear.synthesis.dwell import DwellSynthesis
+from gearlink.core.machines.three_gear.dwell_synthesis import DwellSynthesis
 
 
 @pytest.mark.quick(12)

@@ -117,8 +117,8 @@ Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
 Assembly = Literal[1, -1]
 
 
-class TolerancedSpec(DesignSpec):
-    """The keys of a kind whose sizes may scatter."""
+class Scatter(Spec):
+    """The keys of sizes that scatter."""
 
     tolerance: Annotated[Any, Deferred("studies.tolerance.spec:Tolerance")] | None = Field(
         None, description="how sizes scatter, for the commands tolerance and register"
@@ -128,7 +128,11 @@ class TolerancedSpec(DesignSpec):
     )
 
 
-class DrivenSpec(TolerancedSpec):
+class TolerancedSpec(Scatter, DesignSpec):
+    """The keys of a kind whose sizes may scatter."""
+
+
+class DrivenSpec(Scatter, DesignSpec):
     """The keys of a kind whose input turns at an even speed."""
 
     input_speed: Speed | None = Field(

@@ -136,13 +136,10 @@ _SECTIONS = {
     "parts.gears.keys.sections",
     "parts.gears.train.key_sections",
     "parts.linkages.spec_sections",
-    "machines.three_gear.synthesis.task_spec",
+    "machines.three_gear.task_spec",
 }
 """Models of sections and keys that most files do not have: making them takes longer than most results."""
-_GENERAL = {f"machines.three_gear.families.{name}" for name in ("external", "internal", "window_lengths")} | {
-    "machines.three_gear.synthesis.candidates",
-    "machines.three_gear.dwell.internal_dwell",
-}
+_GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "machines.three_gear.as_made"}
 
 
 @pytest.mark.quick(1)
@@ -151,7 +148,7 @@ _GENERAL = {f"machines.three_gear.families.{name}" for name in ("external", "int
     [
         (
             "synth dwell designs/candy_feed.yaml",
-            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"machines.three_gear.symmetric.window_dwell"},
+            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"machines.three_gear.symmetric_sweep"},
         ),
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (
@@ -233,9 +230,14 @@ _EVALUATED = [
         "synth dwell",
         "candy_feed",
         "speed_ratio_max",
-        "idler_teeth train general frame_ratio frame_ratio_at crank_angle_at speed_extremes",
+        "idler_teeth train general linkage output frame_ratio_at crank_angle_at",
     ),
-    ("synth dwell", "candy_feed", "dwell_crank_angles", "idler_teeth train general crank_angle_at"),
+    (
+        "synth dwell",
+        "candy_feed",
+        "dwell_crank_angles",
+        "idler_teeth train general linkage output frame_ratio_at crank_angle_at",
+    ),
     ("synth back-step", "thesis_example_1", "coupler_length", "idler_teeth"),
     ("gear", "ty460_input_gears", "contact_ratio", "gear_pair rack"),  # `rack` is None: no gear on a rack
     ("crank", "ty460_slider_crank", "max_stroke", "slider_crank"),

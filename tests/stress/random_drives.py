@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_linkage
+from gearlink.core.machines.three_gear import symmetric
+from gearlink.core.machines.three_gear.momentary import eccentricity_range, momentary_linkage
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.symmetric import back_step as symmetric_back_step
-from gearlink.core.machines.three_gear.symmetric import family
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
@@ -101,13 +100,13 @@ def _drag_link(rng: Random) -> tuple[FourBar, GearTrain]:
 def _symmetric(rng: Random, frame_ratio: Callable[[float], float]) -> tuple[FourBar, GearTrain]:
     train = GearTrain(z := _teeth(rng), _teeth(rng), z)
     distance = 0.5 * _module(rng) * (train.crank + train.idler)
-    return family.symmetric_linkage(frame_ratio(train.i3), distance, _side(rng)), train
+    return symmetric.symmetric_linkage(frame_ratio(train.i3), distance, _side(rng)), train
 
 
 def _dwell(rng: Random) -> tuple[FourBar, GearTrain]:
     def ratio(i3: float) -> float:
-        angle = symmetric_back_step.dwell_angle_limit(i3) * float(rng.uniform(1e-3, 0.99))
-        return family.frame_ratio_for_back_step(i3, symmetric_back_step.crank_angle_for_dwell(i3, angle))
+        angle = symmetric.dwell_angle_limit(i3) * float(rng.uniform(1e-3, 0.99))
+        return symmetric.frame_ratio_for_back_step(i3, symmetric.crank_angle_for_dwell(i3, angle))
 
     return _symmetric(rng, ratio)
 
@@ -115,14 +114,14 @@ def _dwell(rng: Random) -> tuple[FourBar, GearTrain]:
 def _back_step(rng: Random) -> tuple[FourBar, GearTrain]:
     def ratio(i3: float) -> float:
         angle = -i3 * math.pi * 10.0 ** float(rng.uniform(-6.0, -0.1))
-        return family.frame_ratio_for_back_step(i3, symmetric_back_step.crank_angle_for_back_step(i3, angle))
+        return symmetric.frame_ratio_for_back_step(i3, symmetric.crank_angle_for_back_step(i3, angle))
 
     return _symmetric(rng, ratio)
 
 
 def _variable_speed(rng: Random) -> tuple[FourBar, GearTrain]:
     def ratio(i3: float) -> float:
-        return family.frame_ratio_for_speed_band(i3, 100.0 * float(rng.uniform(0.0, 0.99)), 100.0)
+        return symmetric.frame_ratio_for_speed_band(i3, 100.0 * float(rng.uniform(0.0, 0.99)), 100.0)
 
     return _symmetric(rng, ratio)
 

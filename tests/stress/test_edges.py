@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.dwells import dwell_positions
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_frame_length, momentary_linkage
+from gearlink.core.machines.three_gear.dwell import dwell_positions
+from gearlink.core.machines.three_gear.momentary import momentary_frame_length, momentary_linkage
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.law.device import Pneumatic

@@ -32,9 +32,9 @@ from stress.worst import EPS, LONGER_NUMBERS, Worst
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_frame_length
+from gearlink.core.machines.three_gear.momentary import eccentricity_range, momentary_frame_length
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
-from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.machines.three_gear.symmetric import dwell_angle
 from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
 from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
 from gearlink.core.parts.cams.laws import law

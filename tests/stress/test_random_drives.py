@@ -19,8 +19,8 @@ from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
+from gearlink.core.machines.three_gear import dwell as dwells
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.machines.three_gear.dwell import dwells
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.parts.linkages.fourbar.loop import closing_range
 from gearlink.core.parts.linkages.fourbar.position import FourBar

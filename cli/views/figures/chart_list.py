@@ -51,7 +51,7 @@ class DesignChart:
     parameter: Axis | None
     range: tuple[float, float]
     curves: tuple[float, ...] = ()
-    module: str = "machines.three_gear.symmetric.charts"
+    module: str = "machines.three_gear.symmetric_sweep"
     kind: str = "three-gear-four-bar"
     peaked: bool = False
 
@@ -150,7 +150,7 @@ def _of_dwell(
 ) -> DesignChart:
     """A chart of the dwell within a tolerance."""
     span, curves = ends
-    module = "machines.three_gear.symmetric.dwell_charts"
+    module = "machines.three_gear.symmetric_sweep"
     low, high = span
     return DesignChart(
         name,

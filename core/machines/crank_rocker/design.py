@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
-from gearlink.core.base.real_speed import RealSpeed, per_time
+from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
@@ -64,7 +64,7 @@ class DeadCenters:
         self.same = (turned > 0.0) is (to_inner >= math.pi)
 
 
-class CrankRocker(OutputRates, RealSpeed, Design):
+class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     """A four-bar whose rocker is the output, of given links; the syntheses replace `linkage`."""
 
     kind = "crank-rocker"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.real_speed import OUTPUT_SPEEDS, RealSpeed
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
@@ -172,7 +172,7 @@ _CRANK = 11.0
 """Trials of a crank that is given, which one that is sought takes as long as."""
 
 
-class GearedRocker(OutputRates, RealSpeed, Meshed):
+class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
     """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
 
     kind = "geared-rocker"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.base.design import Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
-from gearlink.core.base.real_speed import OUTPUT_SPEEDS, per_time
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Table
 from gearlink.core.base.results import cached_property
@@ -109,7 +109,7 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(OutputRates, FeedResults, Meshed):
+class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"

@@ -14,7 +14,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.real_speed import OUTPUT_SPEEDS, RealSpeed
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
@@ -62,7 +62,7 @@ def _gear_ways() -> dict[str, tuple[Way, ...]]:
     return found
 
 
-class GearedSixBar(OutputRates, RealSpeed, Design):
+class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     """A loop of six links that two gear trains drive by one input."""
 
     kind = "geared-six-bar"

@@ -1,5 +1,7 @@
 """The three-gear four-bar: analysis, four syntheses, dwells, choice of the idler, design charts.
 
-Begin with `design` (analysis) and `synthesis.base`; `motion` is the kinematics, `dwell` where the output stands,
-`symmetric` the case I = 1, `many` all of it over arrays, `register` and `as_made` what errors of the parts cost.
+Begin with `design` (analysis), `synthesis` and `dwell_synthesis`; `motion` is the kinematics, `dwell` how the output
+goes and where it stands, `momentary` where it just stops, `symmetric` the case I = 1, `families` linkages in one
+unknown. Over arrays of designs: `axis` gives studies what `batch` computes, by the kernels of `sweep` and
+`symmetric_sweep`. `register`, `samples` and `as_made` are what errors of the parts cost.
 """

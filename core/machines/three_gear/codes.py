@@ -1,7 +1,10 @@
-"""The rules that the checks of the three-gear four-bar judge by."""
+"""The rules that the checks of the three-gear four-bar judge by, and their judgements of numbers or of arrays."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from gearlink.core.base.judged import Judged
 from gearlink.core.base.report import Rule
 
 ACHIEVED = Rule(
@@ -42,3 +45,28 @@ DWELL_TOLERANCE = Rule(
     ("dwell_tolerance", "dwell.tolerance", "dwell_backlash"),
     side="<=",
 )
+
+
+_SAME_RATIO = 1e-12
+_MISSED = 0.5
+"""By so much a back-step may miss the one asked for [deg]."""
+
+
+def tolerance_judged(given: Any, limit: Any) -> Judged:
+    """GL317 of tolerances [deg]."""
+    return Judged(DWELL_TOLERANCE, given, limit, given >= limit, False, "deg")
+
+
+def back_step_judged(half: Any, limit: Any) -> Judged:
+    """GL315 of halves of back-steps [deg]."""
+    return Judged(BACK_STEP, half, limit, False, half > limit, "deg")
+
+
+def ratio_judged(value: Any, asked: Any) -> Judged:
+    """GL304 of ratios i3."""
+    return Judged(ACHIEVED, value, asked, False, abs(value - asked) > _SAME_RATIO * abs(asked), "1")
+
+
+def target_judged(value: Any, asked: Any) -> Judged:
+    """GL304 of back-steps [deg]."""
+    return Judged(ACHIEVED, value, asked, False, abs(value - asked) > _MISSED, "deg")

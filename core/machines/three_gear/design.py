@@ -1,42 +1,100 @@
-"""The three-gear four-bar as a design: analysis of given links. Its syntheses: `synthesis`."""
+"""The three-gear four-bar as a design: analysis, tables and bodies. Its syntheses: `synthesis`, `dwell_synthesis`."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.base.design import Outline, placed
+from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, at_key
-from gearlink.core.base.real_speed import OutputSpeed, per_time
+from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
-from gearlink.core.base.report import Check, Remedy, safely_above, safely_below
+from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount
-from gearlink.core.machines.three_gear import bodies, dwell_checks, motion, tables
-from gearlink.core.machines.three_gear.dwell import dwells
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import crank_with_room
-from gearlink.core.machines.three_gear.idler_choice import idler_for_ratio
-from gearlink.core.machines.three_gear.motion import Extremes, GearTrain
-from gearlink.core.machines.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
-from gearlink.core.parts.gears.train.meshed import Meshed
+from gearlink.core.machines.three_gear import dwell as dwells
+from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.codes import ratio_judged, tolerance_judged
+from gearlink.core.machines.three_gear.dwell import ByRoots, Output
+from gearlink.core.machines.three_gear.momentary import crank_with_room
+from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_for_ratio, tip_radius
+from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.tooth.teeth import rim_radius
+from gearlink.core.parts.gears.train.meshed import Meshed, named
 from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.gears.train.ways import train_ways
-from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
-from gearlink.core.parts.linkages.feed import FeedResults
+from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check, window_judged
+from gearlink.core.parts.linkages.codes import GEAR_COLLISION
+from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
 from gearlink.core.parts.linkages.standstills import BackStep
-from gearlink.core.studies.clearance.bodies import Layout
+from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance.reach import constant, coupler_joint, crank_pin
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.three_gear.dwell.by_roots import ByRoots
-    from gearlink.core.machines.three_gear.families.window_lengths import Room
-    from gearlink.core.machines.three_gear.spec import ThreeGearSpec
+    from gearlink.core.machines.three_gear.families import Room
+    from gearlink.core.machines.three_gear.spec import Gears, ThreeGearSpec
+    from gearlink.core.machines.three_gear.synthesis import Task
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 
+
+QUANTITIES = (
+    "i3",
+    "crank_teeth",
+    "idler_teeth",
+    "output_teeth",
+    "frame_ratio",
+    "crank_length",
+    "coupler_length",
+    "rocker_length",
+    "frame_length",
+    "mean_ratio",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "motion",
+    "dwell_crank_angles",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+    "min_transmission_angle",
+    "gear_gap",
+    "nonuniformity",
+    "speed_ratio_max_at",
+    "speed_ratio_min_at",
+    *names("acceleration_ratio"),
+    "rocker_swing",
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "input_speed",
+    "turn_time",
+    *OUTPUT_SPEEDS,
+    "back_step_time",
+    "dwell_time",
+    "tolerance_dwell_time",
+    *FEED_QUANTITIES,
+)
+CHECKS = (
+    "gear-collision",
+    "shaft-clearance",
+    "shaft-seat",
+    "transmission-angle",
+    "rounded-ratio",
+    "dwell-tolerance",
+    *MESH_CHECKS,
+)
+MESHES = ("crank_idler", "idler_output")
+MESH_QUANTITIES = named(MESHES)
+
+
+_UNITS = 8.0
 _TEETH = (
     up("gears.crank", "gears.output", step=1),
     *(up(f"gears.{gear}", step=1) for gear in ("crank", "idler", "output")),
@@ -70,7 +128,7 @@ WAYS = {
 
 
 class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
-    """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
+    """A three-gear four-bar of given links, or of those that the `task` of a synthesis finds."""
 
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
@@ -81,6 +139,27 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing")
     ways = WAYS
 
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        if self.task is not None:
+            self.require_proportion()
+
+    @property
+    def task(self) -> Task | None:
+        """What a synthesis seeks the idler and the links for; None: the file gives them."""
+        return None
+
+    def completion(self) -> Iterator[Found]:
+        """Idler and links in place of the tasks."""
+        if self.task is None:
+            return
+        by = f"found by {next(command for command in self.outlines if command.startswith('synth'))}"
+        if self.spec.gears.idler is None:
+            yield Found("gears.idler", self.idler_teeth, by)
+        yield Found("gears.i3", None)
+        yield Found("links", {"crank": self.crank_length, "frame": self.frame_length}, by)
+        yield from (Found(section, None) for section in ("dwell", "back_step", "speed", "momentary"))
+
     # Gears and links
 
     @cached_property
@@ -89,13 +168,11 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         gears = self.spec.gears
         if gears.idler is not None:
             return gears.idler
-        if gears.i3 is None:
-            return self.chosen_idler()
-        with at_key("gears.i3"):
-            return idler_for_ratio(gears.i3, gears.output)
-
-    def chosen_idler(self) -> int:
-        """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
+        if gears.i3 is not None:
+            with at_key("gears.i3"):
+                return idler_for_ratio(gears.i3, gears.output)
+        if self.task is not None:
+            return self.task.chosen_idler(advises=self.advises)
         raise MissingSection(f"this command needs gears.idler (teeth) or gears.i3{self._sought()}", key="gears.idler")
 
     def _sought(self) -> str:
@@ -111,7 +188,9 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @cached_property
     def train(self) -> GearTrain:
-        """The three gears."""
+        """The three gears; a task refuses those that it does not serve."""
+        if self.task is not None:
+            self.task.require_gears()
         return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
 
     i3: float = placed("train.i3")
@@ -149,6 +228,8 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     @cached_property
     def linkage(self) -> FourBar:
         """The four-bar; coupler and rocker are the gears' centre distances."""
+        if self.task is not None:
+            return self.task.linkage_of(self.idler_teeth)
         links = self.spec.links
         if links is None:
             raise MissingSection(
@@ -162,28 +243,24 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     crank_length: float = placed("linkage.crank")
     frame_length: float = placed("linkage.frame")
 
-    @property
-    def frame_ratio(self) -> float:
-        """Frame over crank."""
-        return self.frame_length / self.crank_length
-
     # Motion
+
+    @cached_property
+    def output(self) -> Output:
+        """The output over a turn: in closed form where the links are in proportion to the teeth, else by roots."""
+        if self.task is not None:
+            return self.task.output(self.linkage, self.train)
+        return (ByRoots if self.off_center else Output)(self.linkage, self.train)
+
+    frame_ratio: float = placed("output.frame_ratio")
 
     @cached_property
     def mean_ratio(self) -> float:
         """Net output turns per input turn."""
         return motion.mean_ratio(self.linkage, self.train)
 
-    @cached_property
-    def speed_extremes(self) -> Extremes:
-        """Greatest and least speed ratio and their places."""
-        return motion.speed_extremes(self.linkage, self.train)
-
-    @cached_property
-    def acceleration_extremes(self) -> Extremes:
-        """Greatest and least acceleration ratio and their places."""
-        return motion.acceleration_extremes(self.linkage, self.train)
-
+    speed_extremes: Extremes = placed("output.speed_extremes")
+    acceleration_extremes: Extremes = placed("output.acceleration_extremes")
     speed_ratio_max: float = placed("speed_extremes.greatest")
     speed_ratio_min: float = placed("speed_extremes.least")
     speed_ratio_max_at: float = placed("speed_extremes.greatest_angle")
@@ -202,42 +279,21 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         """Swing of the rocker between its dead centres [rad]; a drag link has none."""
         return rocker_swing(self.linkage)
 
-    @cached_property
-    def dwell_crank_angles(self) -> list[float]:
-        """Crank angles of zero output speed [rad], ascending."""
-        if self.off_center:
-            return self.by_roots.places
-        return dwells.dwell_positions(self.linkage, self.train)
-
-    @cached_property
-    def by_roots(self) -> ByRoots:
-        """Standstills as roots of the output's speed, for links that are not in proportion to the teeth."""
-        from gearlink.core.machines.three_gear.dwell.by_roots import ByRoots
-
-        return ByRoots(self.linkage, self.train)
+    dwell_crank_angles: list[float] = placed("output.places")
 
     @cached_property
     def motion(self) -> str:
         """unidirectional, momentary-dwell or back-step."""
         return dwells.motion(self.dwell_crank_angles)
 
-    @cached_property
-    def back_step(self) -> BackStep | None:
-        """The back-step, where there is one."""
-        if self.off_center:
-            return self.by_roots.back_step
-        return dwells.back_step(self.linkage, self.train) if self.motion == "back-step" else None
-
+    back_step: BackStep | None = placed("output.back_step")
     back_step_angle: float | None = placed("back_step.angle")
     back_step_crank_angle: float | None = placed("back_step.crank_angle")
 
-    @cached_property
+    @property
     def dwell_angle(self) -> float | None:
         """Crank angle until the output regains its place, phi13 [rad]."""
-        step = self.back_step
-        if self.off_center:
-            return self.by_roots.dwell_angle
-        return None if step is None else dwells.dwell_angle(self.linkage, self.train, step)
+        return self.output.dwell_angle
 
     @property
     def dwell_angle_approximate(self) -> float | None:
@@ -255,12 +311,8 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         tolerance = self.output_tolerance
         if tolerance is None or tolerance >= self.endless_tolerance:
             return None
-        if self.off_center:
-            return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
-        from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
-
         with at_key(self._tolerance_key):
-            return tolerance_dwell(self.linkage, self.train, tolerance)
+            return self.output.within(tolerance)
 
     @property
     def endless_tolerance(self) -> float:
@@ -270,19 +322,14 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     @property
     def output_tolerance(self) -> float | None:
         """Tolerance of the output angle to either side [rad]: given, or from the play at the output gear."""
-        if self.spec.dwell_backlash is not None:
-            from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_from_backlash
-
-            return tolerance_from_backlash(
-                self.spec.dwell_backlash, self.spec.gears.transverse_module * abs(self.output_teeth) / 2.0
-            )
-        given = self.spec.dwell_tolerance if self.dwell_request is None else self.dwell_request.tolerance
-        return None if given is None else math.radians(given)
+        return given_tolerance(
+            self.spec, self.spec.dwell_tolerance if self.dwell_request is None else self.dwell_request.tolerance
+        )
 
     @property
     def dwell_request(self) -> Any:
         """The file's section dwell with a tolerance, which is the same request as dwell_tolerance; None without one."""
-        request = self.spec.dwell
+        request = self.spec.dwell if self.task is None else None  # a task reads its own section
         return None if request is None or request.tolerance is None else request
 
     @property
@@ -302,7 +349,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        return bodies.layout(self.linkage, self.train, self.spec, self._own_pairs if self.own_teeth else None)
+        return layout(self.linkage, self.train, self.spec, self._own_pairs if self.own_teeth else None)
 
     @cached_property
     def gear_gap(self) -> float | None:
@@ -313,14 +360,35 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return self.layout.gear_pairs[0].gap
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
 
-    table_motion, table_links = tables.motion, tables.links
+    def table_motion(self, samples: int | None = None) -> Table:
+        """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
+        from gearlink.core.machines.three_gear.mechanism import OUTPUT
+        from gearlink.core.mechanism.courses import Shown, between, motion_table
+
+        shown = [
+            Shown("output_angle", OUTPUT),
+            Shown("speed_ratio", OUTPUT, 1, "output_speed"),
+            Shown("acceleration_ratio", OUTPUT, 2, "output_acceleration"),
+            Shown("transmission_angle", between("coupler", "rocker")),
+        ]
+        return motion_table("motion", self, shown, samples)
+
+    def table_links(self, samples: int | None = None) -> Table:
+        """Angle, speed, acceleration and jerk of every link and gear over a turn, and the pole P15 on the line AD."""
+        from gearlink.core.mechanism.courses import Shown, all_rates, motion_table, turned
+        from gearlink.core.mechanism.motion import Course
+
+        names = ("coupler", "rocker", "idler", "output")
+        shown = all_rates({name: turned(name) for name in names})
+        pole = Course("mm", lambda mechanism: [_pole(self, mechanism)])
+        return motion_table("links", self, [*shown, Shown("pole_x", pole)], samples)
 
     # Checks
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""
         if self.train.internal:
-            yield bodies.ring_planes(self.layout, self.train, self.spec.limits.gear_gap)
+            yield ring_planes(self.layout, self.train, self.spec.limits.gear_gap)
             return
         limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
         why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"
@@ -330,6 +398,10 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     def _gap_remedy(self, missing: float) -> str:
         """What would give the gears room."""
+        if self.task is not None and not self.train.internal:
+            idler = self.task.idler_with_room(self.idler_teeth)
+            if idler is not None:
+                return f"take an idler of {idler} teeth or more"
         module = self.spec.gears.transverse_module
         words = (
             f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
@@ -349,13 +421,8 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @property
     def tip_excess(self) -> float:
-        """What the tips of gears 1 and 5 reach beyond their reference circles, together [mm].
-
-        m (2 h_a* + x_1 + x_5 + k_1 + k_5); k = 0 where the shifts cancel in each mesh
-        """
-        gears = self.spec.gears
-        k = gears.tip_shortening if isinstance(gears.tip_shortening, list) else (0.0, 0.0, 0.0)
-        return gears.module * (2.0 * gears.addendum + gears.shift(0) + gears.shift(2) + k[0] + k[2])
+        """What the tips of gears 1 and 5 reach beyond their reference circles, together [mm]."""
+        return tip_excess(self.spec.gears)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
@@ -368,12 +435,33 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         remedy = "shorten the crank or take a larger idler"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
 
-    check_dwell_window, check_dwell_tolerance = dwell_checks.window_check, dwell_checks.tolerance_check
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for a window: an output that never leaves the band has one of a whole turn."""
+        given, tolerance = self.spec.dwell_window, self.output_tolerance
+        if given is None or tolerance is None:
+            return
+        asked, dwell, remedy = math.radians(given), self.tolerance_dwell, ""
+        reached = 2.0 * math.pi if dwell is None else dwell.crank_angle
+        if self.advises and window_judged(math.degrees(reached), given).fails:
+            from gearlink.core.machines.three_gear.families import words
+
+            remedy = words(self.window_rooms)
+        yield dwell_window_check(reached, asked, tolerance, remedy)
+
+    def check_dwell_tolerance(self) -> Iterator[Check]:
+        """GL317 where the file gives a tolerance or a play: whether a dwell within it has an end."""
+        if self.output_tolerance is None:
+            return
+        given, limit = math.degrees(self.output_tolerance), math.degrees(self.endless_tolerance)
+        text = f"the tolerance of the dwell is +-{given:.6g} deg, the output gains {2.0 * limit:.6g} deg in a turn"
+        yield tolerance_judged(given, limit).check(
+            text, f": within it a dwell has no end, give less than {safely_below(limit)} deg"
+        )
 
     @cached_property
     def window_rooms(self) -> tuple[Room, ...]:
         """The lengths of crank or frame that meet the window of the file."""
-        from gearlink.core.machines.three_gear.families.window_lengths import rooms
+        from gearlink.core.machines.three_gear.families import rooms
 
         return rooms(self, math.radians(self.spec.dwell_window or 0.0), self.output_tolerance or 0.0)
 
@@ -389,4 +477,138 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return
         text = f"i3 = {asked:g} becomes {self.i3:.9g} with {self.idler_teeth} idler teeth"
         remedy = "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
-        yield dwell_checks.ratio_judged(self.i3, asked).check(text, remedy, name="rounded-ratio")
+        yield ratio_judged(self.i3, asked).check(text, remedy, name="rounded-ratio")
+
+
+def given_tolerance(spec: ThreeGearSpec, named: float | None) -> float | None:
+    """Tolerance of the output to either side [rad]: from the play at the output gear, else as named [deg]."""
+    if spec.dwell_backlash is not None:
+        radius = spec.gears.transverse_module * abs(spec.gears.output) / 2.0
+        return dwells.tolerance_from_backlash(spec.dwell_backlash, radius)
+    return None if named is None else math.radians(named)
+
+
+def tip_excess(gears: Gears) -> float:
+    """What the tips of gears 1 and 5 reach beyond their reference circles, together [mm].
+
+    m (2 h_a* + x_1 + x_5 + k_1 + k_5); k = 0 where the shifts cancel in each mesh
+    """
+    k = gears.tip_shortening if isinstance(gears.tip_shortening, list) else (0.0, 0.0, 0.0)
+    return gears.module * (2.0 * gears.addendum + gears.shift(0) + gears.shift(2) + k[0] + k[2])
+
+
+def _pole(design: ThreeGearFourBar, mechanism: Mechanism) -> Reals:
+    """AP15 = W AD/(W - 1) from w5/w1 = AP15/DP15 [mm]; NaN where both gears turn at one speed.
+
+    Notes
+        W - 1 is a sum with the terms 1, i1, i2 w2/w1 and i3 w3/w1, each off by some units in the last place, the speeds
+        of the links by 1/sin(transmission angle) times as many. Where the sum is not above eight units of its terms, no
+        digit of the pole is known: the gears turn at one speed, and the pole lies at infinity.
+    """
+    import numpy as np
+
+    speed = mechanism.links["output"].turn.first
+    faster = speed - 1.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        known = np.abs(faster) > _UNITS * np.finfo(float).eps * _terms(design, mechanism)
+        return np.where(known, design.frame_length * speed / faster, np.nan)
+
+
+def _terms(design: ThreeGearFourBar, mechanism: Mechanism) -> Reals:
+    """The size of what W - 1 is summed from, with the condition of the speeds of the links."""
+    import numpy as np
+
+    train, coupler, rocker = design.train, mechanism.links["coupler"].turn, mechanism.links["rocker"].turn
+    condition = 1.0 / np.abs(np.sin(coupler.value - rocker.value))
+    of_links = np.abs(train.coupler_share * coupler.first) + np.abs(train.rocker_share * rocker.first)
+    return np.asarray(1.0 + abs(train.ratio) + condition * of_links)
+
+
+def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[str, Any] | None = None) -> Layout:
+    """Gears, shafts and distances; the crank gear is one body with crank and input shaft.
+
+    Parameters
+        links : FourBar [mm]
+        train : GearTrain
+        spec : ThreeGearSpec
+        own : dict of GearPair - meshes with teeth of their own; None: standard teeth
+    """
+    module, shafts = spec.gears.module, spec.shafts
+    gears = (
+        _own(own, train, spec.gears)
+        if own is not None
+        else (
+            _gear("the crank gear", "B", train.crank, train, spec.gears, "CD" if train.internal else "C"),
+            Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
+            _gear("the output gear", "D", train.output, train, spec.gears, "C"),
+        )
+    )
+    return Layout(
+        gears=gears,
+        shafts=(
+            Shaft("input shaft", "A", shafts.input_radius if shafts else None, "shafts.input_radius"),
+            Shaft("output shaft", "D", shafts.output_radius if shafts else None, "shafts.output_radius"),
+        ),
+        reaches={
+            "AC": coupler_joint(links),
+            "AD": constant(links.frame),
+            "BD": crank_pin(links.crank, links.frame),
+            "CD": constant(links.rocker),
+        },
+        least_shaft=least_shaft(spec.limits, module),
+    )
+
+
+def _gear(name: str, axis: str, teeth: float, train: GearTrain, gears: Gears, mates: str) -> Gear:
+    """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
+    if teeth > 0:
+        tip = tip_radius(teeth, gears.module)
+        return Gear(name, axis, tip, mates=mates, root=tip - FULL_HEIGHT * gears.module)
+    mesh = GearPair.from_shift(gears.module, (int(train.idler), int(teeth)))
+    return Gear(f"{name}, a ring,", axis, _outer(axis, mesh, gears), -mesh.tip_radius[1], mates)
+
+
+def _outer(axis: str, mesh: Any, gears: Gears) -> float:
+    """Outer radius of a ring on B or D [mm]; the key `rim` is that of the output ring."""
+    root, given = mesh.root_radius[1], gears.rim if axis == "D" else None
+    return rim_radius(root, mesh.module, gears.rim_at(0 if axis == "B" else 2, root) if given is None else given)
+
+
+def _own(meshes: Mapping[str, Any], train: GearTrain, gears: Gears) -> tuple[Gear, Gear, Gear]:
+    """Gears with tips of their own; in the pair of a ring the idler is the first."""
+    first, second = meshes.values()
+    idler = first.tip_radius[0 if first.internal else 1]
+    mates = "CD" if train.internal else "C"
+    crank = "the crank gear, a ring," if first.internal else "the crank gear"
+    output = "the output gear, a ring," if second.internal else "the output gear"
+    return (
+        _end("B", first, crank, gears, mates),
+        Gear("the idler", "C", idler, mates="BD"),
+        _end("D", second, output, gears, "C"),
+    )
+
+
+def _end(axis: str, pair: Any, name: str, gears: Gears, mates: str) -> Gear:
+    """Crank or output gear of its pair."""
+    if pair.internal:
+        return Gear(name, axis, _outer(axis, pair, gears), -pair.tip_radius[1], mates)
+    place = 0 if axis == "B" else 1
+    return Gear(name, axis, pair.tip_radius[place], mates=mates, root=pair.root_radius[place])
+
+
+def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
+    """GL301 of a train with a ring: the third gear stays within it, or must stand in another plane.
+
+    Parameters
+        layout : Layout - gears 1, idler and 5
+        train : GearTrain
+        limit : float [mm] - least gap
+    """
+    crank, _, output = layout.gears
+    gap = least_gap(crank, output, layout.reaches["BD"]).gap
+    ring, other = ("the output ring", "the crank gear") if train.output < 0 else ("the crank ring", "the output gear")
+    if gap >= limit:
+        text = f"{other} turns within {ring} and keeps {gap:.6g} mm from its tips at the closest"
+        return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
+    text = f"{other} sweeps through {ring}: put them side by side on a wide idler, in planes of their own"
+    return GEAR_COLLISION.check("warn", text)

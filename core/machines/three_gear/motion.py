@@ -4,7 +4,7 @@
 
 with the coupler and rocker angles t2, t3 of `linkages.fourbar.position`, their rates w2, w3 per crank speed, and
 i2 = -z1/z3, i3 = -z3/z5, I = i2 i3 = z1/z5, teeth negative for a gear in internal mesh with the idler. Standstills
-and back-step stand in `gearlink.core.machines.three_gear.dwell.dwells`.
+and back-step stand in `gearlink.core.machines.three_gear.dwell`.
 """
 
 from __future__ import annotations
@@ -299,6 +299,34 @@ def tip_radius(teeth: float, module: float, addendum: float = 1.0) -> float:
         ISO 21771
     """
     return module * (0.5 * teeth + addendum)
+
+
+def idler_for_ratio(i3: float, output_teeth: int) -> int:
+    """Idler whose ratio to the output gear comes nearest to a wanted one.
+
+    z3 = round(-i3 z5)
+
+    Parameters
+        i3 : float - negative
+        output_teeth : int - z5
+    Returns
+        idler_teeth : int - at least 1
+    Raises
+        NoSolution - when the nearest number of teeth is 0, or i3 is not negative
+    Example
+        >>> idler_for_ratio(-1.7798080356711419, 40)
+        71
+
+    Source
+        thesis 4.1.4, example 1
+    """
+    teeth = math.floor(-i3 * output_teeth + 0.5) if math.isfinite(i3) else 0
+    if teeth < 1:
+        raise NoSolution(
+            f"no idler has the ratio i3 = {i3:.9g} to an output gear of {output_teeth} teeth; i3 must be at most "
+            f"{-1.0 / output_teeth:.9g}, one tooth"
+        )
+    return teeth
 
 
 def blend(train: Any, coupler: Number, rocker: Number) -> Number:

@@ -11,12 +11,14 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
-from gearlink.core.machines.three_gear.synthesis.back_step import BackStepSynthesis
-from gearlink.core.machines.three_gear.synthesis.dwell import DwellSynthesis
-from gearlink.core.machines.three_gear.synthesis.momentary import MomentaryDwellSynthesis
-from gearlink.core.machines.three_gear.synthesis.variable_speed import VariableSpeedSynthesis
+from gearlink.core.machines.three_gear.dwell_synthesis import DwellSynthesis
+from gearlink.core.machines.three_gear.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.synthesis import (
+    BackStepSynthesis,
+    MomentaryDwellSynthesis,
+    VariableSpeedSynthesis,
+)
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.standstills import zeros_over_turn

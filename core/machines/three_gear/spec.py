@@ -85,17 +85,17 @@ class ThreeGearSpec(DrivenSpec):
     gears: Gears
     links: Links | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
-    dwell: Annotated[Any, Deferred("machines.three_gear.synthesis.dwell_spec:Dwell")] | None = Field(
+    dwell: Annotated[Any, Deferred("machines.three_gear.dwell_spec:Dwell")] | None = Field(
         None,
         description="asked of `synth dwell`: a crank angle until the output is back, or one within a tolerance",
     )
-    back_step: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:BackStep")] | None = Field(
+    back_step: Annotated[Any, Deferred("machines.three_gear.task_spec:BackStep")] | None = Field(
         None, description="asked of `synth back-step`"
     )
-    speed: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Speed")] | None = Field(
+    speed: Annotated[Any, Deferred("machines.three_gear.task_spec:Speed")] | None = Field(
         None, description="asked of `synth variable-speed`; the input turns at the mean of the two"
     )
-    momentary: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Momentary")] | None = Field(
+    momentary: Annotated[Any, Deferred("machines.three_gear.task_spec:Momentary")] | None = Field(
         None, description="asked of `synth momentary-dwell`: one of the four"
     )
     dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
@@ -109,7 +109,7 @@ class ThreeGearSpec(DrivenSpec):
         None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
-    shafts: Annotated[Any, Deferred("machines.three_gear.synthesis.task_spec:Shafts")] | None = Field(
+    shafts: Annotated[Any, Deferred("machines.three_gear.task_spec:Shafts")] | None = Field(
         None, description="shafts that pass through the plane of the gears"
     )
     loads: Annotated[Any, Deferred("machines.three_gear.loads_spec:ThreeGearLoads")] | None = Field(

@@ -1,17 +1,327 @@
-"""Frames of the momentary dwell of a three-gear four-bar, for many designs."""
+"""Motion of three-gear four-bars of any teeth for arrays of designs: speeds, standstills, back-step, dwells.
+
+The formulas are those of `linkages.fourbar.loop`, `motion`, `momentary` and `dwell`, which take arrays. Searches stand
+here: Newton's, where each design that rests is frozen, so that its last bit does not depend on its neighbours.
+
+The longest dwell within a tolerance is that of `linkages.band_dwell`: inside the band both ends are found together, by
+Newton's method in two unknowns; where one end binds, and where the back-step is wider than the band, by roots inside
+brackets. The one has brackets inside a bracket, whose steps multiply; the search therefore stands here again.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import angle_of_poles, pole_lengths, touching
+from gearlink.core.machines.three_gear.dwell import standing
+from gearlink.core.machines.three_gear.momentary import angle_of_poles, pole_lengths, touching
+from gearlink.core.machines.three_gear.motion import blend
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
+from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_roots
+from gearlink.core.parts.linkages.fourbar.lengths import least_transmission_angle
+from gearlink.core.parts.linkages.fourbar.loop import rates, triangle
+
+_TURN = 2.0 * math.pi
+_LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
+
+
+class Drives(NamedTuple):
+    """Linkages [mm] with their gears, arrays: the fields of a `Reading`, I = z1/z5, shares of coupler and rocker."""
+
+    a: Any
+    b: Any
+    c: Any
+    d: Any
+    s: Any
+    n_0: Any
+    n_pi: Any
+    p_0: Any
+    p_pi: Any
+    q_0: Any
+    q_pi: Any
+    e: Any
+    f: Any
+    ratio: Any
+    coupler_share: Any
+    rocker_share: Any
+
+    def part(self, places: Any) -> Drives:
+        """Some of the designs."""
+        return Drives(*(row[places] for row in self))
+
+
+def turns(links: Drives) -> tuple[Mask, Mask, Mask]:
+    """Which are crank-rockers, which drag links, and which stand so near to a change point that sums of floats may err.
+
+    Source
+        Grashof's rule, as `FourBar.kind`
+    """
+    lengths = np.sort(np.array(links[:4]), axis=0)
+    margin = (lengths[1] - lengths[0]) + (lengths[2] - lengths[3])
+    near = np.abs(margin) <= 1e-9 * lengths[3]
+    good = margin > 0.0
+    return good & (links.a == lengths[0]), good & (links.d == lengths[0]), near
+
+
+def _triangle(phi: Reals, links: Drives) -> Any:
+    """sin(phi), squares of the half angle's cosine and sine, n^2, R and (P - Q)/2 of `linkages.fourbar.loop`."""
+    *found, p, q = triangle(links, np.sin(0.5 * phi), np.cos(0.5 * phi))
+    return *found, np.sqrt(p * q), 0.5 * (p - q)
+
+
+def speed(phi: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
+    """Speed ratio of the output and its first two derivatives with respect to the crank angle."""
+    b_1, c_1, b_2, c_2, b_3, c_3 = rates(links, _triangle(phi, links), 3)
+    return links.ratio + blend(links, b_1, c_1), blend(links, b_2, c_2), blend(links, b_3, c_3)
+
+
+def output_angle(phi: Reals, links: Drives) -> Reals:
+    """Angle of the output [rad], continuous in the crank angle; its zero is any."""
+    a, d, s = links.a, links.d, links.s
+    sin, cc, ss, n2, r, _ = _triangle(phi, links)
+    e = links.e
+    drag = a > d
+    nu = np.where(
+        drag,
+        phi - math.pi + np.arctan2(d * sin, (a - d) * cc + (a + d) * ss),
+        np.arctan2(-a * sin, (d - a) * cc + (d + a) * ss),
+    )
+    coupler, rocker = nu + s * np.arctan2(r, e + n2), nu + s * np.arctan2(r, e - n2)
+    return np.asarray(links.ratio * phi + links.coupler_share * coupler + links.rocker_share * rocker)
+
+
+def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Reals, Mask]:
+    """Greatest (sign 1) or least (-1) speed ratio, its crank angle, and where the search came to rest on one.
+
+    Notes
+        Newton's method on the acceleration from s times the start, steps of 0.6 rad at most.
+    """
+    phi = links.s * start
+    rests = np.zeros(phi.shape, dtype=bool)
+    live = np.flatnonzero(np.isfinite(least_transmission_angle(*links[:4])))
+    for _ in range(_MOST_STEPS):
+        _, slope, bend = speed(phi[live], links.part(live))
+        step = slope / bend
+        # Where the speed is bent the other way, the step leads uphill (or downhill) by the slope's sign.
+        wrong = bend * sign >= 0.0
+        step = np.where(wrong, -np.sign(slope) * sign * _LONGEST_STEP, step)
+        step = np.clip(step, -_LONGEST_STEP, _LONGEST_STEP)  # a step of the search, no result
+        phi[live] -= step
+        done = ~wrong & (np.abs(step) <= _RESTS)
+        rests[live[done]] = True
+        live = live[~done]
+        if not live.size:
+            break
+    return speed(phi, links)[0], phi, rests
+
+
+def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals, Reals, Mask]:
+    """Crank angles [rad] of both standstills, ascending, NaN where there is none; and where there may be just one.
+
+    Parameters
+        radii : (N,) arrays [mm] - reference radii of crank gear, idler and output gear
+    Source
+        as `dwell.dwell_positions`
+    """
+    r1, r3, r5 = radii
+    a, d = links.a, links.d
+    total, poles = r1 + 2.0 * r3 + r5, sum(pole_lengths(*radii, ARRAYS))
+    e_lo = r1 * r1 * total / poles**2
+    e_hi = r1 * (r1 / e_lo)
+    frame = touching(r1, r3, r5, a, np.where(a < r1, e_lo, e_hi), ARRAYS).frame
+    reached = (e_lo < a) & (a < e_hi)
+    near = reached & (np.abs(d - frame) <= 1e-5 * frame)
+    near |= np.minimum(np.abs(a - e_lo), np.abs(a - e_hi)) <= 1e-9 * a
+    found = standing(a, d, frame, radii, ARRAYS)
+    places = [wrapped(links.s * angle_of_poles(r1, r5, *each, ARRAYS)) for each in found]
+    exists = reached & (d > frame)
+    return np.where(exists, np.minimum(*places), np.nan), np.where(exists, np.maximum(*places), np.nan), near
+
+
+def wrapped(angle: Any) -> Reals:
+    """The angle within [0, 2 pi)."""
+    turned = np.mod(angle, _TURN)
+    return np.where(turned >= _TURN, 0.0, turned)
+
+
+def back_step(low: Reals, high: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
+    """Start, crank angle and size of the back-step between two standstills [rad], as `dwell.back_step`."""
+    falls = speed(low, links)[1] <= 0.0
+    start, end = np.where(falls, low, high), np.where(falls, high, low)
+    width = wrapped(end - start)
+    return start, width, output_angle(start, links) - output_angle(start + width, links)
+
+
+def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
+    """phi13 [rad]: the crank angle from the start until the output has regained its place, as `dwell.dwell_angle`."""
+    level = output_angle(start, links)
+
+    def gained(x: Reals, start: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
+        drives = Drives(*rows)
+        return output_angle(start + x, drives) - level, speed(start + x, drives)[0]
+
+    high = np.full(width.shape, _TURN)
+    return newton_roots(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)
+
+
+_FIT = 1e-13
+_LONGEST_OF_ENDS = 0.4  # step of both ends of a band [rad]
+_NEAR, _SLOW = 1e-9, 1e-5
+
+
+class Valleys(NamedTuple):
+    """Where outputs are slow, (N,) arrays [rad]: `Valley` of `linkages.band_dwell`, and where the speed is least."""
+
+    drives: Drives
+    first: Reals
+    second: Reals
+    least: Reals
+    greatest: Reals
+    tolerance: Reals
+
+    def part(self, places: Any) -> Valleys:
+        """Some of the designs."""
+        return Valleys(self.drives.part(places), *(row[places] for row in self[1:]))
+
+
+class Dwells(NamedTuple):
+    """Start and length of the dwells [rad], whether the start is one of two as good, and whether a root is doubtful."""
+
+    start: Reals
+    crank_angle: Reals
+    tied: Mask
+    doubtful: Mask
+
+
+def longest_in_band(valleys: Valleys) -> Dwells:
+    """The longest crank interval over which each output stays within +- tol of a place that is free to choose.
+
+    Parameters
+        valleys : Valleys - tolerances below half of what the output gains in a turn
+    """
+    band = 2.0 * valleys.tolerance
+    drop = _drop(valleys)
+    wide = drop > band * (1.0 + _FIT)
+    doubtful = np.asarray((drop > 0.0) & (np.abs(drop - band) <= _NEAR))
+    left, right = np.full(drop.shape, np.nan), np.full(drop.shape, np.nan)
+    tied = np.zeros(drop.shape, dtype=bool)
+    for places, ends in ((np.flatnonzero(~wide), _around_both), (np.flatnonzero(wide), _around_one_extreme)):
+        if places.size:
+            left[places], right[places], mark = ends(valleys.part(places))
+            (doubtful if ends is _around_both else tied)[places] |= mark
+    slowest = np.minimum(np.abs(speed(left, valleys.drives)[0]), np.abs(speed(right, valleys.drives)[0]))
+    return Dwells(wrapped(left), right - left, tied, doubtful | ~(slowest > _SLOW))
+
+
+def _drop(valleys: Valleys) -> Reals:
+    fall = output_angle(valleys.first, valleys.drives) - output_angle(valleys.second, valleys.drives)
+    return np.where(valleys.second > valleys.first, fall, 0.0)
+
+
+def _around_both(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
+    """Intervals that hold both standstills: ends of one speed, or one end that binds; and what did not settle."""
+    drives, first, second = valleys.drives, valleys.first, valleys.second
+    high = first + np.mod(valleys.greatest - first, _TURN)
+    low = high - _TURN
+    bottom, top = output_angle(second, drives), output_angle(first, drives)
+    left, right, rests = _of_one_speed(valleys)
+    inside = rests & (low <= left) & (left <= first) & (second <= right) & (right <= high)
+    inside &= (output_angle(left, drives) <= bottom) & (output_angle(right, drives) >= top)
+    places = np.flatnonzero(~inside)
+    if places.size:
+        part = valleys.part(places)
+        left[places], right[places], inside[places] = _with_one_end(part, low[places], high[places])
+    return left, right, ~inside
+
+
+def _of_one_speed(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
+    """phi5(R) - phi5(L) = 2 tol, W(L) = W(R), from the cubic about the least speed."""
+    drives, tolerance = valleys.drives, valleys.tolerance
+    least, _, bend = speed(valleys.least, drives)
+    reach = np.sqrt(np.maximum(-6.0 * least / bend, 0.0)) + np.cbrt(6.0 * tolerance / bend)
+    for _ in range(4):
+        reach = reach - (least * reach + bend * reach**3 / 6.0 - tolerance) / (least + 0.5 * bend * reach * reach)
+    reach = np.where(reach > 0.0, np.minimum(reach, 0.5 * math.pi), 0.5 * math.pi)
+    left, right = valleys.least - reach, valleys.least + reach
+    rests = np.zeros(left.shape, dtype=bool)
+    live: Any = np.arange(left.size)
+    for _ in range(_MOST_STEPS):
+        some, band = drives.part(live), 2.0 * tolerance[live]
+        one, other = left[live], right[live]
+        (w1, s1, _), (w2, s2, _) = speed(one, some), speed(other, some)
+        missing, faster = output_angle(other, some) - output_angle(one, some) - band, w2 - w1
+        whole = w2 * s1 - w1 * s2
+        back, on = (w2 * faster - s2 * missing) / whole, (w1 * faster - s1 * missing) / whole
+        # The steps of the search are held, no result.
+        back, on = np.clip(back, -_LONGEST_OF_ENDS, _LONGEST_OF_ENDS), np.clip(on, -_LONGEST_OF_ENDS, _LONGEST_OF_ENDS)
+        left[live], right[live] = one + back, other + on
+        rest = (np.abs(back) <= _RESTS) & (np.abs(on) <= _RESTS)
+        rests[live[rest]] = True
+        live = live[~rest & np.isfinite(back) & np.isfinite(on)]
+        if not live.size:
+            break
+    return left, right, rests
+
+
+def _with_one_end(valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Reals, Mask]:
+    """One end as far as it may be where the speeds at both cannot be equal; else a root inside brackets of how far the
+    output rises to its place at phi(2). And where that was found.
+    """
+    drives, second = valleys.drives, valleys.second
+    bottom, top = output_angle(second, drives), output_angle(valleys.first, drives)
+    spare = np.maximum(2.0 * valleys.tolerance - _drop(valleys), 0.0)
+    least = np.maximum(spare - (output_angle(high, drives) - top), 0.0)
+    most = np.minimum(spare, bottom - output_angle(low, drives))
+    one, other = _ends(least, valleys, low, high), _ends(most, valleys, low, high)
+    early, late = one[2] <= 0.0, other[2] >= 0.0
+    rise = np.where(early, least, most)
+    between = np.flatnonzero(~early & ~late)
+    if between.size:
+        some = valleys.part(between), low[between], high[between]
+        rise[between] = bracketed_roots(lambda x: _ends(x, *some)[2], least[between], most[between])
+    left, right, _ = _ends(rise, valleys, low, high)
+    return left, right, np.isfinite(rise)
+
+
+def _ends(rise: Reals, valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Reals, Reals]:
+    """Both ends of the interval that begins so far below the output's place at phi(2), and the gain of speed in it."""
+    drives, first, second = valleys.drives, valleys.first, valleys.second
+    start = output_angle(second, drives) - rise
+    left = _reach(drives, start, low, first)
+    right = _reach(drives, start + 2.0 * valleys.tolerance, second, high)
+    return left, right, speed(right, drives)[0] - speed(left, drives)[0]
+
+
+def _around_one_extreme(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
+    """The longer of the intervals around phi(1) and phi(2), of back-steps above 2 tol; and where both are as long."""
+    drives, first, second = valleys.drives, valleys.first, valleys.second
+    floor = output_angle(first, drives) - 2.0 * valleys.tolerance
+    ceiling = output_angle(second, drives) + 2.0 * valleys.tolerance
+    before = _reach(drives, floor, second - _TURN, first), _reach(drives, floor, first, second, -1.0)
+    after = _reach(drives, ceiling, first, second, -1.0), _reach(drives, ceiling, second, first + _TURN)
+    gained = (before[1] - before[0]) - (after[1] - after[0])
+    earlier = gained >= 0.0
+    left, right = np.where(earlier, before[0], after[0]), np.where(earlier, before[1], after[1])
+    return left, right, np.abs(gained) <= _NEAR
+
+
+def _reach(drives: Drives, level: Reals, left: Reals, right: Reals, sign: float = 1.0) -> Reals:
+    """Crank angles between two others at which rising (sign 1) or falling outputs pass a level; else the nearer end."""
+
+    def above(x: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
+        some = Drives(*rows)
+        return sign * (output_angle(x, some) - level), sign * speed(x, some)[0]
+
+    at_left, at_right = above(left, level, *drives)[0], above(right, level, *drives)[0]
+    found = newton_roots(above, left, right, 0.5 * (left + right), level, *drives)
+    return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))
+
 
 _BLOCK = 8192
 
@@ -34,7 +344,7 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
         r1, r3, r5, eccentricity : arrays that broadcast [mm] - positive
     Returns
         dwells : MomentaryDwells - `exists` where a crank-rocker has one: e_lo < e < e_up as in
-            `momentary_dwell.eccentricity_range`; assembly +1
+            `momentary.eccentricity_range`; assembly +1
     Raises
         NoSolution - for a length that is not positive and finite
     Example
@@ -43,7 +353,7 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
         ([False, True, True, False], [122.839414792, 115.522215625])
 
     Source
-        own derivation; scalar form in `gearlink.core.machines.three_gear.dwell.momentary_dwell`
+        own derivation; scalar form in `gearlink.core.machines.three_gear.momentary`
     """
     arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)))
     if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.design import placed
-from gearlink.core.base.real_speed import OutputSpeed
 
 if TYPE_CHECKING:
     from gearlink.core.parts.linkages.standstills import Turning
 
 
-class OutputRates(OutputSpeed):
+class OutputRates:
     """The extremes of the output's ratios; a design gives all turnings of both over its period."""
 
     @property

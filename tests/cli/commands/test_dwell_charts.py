@@ -17,7 +17,7 @@ from factory import design
 
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.symmetric.family import symmetric_linkage
+from gearlink.core.machines.three_gear.symmetric import symmetric_linkage
 from tests.oracles.three_gear_output import output_motion
 
 NEW = ("dwell-ratio", "dwell-tolerance", "dwell-frame", "velocity-peak", "acceleration-peak", "energy-parameter")

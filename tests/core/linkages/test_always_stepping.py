@@ -20,9 +20,9 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
 from gearlink.core.machines.planet_linkages.two_gear_frames import Family
 from gearlink.core.machines.planet_linkages.two_gear_synthesis import always_stepping as two_gear_frames
-from gearlink.core.machines.three_gear.families import external, internal
+from gearlink.core.machines.three_gear.dwell_synthesis import always_stepping as three_gear_frames
+from gearlink.core.machines.three_gear.families import with_crank
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.synthesis.always import always_stepping as three_gear_frames
 from gearlink.core.parts.linkages.always_stepping import AlwaysStepping, keeping
 
 STEP = 0.5  # deg
@@ -79,13 +79,10 @@ def two_gears(planet: int, ring: int, coupler: float, rocker: float, assembly: i
 
 def three_gears(z1: int, z3: int, z5: int, crank: float, assembly: int = 1) -> Case | None:
     """Module 2, so that radii are teeth; z5 < 0 is a ring round the train."""
-    form: Any = internal if z5 < 0 else external
     i2, i3 = -z1 / z3, -z3 / z5
     links = crank, float(z1 + z3), float(abs(z3 + z5))
     try:
-        frames = three_gear_frames(
-            form.with_crank(float(z1), float(z3), float(z5), crank, assembly), GearTrain(z1, z3, z5)
-        )
+        frames = three_gear_frames(with_crank(float(z1), float(z3), float(z5), crank, assembly), GearTrain(z1, z3, z5))
     except NoSolution:
         return None
 

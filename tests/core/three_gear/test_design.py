@@ -22,7 +22,7 @@ from oracles.three_gear import Drive
 from sweeps import mostly_slow
 
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.machines.three_gear.names import MESHES
+from gearlink.core.machines.three_gear.design import MESHES
 from gearlink.core.parts.gears.mesh.pair import GearPair
 
 ROOT = Path(__file__).parents[3]

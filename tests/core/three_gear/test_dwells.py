@@ -15,8 +15,8 @@ import pytest
 from sweeps import ALL
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_angle, dwell_positions, motion
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_linkage, tangency
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, dwell_positions, motion
+from gearlink.core.machines.three_gear.momentary import momentary_linkage, tangency
 from gearlink.core.machines.three_gear.motion import (
     GearTrain,
     output_acceleration,
@@ -24,9 +24,8 @@ from gearlink.core.machines.three_gear.motion import (
     output_speed,
     speed_extremes,
 )
-from gearlink.core.machines.three_gear.symmetric.back_step import back_step_angle
-from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle as closed_dwell_angle
-from gearlink.core.machines.three_gear.symmetric.family import frame_ratio_for_back_step, symmetric_linkage
+from gearlink.core.machines.three_gear.symmetric import back_step_angle, frame_ratio_for_back_step, symmetric_linkage
+from gearlink.core.machines.three_gear.symmetric import dwell_angle as closed_dwell_angle
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 REFERENCE = Path(__file__).parents[2] / "reference"

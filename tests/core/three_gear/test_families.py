@@ -16,16 +16,15 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_positions
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+from gearlink.core.machines.three_gear import families
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_positions, tolerance_dwell
+from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     crank_with_room,
     eccentricity_for_frame,
     eccentricity_range,
     momentary_frame_length,
 )
-from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
-from gearlink.core.machines.three_gear.families import external as families
 from gearlink.core.machines.three_gear.motion import GearTrain, output_angle, speed_extremes
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())

@@ -6,15 +6,15 @@ import factory
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import momentary_linkage
-from gearlink.core.machines.three_gear.idler_choice import idler_for_ratio, smallest_idler
+from gearlink.core.machines.three_gear.momentary import momentary_linkage
 from gearlink.core.machines.three_gear.motion import GearTrain, gear_gap
-from gearlink.core.machines.three_gear.symmetric.back_step import crank_angle_for_dwell
-from gearlink.core.machines.three_gear.symmetric.family import (
+from gearlink.core.machines.three_gear.symmetric import (
+    crank_angle_for_dwell,
     frame_ratio_for_back_step,
     frame_ratio_for_speed_band,
     symmetric_linkage,
 )
+from gearlink.core.machines.three_gear.synthesis import idler_for_ratio, smallest_idler
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 LIMITS = {"min_transmission_angle": math.radians(40.0), "min_gear_gap": 0.0}

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlink.core.machines.three_gear.many import symmetric as many
-from gearlink.core.machines.three_gear.many.idler import Tried, smallest_idlers
-from gearlink.core.machines.three_gear.symmetric import family
+from gearlink.core.machines.three_gear import symmetric, symmetric_sweep
+from gearlink.core.machines.three_gear.axis import Tried, smallest_idlers
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 
 N = 1.0 + np.geomspace(1e-3, 50.0, 4000)  # of 1 tooth to 1000, up to 400 to 8
@@ -19,13 +18,15 @@ N = 1.0 + np.geomspace(1e-3, 50.0, 4000)  # of 1 tooth to 1000, up to 400 to 8
 def of_dwell(degrees: float) -> Any:
     reached = 2.0 * math.pi * N / (N + 1.0) > math.radians(degrees) * (1.0 + 1e-9)
     n = N[reached]
-    return family.frame_ratio(1.0 - n, many.half_angle_for_dwell(n, np.full(n.shape, math.radians(degrees))), ARRAYS)
+    return symmetric.frame_ratio(
+        1.0 - n, symmetric_sweep.half_angle_for_dwell(n, np.full(n.shape, math.radians(degrees))), ARRAYS
+    )
 
 
 def of_back_step(degrees: float) -> Any:
     n = N[math.pi * (N - 1.0) > math.radians(degrees) * (1.0 + 1e-9)]
-    return family.frame_ratio(
-        1.0 - n, many.half_angle_for_back_step(n, np.full(n.shape, math.radians(degrees))), ARRAYS
+    return symmetric.frame_ratio(
+        1.0 - n, symmetric_sweep.half_angle_for_back_step(n, np.full(n.shape, math.radians(degrees))), ARRAYS
     )
 
 
@@ -39,7 +40,7 @@ def test_the_frame_ratio_rises_with_the_idler(family: Any, degrees: float) -> No
 
 
 def test_the_frame_ratio_of_a_speed_band_rises_with_the_idler() -> None:
-    found = family.frame_ratio_between(1.0 - N, np.full(N.shape, 20.0), np.full(N.shape, 21.0), ARRAYS)
+    found = symmetric.frame_ratio_between(1.0 - N, np.full(N.shape, 20.0), np.full(N.shape, 21.0), ARRAYS)
     assert (np.diff(found) > 0.0).all()
 
 

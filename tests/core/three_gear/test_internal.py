@@ -20,11 +20,9 @@ from factory import changed, design, worked
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell import internal_dwell
-from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_positions
-from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
-from gearlink.core.machines.three_gear.families import internal as internal_families
-from gearlink.core.machines.three_gear.families.external import back_step_of, ripple, solved
+from gearlink.core.machines.three_gear import families, momentary
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_positions, tolerance_dwell
+from gearlink.core.machines.three_gear.families import back_step_of, ripple, solved
 from gearlink.core.machines.three_gear.motion import (
     GearTrain,
     forward,
@@ -64,7 +62,7 @@ def test_standstills_of_the_reference(name: str) -> None:
 def test_momentary_dwell_of_the_reference() -> None:
     given, want = case("A6.4")["input"], case("A6.4")["expected"]
     radii = given["r1"], given["r3"], given["r5"]
-    linkage = internal_families.momentary_linkage(*radii, given["crank"])
+    linkage = families.momentary_ring_linkage(*radii, given["crank"])
     assert linkage.frame == pytest.approx(want["frame"], rel=1e-13)
     (place,) = dwell_positions(linkage, GearTrain(*radii))
     assert math.degrees(place) == pytest.approx(want["crank_angle"], rel=1e-11)
@@ -141,7 +139,7 @@ def test_momentary_dwell_at_forty_digits() -> None:
         for _ in range(20):
             r1, r3 = (mp.mpf(draw.uniform(8.0, 60.0)) for _ in range(2))
             r5 = -(r1 + r3) * mp.mpf(draw.uniform(1.03, 2.5))
-            found = internal_dwell.shape(float(r1), float(r3), float(r5))
+            found = momentary.shape(float(r1), float(r3), float(r5))
             e = mp.mpf(draw.uniform(found.low, found.high))
             s, t = r1 + 2 * r3 + r5, r1 + r3 + r5
             p, q = s * s + r1**2 - r5**2, 16 * r3 * (r3 + r5) * (r1 + r3) * t
@@ -150,7 +148,7 @@ def test_momentary_dwell_at_forty_digits() -> None:
             g = 2 * s * s * h / (p + root)  # sigma = -1
             assert abs((2 * p * g - 4 * s * s * h) ** 2 - 4 * q * g * g) < mp.mpf(10) ** -25 * p**4
             frame = mp.sqrt(h + r5 * r5 - g)
-            star = internal_dwell.tangency(float(r1), float(r3), float(r5), float(e))
+            star = momentary.ring_tangency(float(r1), float(r3), float(r5), float(e))
             assert star is not None
             # float arguments cost eps times the condition number, some tens at the ends of the range
             assert star.frame == pytest.approx(float(frame), rel=1e-12)
@@ -161,10 +159,10 @@ def test_back_step_rises_from_the_momentary_frame_to_the_end_of_the_turning_rang
     while tried < 12:
         r1, r3 = draw.uniform(8.0, 60.0), draw.uniform(8.0, 60.0)
         radii = r1, r3, -(r1 + r3) * draw.uniform(1.03, 2.5)
-        found = internal_dwell.shape(*radii)
+        found = momentary.shape(*radii)
         crank = draw.uniform(found.low, min(found.high, r1 + r3, -r3 - radii[2]))
         try:
-            family = internal_families.with_crank(*radii, crank)
+            family = families.with_crank(*radii, crank)
         except NoSolution:
             continue
         if family.low is None:
@@ -204,7 +202,7 @@ def brute_window(linkage: FourBar, train: GearTrain, tolerance: float) -> float:
 def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: float) -> None:
     """The whole turning range of frames, by brute force."""
     train, tolerance = GearTrain(*radii), math.radians(0.5)
-    family = internal_families.with_crank(*radii, crank)
+    family = families.with_crank(*radii, crank)
     linkage = solved(family, back_step_of(train), 2.0 * tolerance, "")
     window = ripple(linkage, train).crank_angle
     low, high = sorted((family.least, family.high))
@@ -230,17 +228,17 @@ def test_tolerance_dwell_against_brute_force() -> None:
 def test_families_meet_in_the_same_linkage() -> None:
     radii, request = (24.0, 18.0, -59.0), math.radians(1.0)
     measure = back_step_of(GearTrain(*radii))
-    even = solved(internal_families.balanced(*radii), measure, request, "")
+    even = solved(families.balanced(*radii), measure, request, "")
     least, most = (even.coupler**2 + even.rocker**2 - (even.frame + side * even.crank) ** 2 for side in (1.0, -1.0))
     assert least == pytest.approx(-most, rel=1e-9)
-    framed = solved(internal_families.with_frame(*radii, even.frame), measure, request, "")
-    cranked = solved(internal_families.with_crank(*radii, even.crank), measure, request, "")
+    framed = solved(families.with_frame(*radii, even.frame), measure, request, "")
+    cranked = solved(families.with_crank(*radii, even.crank), measure, request, "")
     assert framed.crank == pytest.approx(even.crank, rel=1e-10)
     assert cranked.frame == pytest.approx(even.frame, rel=1e-10)
-    e = internal_families.balanced_eccentricity(*radii)
-    once = internal_families.momentary_linkage(*radii, e)
+    e = momentary.balanced_eccentricity(*radii)
+    once = families.momentary_ring_linkage(*radii, e)
     assert once.crank**2 + once.frame**2 == pytest.approx(once.coupler**2 + once.rocker**2, rel=1e-12)
-    assert internal_families.eccentricity_for_frame(*radii, once.frame) == pytest.approx(e, rel=1e-12)
+    assert momentary.eccentricity_for_frame(*radii, once.frame) == pytest.approx(e, rel=1e-12)
 
 
 def test_forward_counts_the_output_along_its_mean() -> None:
@@ -388,7 +386,7 @@ def test_tolerances_of_a_ring_are_answered(
 
 
 def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
-    from gearlink.core.machines.three_gear.many.axis import axis
+    from gearlink.core.machines.three_gear.axis import axis
 
     ring = made("analyze", dwell=None, links={"crank": 22, "frame": 53}).spec
     assert axis(ring, "analyze", ["links.crank"], ["frame_length"], []) is None

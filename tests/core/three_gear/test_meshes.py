@@ -14,8 +14,8 @@ from factory import design
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
-from gearlink.core.machines.three_gear.dwell.by_roots import ByRoots
+from gearlink.core.machines.three_gear.dwell import ByRoots
+from gearlink.core.machines.three_gear.samples import ThreeGearSamples
 from gearlink.core.parts.gears.data import PLACES
 from gearlink.core.parts.gears.train.names import TRAIN_QUANTITIES
 

@@ -16,7 +16,7 @@ from oracles.symmetric import momentary_frame_ratio
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+from gearlink.core.machines.three_gear.momentary import (
     eccentricity_range,
     least_eccentricity,
     momentary_crank_angle,
@@ -33,7 +33,7 @@ from gearlink.core.machines.three_gear.motion import (
     output_speed,
     speed_extremes,
 )
-from gearlink.core.machines.three_gear.symmetric.family import symmetric_linkage
+from gearlink.core.machines.three_gear.symmetric import symmetric_linkage
 
 CASES = {
     case["id"]: case

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+from gearlink.core.machines.three_gear import symmetric_sweep
+from gearlink.core.machines.three_gear.momentary import (
     momentary_crank_angle,
     momentary_frame_length,
     tangency_range,
 )
-from gearlink.core.machines.three_gear.many import symmetric as symmetric_many
 from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
-from gearlink.core.machines.three_gear.symmetric.back_step import dwell_angle
+from gearlink.core.machines.three_gear.symmetric import dwell_angle
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from tests.oracles.three_gear_output import output_motion
 
@@ -75,7 +75,7 @@ def test_momentary_dwells_agree_with_the_scalar_forms():
 
 def test_dwell_angles_of_studies_agree_with_the_scalar_root():
     i3, phi12 = np.meshgrid(-np.geomspace(0.5, 12.0, 15), np.linspace(0.35, 3.1, 20))
-    found = symmetric_many.dwell_angle(1.0 - i3.ravel(), 0.5 * phi12.ravel())
+    found = symmetric_sweep.dwell_angle(1.0 - i3.ravel(), 0.5 * phi12.ravel())
     exact = np.array([dwell_angle(float(r), float(p)) for r, p in zip(i3.flat, phi12.flat, strict=True)])
     assert np.max(np.abs(found / exact - 1.0)) < 1e-13
 

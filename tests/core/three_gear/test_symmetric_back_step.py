@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.symmetric.back_step import (
+from gearlink.core.machines.three_gear.symmetric import (
     back_step_angle,
     crank_angle_for_back_step,
     crank_angle_for_dwell,
@@ -168,9 +168,9 @@ def test_refuses_a_back_step_out_of_reach():
 @pytest.mark.parametrize(("i3", "phi12"), [(-0.04, 3.141), (-0.0156949174, 3.0441540192), (-1e-3, 3.1), (-0.19, 3.0)])
 def test_many_at_once_never_take_the_root_at_the_back_step_s_own_end(i3: float, phi12: float) -> None:
     # y = h solves the equation too; a start near 2 h may fall to it
-    from gearlink.core.machines.three_gear.many import symmetric as symmetric_many
+    from gearlink.core.machines.three_gear import symmetric_sweep
 
-    found = symmetric_many.dwell_angle(np.array([1.0 - i3]), np.array([0.5 * phi12]))[0]
+    found = symmetric_sweep.dwell_angle(np.array([1.0 - i3]), np.array([0.5 * phi12]))[0]
     assert float(found) == pytest.approx(dwell_angle(i3, phi12), rel=4e-15 / -i3, abs=0.0)
 
 

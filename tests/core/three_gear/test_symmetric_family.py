@@ -16,8 +16,8 @@ from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.motion import GearTrain, acceleration_extremes, gear_gap, speed_extremes
-from gearlink.core.machines.three_gear.symmetric.back_step import crank_angle_for_dwell
-from gearlink.core.machines.three_gear.symmetric.family import (
+from gearlink.core.machines.three_gear.symmetric import (
+    crank_angle_for_dwell,
     frame_ratio_for_back_step,
     frame_ratio_for_speed_band,
     peak_acceleration_ratio,

@@ -23,7 +23,7 @@ from pydantic import ValidationError
 from sweeps import examples
 
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.machines.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.machines.three_gear import symmetric
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "synth.json").read_text())
 EQUAL = {"module": 2.0, "crank": 40, "output": 40}
@@ -155,7 +155,7 @@ def test_speeds_of_the_band_at_their_mean(low, high, assembly):
 @pytest.mark.parametrize("teeth", [(20, 20, 60), (20, 33, 17), (60, 30, 20), (40, 17, 40)])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_momentary_dwell_is_a_double_root_of_the_speed(teeth, share, assembly):
-    from gearlink.core.machines.three_gear.dwell.momentary_dwell import eccentricity_range
+    from gearlink.core.machines.three_gear.momentary import eccentricity_range
 
     low, high = eccentricity_range(*(1.25 * z for z in teeth))
     gears = dict(zip(("crank", "idler", "output"), teeth, strict=True)) | {"module": 2.5}
@@ -468,10 +468,11 @@ def test_crank_that_is_named_keeps_the_gears_apart(gears):
 # Nothing but what is asked for
 
 
-def test_frame_ratio_of_a_given_idler_makes_no_linkage():
+def test_frame_ratio_of_a_given_idler_takes_no_motion():
     made = design("synth back-step", gears=EQUAL | {"idler": 72}, back_step={"crank_angle": 90.0})
     assert value(made, "frame_ratio") == pytest.approx(3.951703805053557, rel=1e-14)
-    assert not set(vars(made)) & {"linkage", "meshes", "speed_extremes", "dwell_angle"}
+    assert not set(vars(made)) & {"meshes", "mean_ratio", "layout"}
+    assert not set(vars(made.output)) & {"speed_extremes", "places", "dwell_angle"}
 
 
 def test_closed_forms_replace_the_search_for_extremes():
@@ -484,11 +485,11 @@ def test_closed_forms_replace_the_search_for_extremes():
 def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
     solved = []
 
-    def counted(i3, angle, solve=symmetric_back_step.crank_angle_for_dwell):
+    def counted(i3, angle, solve=symmetric.crank_angle_for_dwell):
         solved.append(i3)
         return solve(i3, angle)
 
-    monkeypatch.setattr(symmetric_back_step, "crank_angle_for_dwell", counted)
+    monkeypatch.setattr(symmetric, "crank_angle_for_dwell", counted)
     made = design("synth dwell", gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0})
     made.require("synth dwell")
     assert [made.check(name) for name in made.outline("synth dwell").checks]
@@ -497,7 +498,7 @@ def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
 
 def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
     """However many checks ask for them; a trial, which nobody reads, seeks no words for its refusal either."""
-    from gearlink.core.machines.three_gear.synthesis import base as synthesis
+    from gearlink.core.machines.three_gear import synthesis
 
     tried = []
 

@@ -15,8 +15,13 @@ from hypothesis import strategies as st
 from sweeps import examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_angle, dwell_positions
-from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell, tolerance_from_backlash
+from gearlink.core.machines.three_gear.dwell import (
+    back_step,
+    dwell_angle,
+    dwell_positions,
+    tolerance_dwell,
+    tolerance_from_backlash,
+)
 from gearlink.core.machines.three_gear.motion import GearTrain, output_angle, output_speed
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 

@@ -17,8 +17,8 @@ from sweeps import ALL
 
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
-from gearlink.core.machines.three_gear.as_made.one import TolerancedDrive
-from gearlink.core.machines.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.as_made import TolerancedDrive
+from gearlink.core.machines.three_gear.samples import ThreeGearSamples
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.lengths import Lengths, solve
 from gearlink.core.parts.linkages.fourbar.position import FourBar

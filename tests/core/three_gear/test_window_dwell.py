@@ -22,13 +22,15 @@ from hypothesis import strategies as st
 from oracles.symmetric import momentary_frame_ratio
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.tolerance_dwell import tolerance_dwell
+from gearlink.core.machines.three_gear import symmetric
+from gearlink.core.machines.three_gear.dwell import tolerance_dwell
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.three_gear.symmetric import window_dwell
-from gearlink.core.machines.three_gear.symmetric.back_step import crank_angle_for_window, dwell_angle, window_limit
-from gearlink.core.machines.three_gear.symmetric.family import (
+from gearlink.core.machines.three_gear.symmetric import (
+    crank_angle_for_window,
+    dwell_angle,
     frame_ratio_for_back_step,
     symmetric_linkage,
+    window_limit,
 )
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
@@ -46,8 +48,8 @@ def rad(angle: float) -> float:
 @pytest.mark.parametrize(("given_", "wanted"), cases("A1."))
 def test_longest_window(given_: Any, wanted: Any) -> None:
     i3, tau = given_["i3"], rad(given_["tolerance_deg"])
-    phi12 = window_dwell.crank_angle_for_tolerance(i3, tau)
-    assert math.degrees(window_dwell.longest_window(i3, tau)) == pytest.approx(wanted["window"], rel=EXACT)
+    phi12 = symmetric.crank_angle_for_tolerance(i3, tau)
+    assert math.degrees(symmetric.longest_window(i3, tau)) == pytest.approx(wanted["window"], rel=EXACT)
     assert math.degrees(phi12) == pytest.approx(wanted["back_step_crank_angle"], rel=EXACT)
     assert math.degrees(dwell_angle(i3, phi12)) == pytest.approx(wanted["dwell_angle"], rel=EXACT)
     assert frame_ratio_for_back_step(i3, phi12) == pytest.approx(wanted["frame_ratio"], rel=EXACT)
@@ -57,7 +59,7 @@ def test_longest_window(given_: Any, wanted: Any) -> None:
 def test_flattest_window(given_: Any, wanted: Any) -> None:
     i3, window = given_["i3"], rad(given_["window_deg"])
     phi12 = crank_angle_for_window(i3, window)
-    assert math.degrees(window_dwell.least_tolerance(i3, window)) == pytest.approx(wanted["tolerance"], rel=EXACT)
+    assert math.degrees(symmetric.least_tolerance(i3, window)) == pytest.approx(wanted["tolerance"], rel=EXACT)
     assert math.degrees(phi12) == pytest.approx(wanted["back_step_crank_angle"], rel=EXACT)
     assert frame_ratio_for_back_step(i3, phi12) == pytest.approx(wanted["frame_ratio"], rel=EXACT)
 
@@ -65,14 +67,14 @@ def test_flattest_window(given_: Any, wanted: Any) -> None:
 @pytest.mark.parametrize(("given_", "wanted"), cases("A3."))
 def test_frame_interval(given_: Any, wanted: Any) -> None:
     i3, window, tau = given_["i3"], rad(given_["window_deg"]), rad(given_["tolerance_deg"])
-    low, high = window_dwell.frame_ratio_interval(i3, window, tau)
+    low, high = symmetric.frame_ratio_interval(i3, window, tau)
     assert low == pytest.approx(wanted["frame_ratio_limit_of_tolerance"], rel=EXACT)
     assert high == pytest.approx(wanted["frame_ratio_least_back_step"], rel=EXACT)
 
 
 @pytest.mark.parametrize(("given_", "wanted"), cases("A5."))
 def test_greatest_idler(given_: Any, wanted: Any) -> None:
-    ratios = window_dwell.reaching_ratios(rad(given_["window_deg"]), rad(given_["tolerance_deg"]))
+    ratios = symmetric.reaching_ratios(rad(given_["window_deg"]), rad(given_["tolerance_deg"]))
     assert -ratios[1] == pytest.approx(wanted["i3_limit"], rel=1e-10)
 
 
@@ -81,16 +83,16 @@ def test_the_closed_form_at_i3_minus_two() -> None:
     for window in (0.01, 0.3, 1.0, 1.5):
         tau = 3.0 * math.atan(math.tan(0.25 * window) / 3.0) - 0.25 * window
         lost = 4.0 * 2.0**-52 * (0.5 * window) / tau  # cancellation of the formula here
-        assert window_dwell.longest_window(-2.0, tau) == pytest.approx(window, rel=1e-14 + lost)
-        assert window_dwell.least_tolerance(-2.0, window) == pytest.approx(tau, rel=1e-14 + lost)
+        assert symmetric.longest_window(-2.0, tau) == pytest.approx(window, rel=1e-14 + lost)
+        assert symmetric.least_tolerance(-2.0, window) == pytest.approx(tau, rel=1e-14 + lost)
 
 
 @given(st.floats(-8.0, -0.3), st.floats(0.02, 5.0))
 def test_flattest_and_longest_are_inverse(i3: float, tolerance: float) -> None:
     tau = rad(tolerance)
-    window = window_dwell.longest_window(i3, tau)
+    window = symmetric.longest_window(i3, tau)
     # d ln(tau)/d ln(window) lies near 3 and grows towards the folded linkage
-    assert window_dwell.least_tolerance(i3, window) == pytest.approx(tau, rel=2e-12)
+    assert symmetric.least_tolerance(i3, window) == pytest.approx(tau, rel=2e-12)
 
 
 @settings(max_examples=12)
@@ -100,8 +102,8 @@ def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
     tau = rad(tolerance)
     train = GearTrain(10_000, round(-i3 * 10_000), 10_000)
     i3 = train.i3
-    longest = window_dwell.longest_window(i3, tau)
-    best = frame_ratio_for_back_step(i3, window_dwell.crank_angle_for_tolerance(i3, tau))
+    longest = symmetric.longest_window(i3, tau)
+    best = frame_ratio_for_back_step(i3, symmetric.crank_angle_for_tolerance(i3, tau))
     found = [
         tolerance_dwell(symmetric_linkage(1.0 + (best - 1.0) * share, 100.0), train, tau).crank_angle
         for share in (0.8, 0.97, 0.999, 1.0 + 1e-9, 1.001, 1.03, 1.3)
@@ -117,8 +119,8 @@ def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
 def test_every_frame_of_the_interval_meets_the_request(i3: float, tolerance: float, part: float, share: float) -> None:
     tau = rad(tolerance)
     train = GearTrain(10_000, round(-i3 * 10_000), 10_000)
-    window = max(2.5 * tau, part * window_dwell.longest_window(train.i3, tau))
-    low, high = window_dwell.frame_ratio_interval(train.i3, window, tau)
+    window = max(2.5 * tau, part * symmetric.longest_window(train.i3, tau))
+    low, high = symmetric.frame_ratio_interval(train.i3, window, tau)
     inside = symmetric_linkage(low + share * (high - low), 100.0)
     assert tolerance_dwell(inside, train, tau).crank_angle >= window * (1.0 - 1e-9)
     outside = symmetric_linkage(high + 0.02 * (high - low), 100.0)
@@ -130,23 +132,21 @@ def test_asymptote() -> None:
     for n in (1.5, 2.8, 6.0):
         for tau in (1e-6, 1e-9):
             leading = 4.0 * (3.0 * tau * n * n / (n * n - 1.0)) ** (1.0 / 3.0)
-            assert window_dwell.longest_window(1.0 - n, tau) == pytest.approx(leading, rel=3.0 * tau ** (2.0 / 3.0))
-            assert window_dwell.longest_window(1.0 - n, tau) / leading != 1.0
+            assert symmetric.longest_window(1.0 - n, tau) == pytest.approx(leading, rel=3.0 * tau ** (2.0 / 3.0))
+            assert symmetric.longest_window(1.0 - n, tau) / leading != 1.0
 
 
 def test_gain_over_the_momentary_dwell() -> None:
     tau, train = rad(1e-3), GearTrain(40, 72, 40)
     momentary = symmetric_linkage(momentary_frame_ratio(train.i3), 112.0)
-    gain = window_dwell.longest_window(train.i3, tau) / tolerance_dwell(momentary, train, tau).crank_angle
+    gain = symmetric.longest_window(train.i3, tau) / tolerance_dwell(momentary, train, tau).crank_angle
     assert gain == pytest.approx(4.0 ** (1.0 / 3.0), rel=1e-3)
 
 
 def test_window_of_large_idler_is_the_limit() -> None:
     for tolerance in (0.5, 1.0, 10.0):
         tau = rad(tolerance)
-        assert window_dwell.longest_window(-1e6, tau) == pytest.approx(
-            window_dwell.window_of_large_idler(tau), rel=1e-9
-        )
+        assert symmetric.longest_window(-1e6, tau) == pytest.approx(symmetric.window_of_large_idler(tau), rel=1e-9)
 
 
 def test_equal_ripple_at_forty_digits() -> None:
@@ -156,25 +156,25 @@ def test_equal_ripple_at_forty_digits() -> None:
         h = mpmath.findroot(lambda x: 2 * n * mpmath.atan(mpmath.tan(x) / n) - 2 * x - 2 * tau, 0.3)
         k = 1 / mpmath.sqrt((n * mpmath.cos(h)) ** 2 + mpmath.sin(h) ** 2)
         y = mpmath.findroot(lambda x: x - n * mpmath.asin(k * mpmath.sin(x)) - tau, 0.6)
-        assert window_dwell.longest_window(-1.8, float(tau)) == pytest.approx(float(2 * y), rel=4e-16)
+        assert symmetric.longest_window(-1.8, float(tau)) == pytest.approx(float(2 * y), rel=4e-16)
 
 
 class TestRefusals:
     def test_tolerance_beyond_every_back_step(self) -> None:
         with pytest.raises(NoSolution, match="below 45 deg"):
-            window_dwell.longest_window(-0.5, rad(46.0))
+            symmetric.longest_window(-0.5, rad(46.0))
 
     def test_window_beyond_reach_names_what_is_possible(self) -> None:
         with pytest.raises(NoSolution) as caught:
-            window_dwell.frame_ratio_interval(-1.8, rad(72.0), rad(0.5))
+            symmetric.frame_ratio_interval(-1.8, rad(72.0), rad(0.5))
         words = caught.value.message
         assert "at most over 70.436 deg" in words
         assert "within +-0.53485 deg" in words
         assert "-i3 of at most 1.3052 " in words
 
     def test_what_is_named_is_possible(self) -> None:
-        window_dwell.frame_ratio_interval(-1.8, rad(70.436), rad(0.5))
-        window_dwell.frame_ratio_interval(-1.8, rad(72.0), rad(0.53485))
+        symmetric.frame_ratio_interval(-1.8, rad(70.436), rad(0.5))
+        symmetric.frame_ratio_interval(-1.8, rad(72.0), rad(0.53485))
 
     @pytest.mark.parametrize(
         ("i3", "window", "tolerance", "words"),
@@ -189,15 +189,15 @@ class TestRefusals:
         self, i3: float, window: float, tolerance: float, words: str
     ) -> None:
         with pytest.raises(NoSolution) as caught:
-            window_dwell.frame_ratio_interval(i3, rad(window), rad(tolerance))
+            symmetric.frame_ratio_interval(i3, rad(window), rad(tolerance))
         assert words in caught.value.message
         ratio = float(words.rpartition(" of at ")[2].split()[1])
-        low, high = window_dwell.frame_ratio_interval(-ratio, rad(window), rad(tolerance))
+        low, high = symmetric.frame_ratio_interval(-ratio, rad(window), rad(tolerance))
         assert low < high
 
     def test_window_that_needs_no_linkage(self) -> None:
         with pytest.raises(NoSolution, match="needs no linkage"):
-            window_dwell.frame_ratio_interval(-1.8, rad(2.0), rad(1.0))
+            symmetric.frame_ratio_interval(-1.8, rad(2.0), rad(1.0))
 
     def test_window_beyond_the_family(self) -> None:
         with pytest.raises(NoSolution, match="whatever the tolerance"):
@@ -208,8 +208,8 @@ def test_frames_of_the_longest_window_are_one_up_to_rounding() -> None:
     """There both ends of the interval are the same frame: exchanged by a last bit they would hold nothing."""
     for i3 in (-0.1 * tenths for tenths in range(4, 61)):
         for tolerance in map(math.radians, (0.01, 0.3, 2.0, 9.0)):
-            window = window_dwell.longest_window(i3, tolerance)
-            low, high = window_dwell.frame_ratio_interval(i3, window, tolerance)
+            window = symmetric.longest_window(i3, tolerance)
+            low, high = symmetric.frame_ratio_interval(i3, window, tolerance)
             assert low <= high
             assert low == pytest.approx(high, rel=1e-6)
 
@@ -329,12 +329,12 @@ def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
 def test_the_reach_of_an_idler_rises_to_one_maximum_and_falls(tolerance: float) -> None:
     """Which the ratios that reach a window stand on: its maximum is 180 deg + 2 tau where it is not at infinity."""
     ratios = np.geomspace(0.1, 1e3, 400)
-    reached = [math.degrees(window_dwell.reach(-ratio, rad(tolerance))) for ratio in ratios]
+    reached = [math.degrees(symmetric.reach(-ratio, rad(tolerance))) for ratio in ratios]
     turns = np.flatnonzero(np.diff(np.sign(np.diff(reached))))
     assert len(turns) == (1 if tolerance < 32.0 else 0)
     assert max(reached) == pytest.approx(180.0 + 2.0 * tolerance, abs=0.02) if tolerance < 32.0 else reached[-1]
     window = 0.5 * (max(reached) + reached[-1]) if tolerance < 32.0 else 0.99 * reached[-1]
-    low, high = window_dwell.reaching_ratios(rad(window), rad(tolerance))
+    low, high = symmetric.reaching_ratios(rad(window), rad(tolerance))
     inside = [low <= ratio <= high for ratio in ratios]
     assert inside == [value >= window for value in reached]
 

@@ -1,4 +1,4 @@
-"""Linkages of any three external gears in one unknown, along which every task rises: one bracketed root solves each.
+"""Linkages of any three gears in one unknown length, along which every task rises: one bracketed root solves each.
 
 Gears fix coupler and rocker; a task (a back-step, a dwell, a swing of the speed) fixes one of crank and frame. The
 other is given, or the linkage is balanced: its transmission angle deviates equally at both ends,
@@ -8,30 +8,42 @@ other is given, or the linkage is balanced: its transmission angle deviates equa
     balanced:        d^2 = b^2 + c^2 - e^2, unknown e in (e_bal, min(b, c))
 
 with d*(e), e*(d) and e_bal of the momentary dwell, where the back-step begins. Back-step, phi12, phi13 and the window
-of equal ripple rise along each of them; the speed swing W_max - W_min too.
+of equal ripple rise along each of them; the speed swing W_max - W_min too. With a ring gear round the whole train the
+output steps back with a frame shorter than d*. `met_between` and `rooms` are the lengths of one link, the others as
+they are, with which the output stays within a band over a window.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
-from gearlink.core.machines.three_gear.dwell.dwells import back_step, dwell_angle, gain
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, tolerance_dwell
+from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     eccentricity_for_frame,
     eccentricity_range,
+    is_internal,
     least_eccentricity,
     momentary_frame_length,
+    ring_tangency,
+    shape,
     wrap,
 )
 from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle, speed_extremes
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+
 
 _AFTER_LOW, _BEFORE_HIGH = 1e-12, 1e-6  # shares of a range left out: at its high end stands a change-point linkage
 
@@ -120,11 +132,17 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
     """The linkages of a given crank.
 
     Parameters
-        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear, negative for an internal mesh
         crank : float [mm] - e
     Raises
         NoSolution - for a crank that cannot turn
+    Example
+        >>> family = with_crank(24.0, 17.0, -54.0, 22.0)
+        >>> round(family.low, 9), family.high
+        (49.532212052, 26.0)
     """
+    if is_internal(r1, r3, r5):
+        return _ring_with_crank(r1, r3, r5, crank, assembly)
     b, c = r1 + r3, r3 + r5
     least, high = frames_of(crank, b, c)
     e_lo, e_up = _momentary_range(r1, r3, r5)
@@ -143,6 +161,8 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
     Raises
         NoSolution - for a frame with which no crank-rocker exists
     """
+    if is_internal(r1, r3, r5):
+        return _ring_with_frame(r1, r3, r5, frame, assembly)
     b, c = r1 + r3, r3 + r5
     high = longest_crank(frame, b, c)
     try:
@@ -154,6 +174,8 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
 
 def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
     """The linkages whose transmission angle deviates from 90 deg equally at both ends."""
+    if is_internal(r1, r3, r5):
+        return _ring_balanced(r1, r3, r5, assembly)
     b, c = r1 + r3, r3 + r5
 
     def linkage(e: float) -> FourBar:
@@ -302,3 +324,197 @@ def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
 
 def _deg(angle: float) -> str:
     return f"{math.degrees(angle):.9g}"
+
+
+_BESIDE = 1e-6
+"""Share of the family beside the length that fills the band: at that length itself rounding decides the window."""
+_STEPS = (0.1, 0.01, 0.001)
+
+
+class Room(NamedTuple):
+    """The lengths of a link [mm], the others as they are, that meet a window; `given` is that of the file."""
+
+    key: str
+    given: float
+    low: float
+    high: float
+
+    @property
+    def change(self) -> float:
+        """The change that the file needs, as a share of its length."""
+        return max(self.low / self.given, self.given / self.high) - 1.0
+
+    def built(self) -> Iterator[float]:
+        """Lengths of the coarsest grid that has one here: the one nearest to the middle, then those at the ends."""
+        for step in _STEPS:
+            ends = at_least(self.low, step), at_most(self.high, step)
+            if ends[0] <= ends[1]:
+                middle = at_most(0.5 * (self.low + self.high) + 0.5 * step, step)
+                yield from dict.fromkeys((min(max(middle, ends[0]), ends[1]), *ends))
+                return
+
+
+def met_between(
+    family: Family,
+    train: GearTrain,
+    window: float,
+    band: float,
+    length: Callable[[FourBar], float],
+    serving: float | None = None,
+) -> tuple[float, float] | None:
+    """The lengths of a family between which a window is met.
+
+    At the one the back-step fills the band or the crank turns just so, at the other the window is just as long as
+    asked, or the crank turns just so.
+
+    Parameters
+        window, band : float [rad] - the crank angle, and the tolerance to either side
+        length : of a linkage, the length that the family varies [mm]
+        serving : float [mm] - a length that meets the window; without it the longest window is looked at
+    Returns
+        low, high : float [mm]; None where the longest window is too short
+    Raises
+        NoSolution - for a family whose output does not step back, or always by more than the band
+    """
+
+    def spare(x: float) -> float:
+        return tolerance_dwell(family.linkage(x), train, band).crank_angle - window
+
+    filled = length(filling(family, train, band) or family.linkage(family.stepping()[1]))
+    end = family.ends()[0]
+    inside = filled + _BESIDE * (end - filled) if serving is None else serving
+    ends = spare(end), spare(inside)
+    if ends[1] <= 0.0 and serving is None:
+        return None
+    just = end
+    if ends[0] < 0.0:
+        # A window as long as the limit leaves one length, where rounding decides the sign.
+        just = bracketed_root(spare, end, inside, ends=ends) if ends[1] > 0.0 else inside
+    return min(just, filled), max(just, filled)
+
+
+def rooms(design: ThreeGearFourBar, window: float, band: float) -> tuple[Room, ...]:
+    """The frames that meet a window with the crank of a design, and the cranks with its frame: the nearer first.
+
+    Parameters
+        window, band : float [rad]
+    Returns
+        rooms : none for gears whose profile shifts change the centre distances, of which there is no synthesis
+    """
+    if design.off_center:
+        return ()
+    module, links, assembly = design.spec.gears.transverse_module, design.linkage, design.spec.assembly
+    radii = [0.5 * module * teeth for teeth in design.signed_teeth]
+    found = []
+    ways: tuple[tuple[str, Any, float, Callable[[FourBar], float]], ...] = (
+        ("links.frame", with_crank, links.crank, lambda each: each.frame),
+        ("links.crank", with_frame, links.frame, lambda each: each.crank),
+    )
+    for key, form, other, length in ways:
+        with suppress(NoSolution):
+            family: Family = form(*radii, other, assembly)
+            if met := met_between(family, design.train, window, band, length):
+                found.append(Room(key, length(links), *met))
+    return tuple(sorted(found, key=lambda room: room.change))
+
+
+def words(found: tuple[Room, ...]) -> str:
+    """What the lengths may be, in words."""
+    links = ((room.key.removeprefix("links."), room) for room in found)
+    return ", ".join(
+        f"with this {'frame' if link == 'crank' else 'crank'} the {link} may be {safely_above(room.low, 6)} to "
+        f"{safely_below(room.high, 6)} mm"
+        for link, room in links
+    )
+
+
+# Trains with a ring: on the side where the output steps back, of r5 < 0 that is a frame shorter than d*
+
+
+def _ring_with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
+    """`with_crank` of a train with a ring."""
+    b, c = abs(r1 + r3), abs(r3 + r5)
+    short, long = frames_of(crank, b, c)
+
+    def linkage(d: float) -> FourBar:
+        return FourBar(crank, b, c, d, assembly)
+
+    found = shape(r1, r3, r5)
+    least, high = (short, long) if found.sigma > 0 else (long, short)
+    if crank >= found.high:  # steps back with every frame
+        return Family(linkage, least, least, high)
+    if not found.low < crank:
+        why = f"a crank of {crank:.9g} mm never stops the output: it must be longer than {found.low:.9g} mm"
+        return Family(linkage, least, None, high, why)
+    touching = ring_tangency(r1, r3, r5, crank)
+    assert touching is not None, "a crank in the range has a frame that just stops the output"
+    inside = min(max(touching.frame, short), long)
+    if inside == high:
+        why = f"a crank of {crank:.9g} mm makes no crank-rocker whose output steps back: choose another"
+        return Family(linkage, least, None, high, why)
+    return Family(linkage, least, inside, high)
+
+
+def _ring_with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1) -> Family:
+    """`with_frame` of a train with a ring."""
+    b, c = abs(r1 + r3), abs(r3 + r5)
+    high = longest_crank(frame, b, c)
+    why = f"no crank makes the output step back with a frame of {frame:.9g} mm"
+    return _rising(r1, r3, r5, lambda e: FourBar(e, b, c, frame, assembly), min(high, abs(r1)), why)
+
+
+def _ring_balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
+    """`balanced` of a train with a ring; raises NoSolution for gears whose output never just stops."""
+    b, c = abs(r1 + r3), abs(r3 + r5)
+
+    def linkage(e: float) -> FourBar:
+        return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
+
+    why = "these gears have no balanced linkage whose output steps back; give crank or frame"
+    return _rising(r1, r3, r5, linkage, min(b, c, abs(r1)), why)
+
+
+def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> FourBar:
+    """The crank-rocker of a given crank whose output just stops.
+
+    Raises
+        NoSolution - where no crank-rocker of these gears and crank does so
+    Example
+        >>> round(momentary_ring_linkage(24.0, 17.0, -54.0, 22.0).frame, 9)
+        49.532212052
+    """
+    family, found = _ring_with_crank(r1, r3, r5, crank, assembly), shape(r1, r3, r5)
+    if family.low is None:
+        raise NoSolution(family.why)
+    if crank >= found.high:
+        raise NoSolution(
+            f"a crank of {crank:.9g} mm never just stops the output: it must lie between {found.low:.9g} and "
+            f"{found.high:.9g} mm"
+        )
+    if family.low == family.least:
+        raise NoSolution(
+            f"a crank of {crank:.9g} mm cannot turn with the frame of its momentary dwell: choose another between "
+            f"{found.low:.9g} and {found.high:.9g} mm"
+        )
+    return family.linkage(family.low)
+
+
+def _rising(r1: float, r3: float, r5: float, linkage: Callable[[float], FourBar], high: float, why: str) -> Family:
+    """The family along the crank from where the output just stops; the frame of a linkage is compared with d* of it.
+
+    sigma (d^2 - d*^2), linear in e^2, rises through zero there.
+    """
+    found = shape(r1, r3, r5)
+
+    def beyond(e: float) -> float:
+        star = r5 * r5 + (r1 - e) * (r1 + e) * found.kappa
+        return found.sigma * (linkage(e).frame ** 2 - star)
+
+    most = high * (1.0 - 1e-12)
+    if beyond(most) <= 0.0:
+        return Family(linkage, 0.0, None, high, why)
+    at_zero = beyond(1e-9 * high)
+    if at_zero >= 0.0:
+        return Family(linkage, 0.0, found.low if found.low < high else None, high, why)
+    low = max(found.low, most * math.sqrt(at_zero / (at_zero - beyond(most))))
+    return Family(linkage, 0.0, low, high, why)

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Length, SignedLength, Spec
-from gearlink.core.machines.three_gear.synthesis.dwell_spec import Placing
+from gearlink.core.machines.three_gear.dwell_spec import Placing
 
 
 class BackStep(Placing):

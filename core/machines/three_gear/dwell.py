@@ -1,38 +1,50 @@
-"""Standstills, back-step and dwell of the three-gear four-bar with any teeth, in crank-rocker and drag link.
+"""Standstills, back-step and dwells of the three-gear four-bar with any teeth, in crank-rocker and drag link.
 
 The output stands still where A and the poles of both meshes lie on one line. That is a quadratic in cos^2(beta), beta
 the base angle of the triangle between C and the poles, so there are at most two standstills a turn and none has to be
-searched for; `gearlink.core.machines.three_gear.dwell.momentary_dwell` has the case of the double root.
+searched for; `gearlink.core.machines.three_gear.momentary` has the case of the double root. Where coupler and rocker
+are not in proportion to the teeth, standstills are bracketed roots of the output's speed: `ByRoots`.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.dwell.momentary_dwell import (
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.three_gear.momentary import (
     Tangency,
     crank_angle,
     pole_lengths,
+    ring_standstills,
+    ring_tangency,
     tangency,
     tangency_range,
     wrap,
 )
 from gearlink.core.machines.three_gear.motion import (
+    Extremes,
     GearTrain,
+    acceleration_extremes,
     forward,
+    mean_ratio,
     output_acceleration,
     output_angle,
+    output_angles,
     output_jerk,
     output_speed,
+    speed_extremes,
 )
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.parts.linkages.standstills import BackStep
+from gearlink.core.parts.linkages.standstills import BackStep, back_steps, standstills, turnings
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.linkages.band_dwell import ToleranceDwell, Valley
 
 UNIDIRECTIONAL = "unidirectional"
 MOMENTARY_DWELL = "momentary-dwell"
@@ -74,11 +86,9 @@ def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
     check_linkage(linkage)
     r1, r3, r5 = _radii(linkage, train)
     if train.internal:
-        from gearlink.core.machines.three_gear.dwell import internal_dwell
-
-        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        touching = ring_tangency(r1, r3, r5, linkage.crank)
         once = [] if touching is None else _momentary(linkage, train, touching, r1, r3, r5)
-        return once or internal_dwell.standstills(linkage, train, (r1, r3, r5))
+        return once or ring_standstills(linkage, train, (r1, r3, r5))
     low, high = tangency_range(r1, r3, r5)
     if not low < linkage.crank < high:
         return []
@@ -240,9 +250,7 @@ def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     """Which frame, if any, would make the output turn back."""
     r1, r3, r5 = _radii(linkage, train)
     if train.internal:
-        from gearlink.core.machines.three_gear.dwell import internal_dwell
-
-        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        touching = ring_tangency(r1, r3, r5, linkage.crank)
         if touching is None:
             return "no frame does that; take another crank or other teeth"
         side = "longer" if r1 + r3 + r5 > 0.0 else "shorter"
@@ -251,3 +259,180 @@ def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     if not low < linkage.crank < high:
         return f"no frame does that; take a crank between {low:.9g} and {high:.9g} mm"
     return f"it does so with a frame longer than {tangency(r1, r3, r5, linkage.crank).frame:.9g} mm"
+
+
+_TURN = 2.0 * math.pi
+
+
+def tolerance_from_backlash(backlash: float, output_radius: float) -> float:
+    """Tolerance of the output angle that a backlash at the output gear's circle takes up.
+
+    tol = j/(2 r5)
+
+    Parameters
+        backlash : float [mm] - j, whole play at the circle r5
+        output_radius : float [mm] - r5
+    Returns
+        tolerance : float [rad] - to either side
+    Raises
+        NoSolution - for a backlash or a radius that is not positive
+    Example
+        >>> round(math.degrees(tolerance_from_backlash(0.3419089045018483, 75.0)), 9)
+        0.130599581
+    """
+    if not (backlash > 0.0 and output_radius > 0.0):
+        raise NoSolution(
+            f"backlash {backlash:g} mm at radius {output_radius:g} mm gives no tolerance; both must be positive"
+        )
+    return backlash / (2.0 * output_radius)
+
+
+def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> ToleranceDwell:
+    """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
+
+    Parameters
+        linkage : FourBar - crank-rocker or drag link
+        train : GearTrain
+        tolerance : float [rad] - 0 < tol < pi times the magnitude of the mean ratio
+    Returns
+        dwell : ToleranceDwell [rad]
+    Raises
+        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+    Notes
+        See `gearlink.core.parts.linkages.band_dwell`.
+    Example
+        >>> found = tolerance_dwell(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60), math.radians(1.0))
+        >>> round(math.degrees(found.start), 9), round(math.degrees(found.crank_angle), 9)
+        (217.998931749, 123.008371818)
+
+    Source
+        own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
+    """
+    from gearlink.core.parts.linkages.band_dwell import longest_in_band
+
+    ahead = forward(linkage, train)
+    found = longest_in_band(valley(linkage, ahead), tolerance)
+    return found._replace(output_angle=train.sense * ahead.sense * found.output_angle)
+
+
+def valley(linkage: FourBar, train: GearTrain) -> Valley:
+    """The part of the turn around the least speed, of a train whose output gains angle over a turn."""
+    from gearlink.core.parts.linkages.band_dwell import Valley
+
+    extremes = speed_extremes(linkage, train)
+    first = second = extremes.least_angle
+    if len(dwell_positions(linkage, train)) == 2:
+        step = back_step(linkage, train)
+        first, second = step.start, step.start + step.crank_angle
+    after = first + (extremes.greatest_angle - first) % _TURN
+    return Valley(
+        output_angles(linkage, train),
+        lambda phi: output_speed(linkage, train, phi),
+        first,
+        second,
+        after - _TURN,
+        after,
+        mean_ratio(linkage, train),
+    )
+
+
+class Output:
+    """How the output of a drive goes over a turn of the crank: extremes, standstills, back-step and dwells.
+
+    Parameters
+        linkage : FourBar [mm] - coupler and rocker in proportion to z1 + z3 and z3 + z5
+        train : GearTrain
+        places : list of float [rad] - where the output stands, where that is known
+    """
+
+    def __init__(self, linkage: FourBar, train: GearTrain, places: list[float] | None = None) -> None:
+        self.linkage, self.train = linkage, train
+        self._given_places = places
+
+    @property
+    def frame_ratio(self) -> float:
+        """Frame over crank."""
+        return self.linkage.frame / self.linkage.crank
+
+    @cached_property
+    def speed_extremes(self) -> Extremes:
+        """Greatest and least speed ratio and their places."""
+        return speed_extremes(self.linkage, self.train)
+
+    @cached_property
+    def acceleration_extremes(self) -> Extremes:
+        """Greatest and least acceleration ratio and their places."""
+        return acceleration_extremes(self.linkage, self.train)
+
+    @cached_property
+    def places(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        return dwell_positions(self.linkage, self.train) if self._given_places is None else self._given_places
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step, where there is one."""
+        return back_step(self.linkage, self.train) if motion(self.places) == BACK_STEP else None
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """Crank angle phi13 until the output regains its place [rad]."""
+        return None if self.back_step is None else dwell_angle(self.linkage, self.train, self.back_step)
+
+    def within(self, tolerance: float) -> ToleranceDwell:
+        """The longest dwell within a tolerance [rad] to either side that has an end."""
+        return tolerance_dwell(self.linkage, self.train, tolerance)
+
+
+class ByRoots(Output):
+    """The output of a drive whose teeth keep the ratio of the gears at any length of coupler and rocker."""
+
+    @cached_property
+    def ahead(self) -> GearTrain:
+        """The train counted in the direction of its mean motion, in which turning back has its meaning."""
+        return forward(self.linkage, self.train)
+
+    def _speed(self, phi: float) -> float:
+        return output_speed(self.linkage, self.ahead, phi)
+
+    def _angle(self, phi: float) -> float:
+        return output_angle(self.linkage, self.ahead, phi)
+
+    @cached_property
+    def places(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        extremes = turnings(self._speed, lambda phi: output_acceleration(self.linkage, self.ahead, phi))
+        state = solve(self.linkage, min(extremes, key=lambda one: one.value).place, 1)
+        train = self.ahead
+        terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
+        return standstills(self._speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step, where there is one."""
+        found = back_steps(self._speed, self._angle, self.places)
+        return found[0] if found else None
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """Crank angle until the output regains its place [rad]."""
+        step = self.back_step
+        if step is None:
+            return None
+        level = self._angle(step.start)
+        ends = (min(-step.angle, 0.0), self._angle(step.start + _TURN) - level)
+        return bracketed_root(lambda x: self._angle(step.start + x) - level, step.crank_angle, _TURN, ends=ends)
+
+    def within(self, tolerance: float) -> ToleranceDwell:
+        """The longest dwell within a tolerance [rad] to either side that has an end."""
+        from gearlink.core.parts.linkages.band_dwell import Valley, longest_in_band
+
+        step, forward, extremes = self.back_step, self.train.sense * self.ahead.sense, self.speed_extremes
+        least, greatest = (extremes.least_angle, extremes.greatest_angle)[::forward]
+        first = second = least
+        if step is not None:
+            first, second = step.start, step.start + step.crank_angle
+        after = first + (greatest - first) % _TURN
+        mean = abs(mean_ratio(self.linkage, self.train))
+        found = longest_in_band(Valley(self._angle, self._speed, first, second, after - _TURN, after, mean), tolerance)
+        return found._replace(output_angle=forward * found.output_angle)

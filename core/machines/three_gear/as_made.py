@@ -1,26 +1,277 @@
-"""Many three-gear drives that differ a little from one: each part as made, all of them at once.
+"""Three-gear four-bars whose parts are as made, not as designed: one at a time, and many near one at once.
 
-Every place of the turn (standstill, extreme, end of a dwell) is found by Newton steps from the nominal drive's place.
-Where they do not come to rest at the right kind of place the element is not settled, and
-`gearlink.core.machines.three_gear.as_made.one` computes it alone.
+The teeth keep the ratio of the gears, so coupler and rocker may differ a little from the centre distances; standstills
+of one drive are those of `gearlink.core.machines.three_gear.dwell.ByRoots`.
+
+Of many drives every place of the turn (standstill, extreme, end of a dwell) is found by Newton steps from the nominal
+drive's place. Where they do not come to rest at the right kind of place the element is not settled, and
+`TolerancedDrive` computes it alone.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlink.core.base.design import placed
+from gearlink.core.base.errors import at_key
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.three_gear.as_made.near_drives import REST, STEPS, NearDrives, Seen, Stop
-from gearlink.core.machines.three_gear.dwell.dwells import STANDSTILL_TOLERANCE
+from gearlink.core.machines.three_gear import motion
+from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+from gearlink.core.machines.three_gear.dwell import STANDSTILL_TOLERANCE, ByRoots
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.parts.linkages.checks import check_linkage
+from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.lengths import Lengths, Places, least_transmission_angle, solve
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.mesh.pair import GearPair
+
+
+_TURN = 2.0 * math.pi
+
+
+class TolerancedDrive(ThreeGearFourBar):
+    """A drive of given links, coupler and rocker among them.
+
+    Parameters
+        spec : ThreeGearSpec
+        lengths : (crank, coupler, rocker, frame) [mm]
+        window : (start, length) [rad] - crank angles over which `dwell_swing` is taken
+        cut : ThreeGearFourBar or None - the drive of the same file, whose teeth these are; None: it is made here
+    """
+
+    advises = False
+
+    def __init__(
+        self,
+        spec: Any,
+        lengths: tuple[float, float, float, float],
+        window: tuple[float, float] = (0.0, 0.0),
+        cut: ThreeGearFourBar | None = None,
+    ) -> None:
+        super().__init__(spec)
+        self.lengths, self.window = lengths, window
+        self.cut = ThreeGearFourBar(spec) if cut is None else cut
+
+    coupler_length: float = placed("lengths.1")
+    rocker_length: float = placed("lengths.2")
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar as it is made."""
+        linkage = FourBar(*self.lengths, self.spec.assembly)
+        with at_key("links"):
+            check_linkage(linkage)
+        return linkage
+
+    @cached_property
+    def meshes(self) -> dict[str, GearPair]:
+        """The teeth as they were cut, at the centre distances as made."""
+        if self.own_teeth:
+            return dict(self._own_pairs)
+        return {
+            name: at_distance(mesh, off) for (name, mesh), off in zip(self.cut.meshes.items(), self._off, strict=True)
+        }
+
+    @cached_property
+    def _own_pairs(self) -> dict[str, GearPair]:
+        pairs = zip(self.cut._own_pairs.items(), self._off, strict=True)
+        return {name: at_distance(pair, off) for (name, pair), off in pairs}
+
+    @property
+    def _off(self) -> tuple[float, float]:
+        """By how much the centre distances are greater than those that the teeth were cut for [mm]."""
+        return self.lengths[1] - self.cut.coupler_length, self.lengths[2] - self.cut.rocker_length
+
+    @cached_property
+    def output(self) -> ByRoots:
+        """Standstills as roots: the links as made are in no proportion to the teeth."""
+        return ByRoots(self.linkage, self.train)
+
+    @cached_property
+    def dwell_swing(self) -> float:
+        """Half the range of the output over the window [rad]."""
+        start, length = self.window
+        inside = [start + (place - start) % _TURN for place in self.dwell_crank_angles]
+        places = [start, start + length, *(place for place in inside if place < start + length)]
+        angles = [motion.output_angle(self.linkage, self.train, place) for place in places]
+        return 0.5 * (max(angles) - min(angles))
+
+
+def at_distance(mesh: Any, off: float) -> Any:
+    """A mesh whose teeth and tips stay as they are, its axes farther apart by `off` [mm].
+
+    Raises
+        NoSolution - where the axes stand nearer than the base circles let them
+    """
+    if off == 0.0:
+        return mesh
+    distance = abs(mesh.center_distance) + off
+    return replace(mesh, given_shift=mesh.profile_shift, given_distance=distance, tip=mesh.tip_alteration)
+
+
+STEPS = 12
+REST = 3e-8  # of a step [rad]: the next one, its square, is below rounding
+_BENT_REST = 1e-15  # what a bent step leaves: the error before it, times its square over the root's curvature
+_BENT_STEP = 1e-5  # [rad] its cube, by which an angle beside the place is wrong, is below rounding
+_MOST_BENT = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """How far a link has turned since the crank angle 0 [rad], and its direction there, reversed."""
+
+    turned: float
+    back: complex
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What is known at crank angles: the loop, and as many rates of the output as were asked for."""
+
+    phi: Reals
+    places: Places
+    rates: tuple[Reals, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Where Newton steps came to rest: the place, what was last seen, and the step from there to the place."""
+
+    place: Reals
+    seen: Seen
+    step: Reals
+
+
+class NearDrives:
+    """Drives near a nominal one.
+
+    Parameters
+        nominal : ThreeGearFourBar
+        links : Lengths - (N,) arrays
+        frame_turn : (N,) array [rad] - by how much the line A-D is turned: crank angles count from the nominal line
+    """
+
+    def __init__(self, nominal: ThreeGearFourBar, links: Lengths, frame_turn: Reals | float = 0.0) -> None:
+        self.nominal, self.links, self.frame_turn = nominal, links, frame_turn
+        self.train = motion.forward(nominal.linkage, nominal.train)
+        self.counted = nominal.train.sense * self.train.sense  # -1 where the file counts the output backward
+        self.count = np.broadcast(links.crank, links.coupler, links.rocker, links.frame, frame_turn).size
+        self.unsettled: Mask = np.zeros(self.count, dtype=bool)
+        self._branches: dict[float, tuple[Branch, Branch]] = {}
+
+    @cached_property
+    def extremes(self) -> motion.Extremes:
+        """Extremes of the nominal drive's speed, the output counted in the direction of its mean motion."""
+        found = self.nominal.speed_extremes
+        if self.counted > 0:
+            return found
+        return motion.Extremes(-found.least, found.least_angle, -found.greatest, found.greatest_angle)
+
+    def seen(self, phi: Reals, order: int) -> Seen:
+        """The output's rates at crank angles, as many as asked for."""
+        places = solve(self.links, phi, order)
+        p, q = self.train.coupler_share, self.train.rocker_share
+        pairs = (
+            (places.coupler_velocity, places.rocker_velocity),
+            (places.coupler_acceleration, places.rocker_acceleration),
+            (places.coupler_jerk, places.rocker_jerk),
+        )
+        rates = [p * two + q * three for two, three in pairs[:order]]
+        if rates:
+            rates[0] += self.train.ratio
+        return Seen(phi, places, tuple(rates))
+
+    def rates(self, phi: Reals, order: int) -> tuple[Reals, ...]:
+        """Speed, acceleration and jerk ratio of the output, as many as asked for."""
+        return self.seen(phi, order).rates
+
+    def angle(self, seen: Seen, near: float) -> Reals:
+        """Output angle [rad] on the branch of the nominal drive at the crank angle `near`."""
+        coupler, rocker = self._branch(near)
+        found = seen.places
+        second = coupler.turned + np.angle(found.coupler * coupler.back)
+        third = rocker.turned + np.angle(found.rocker * rocker.back)
+        turned: Reals = (
+            self.train.ratio * seen.phi + self.train.coupler_share * second + self.train.rocker_share * third
+        )
+        return turned
+
+    def angle_of(self, stop: Stop, near: float) -> Reals:
+        """Output angle at a place, from what was seen a step beside it."""
+        speed, acceleration = stop.seen.rates
+        angle: Reals = self.angle(stop.seen, near) - (speed - 0.5 * acceleration * stop.step) * stop.step
+        return angle
+
+    def angle_at(self, phi: Reals, near: float) -> Reals:
+        """Output angle at crank angles."""
+        return self.angle(self.seen(phi, 0), near)
+
+    def _branch(self, near: float) -> tuple[Branch, Branch]:
+        """Coupler and rocker of the nominal drive at a crank angle."""
+        found = self._branches.get(near)
+        if found is None:
+            at, start = fourbar.solve(self.nominal.linkage, near), fourbar.solve(self.nominal.linkage, 0.0)
+            found = (
+                Branch(at.coupler_angle - start.coupler_angle, cmath.exp(-1j * at.coupler_angle)),
+                Branch(at.rocker_angle - start.rocker_angle, cmath.exp(-1j * at.rocker_angle)),
+            )
+            self._branches[near] = found
+        return found
+
+    def rooted(self, wanted: Callable[[Seen], tuple[Reals, Reals]], order: int, start: Reals | float) -> Stop:
+        """Newton steps to rest, bent by how the slope changed between the two latest places.
+
+        Elements that do not rest are not settled; those whose request is zero stay where they are.
+        """
+        place = np.broadcast_to(np.asarray(start, dtype=float), (self.count,))
+        rests: Mask = np.zeros(self.count, dtype=bool)
+        moved = last = np.full(self.count, math.nan)
+        with np.errstate(all="ignore"):
+            for _ in range(STEPS):
+                seen = self.seen(place, order)
+                value, slope = wanted(seen)
+                change = value / slope
+                rests = np.abs(change) <= REST
+                # As a step begins, the root's curvature is the change of slope over the step before.
+                bent = 0.5 * change * (last - slope) / (moved * slope)
+                usable = np.abs(bent) < _MOST_BENT
+                rests |= (
+                    usable
+                    & (np.abs(change) <= _BENT_STEP)
+                    & (np.abs(moved) * (2.0 * np.abs(bent) + np.abs(change)) ** 2 <= _BENT_REST)
+                )
+                change = np.where(usable, change * (1.0 + bent), change)
+                place = place - change
+                moved, last = change, slope
+                if (rests | np.isnan(change)).all():
+                    break
+        self.unsettled |= ~rests
+        return Stop(place, seen, change)
+
+    def chord(self, wanted: Callable[[Seen], Reals], order: int, start: float, rest: float) -> Stop:
+        """Steps to rest that the request gives itself; elements that do not rest are not settled."""
+        place, step = np.full(self.count, start), np.full(self.count, math.inf)
+        with np.errstate(all="ignore"):
+            for _ in range(STEPS):
+                seen = self.seen(place, order)
+                step = wanted(seen)
+                place = place - step
+                if np.nanmax(np.abs(step), initial=0.0) <= rest:
+                    break
+        self.unsettled |= ~(np.abs(step) <= rest)
+        return Stop(place, seen, step)
+
 
 _NEAR_EXTREME = 3e-5  # of a step [rad]: a value at an extreme is wrong by the square of the place's error
 _CHORD_REST = 3e-7  # of a step whose slope is the nominal drive's
-_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True, slots=True)

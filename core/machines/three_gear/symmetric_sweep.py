@@ -1,0 +1,332 @@
+"""The symmetric family (I = 1) over arrays: its design charts, and the roots of many designs at once.
+
+The scalar forms, and what each quantity means, stand in `gearlink.core.machines.three_gear.symmetric`. Arguments of
+charts broadcast; where a design does not exist, the curve of a dwell has a gap: not a number. The equation of the dwell
+stands here again, with derivatives: there it is an integral where h is small and has none, and one form for both takes
+a single design 1.2 to 1.4 times as long. Roots are Newton's inside a bracket; a design that rests is frozen, so that
+its last bit does not depend on its neighbours.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.three_gear import symmetric
+from gearlink.core.machines.three_gear.dwell import tolerance_dwell
+from gearlink.core.machines.three_gear.motion import GearTrain
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.roots_sweep import newton_roots
+
+_SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `symmetric`
+
+
+def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
+    """Frame ratio d over i3 at constant crank angle of the back-step.
+
+    d = s cos(h) + sqrt(s^2 cos^2(h) + 1),   s = sqrt(i3 (i3 - 2)),   h = phi12/2
+
+    Parameters
+        i3 : array [1] - negative
+        back_step_crank_angle : array [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        frame_ratio : array [1] - above 1
+    Raises
+        NoSolution - for a value outside its range
+    Example
+        >>> frame_ratio_at_crank_angle([-1.0, -2.0], np.radians(90.0)).round(6).tolist()
+        [2.805884, 4.236068]
+
+    Source
+        thesis (4-18)
+    """
+    ratio, h = _ratios(i3), _half_angles(back_step_crank_angle)
+    sc = np.sqrt(ratio * (ratio - 2.0)) * np.cos(h)
+    return np.asarray(sc + np.hypot(sc, 1.0))
+
+
+def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
+    """Back-step of the output over i3 at constant crank angle of the back-step, as a magnitude.
+
+    |phi5(2) - phi5(1)| = 2 n atan(tan(h)/n) - 2 h,   n = 1 - i3,   h = phi12/2
+
+    Parameters
+        i3 : array [1] - negative
+        back_step_crank_angle : array [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        angle : array [rad]
+    Raises
+        NoSolution - for a value outside its range
+    Notes
+        As the scalar form: a series in tan(h) for small h, an addition theorem for larger; some ulp everywhere.
+    Example
+        >>> np.degrees(back_step_at_crank_angle([-1.0, -2.0], np.radians(120.0))).round(6).tolist()
+        [43.573579, 60.0]
+
+    Source
+        thesis (4-19), figure 4-5
+    """
+    ratio, h = np.broadcast_arrays(_ratios(i3), _half_angles(back_step_crank_angle))
+    v, t = ratio / (ratio - 1.0), np.tan(h)
+    x = 1.0 - v
+    large = np.maximum(t, _SERIES_BELOW)
+    plain = v * np.arctan(large * x) / x - np.arctan(v / (1.0 / large + x * large))
+    return np.where(t < _SERIES_BELOW, _series(v, np.minimum(t, _SERIES_BELOW)), 2.0 * plain)
+
+
+def _series(v: Reals, t: Reals) -> Reals:
+    log_x = np.log1p(-v)
+    total = np.zeros_like(t)
+    for j in range(14, 0, -1):
+        total += (-1.0) ** j * t ** (2 * j + 1) / (2 * j + 1) * np.expm1(2 * j * log_x)
+    return 2.0 * total
+
+
+def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
+    """The share y of the frame ratio in the swing of the speed: W_max, W_min = 1 +- 2 (1 - i3) y.
+
+    y = d/(d^2 + 1)
+
+    Parameters
+        frame_ratio : array [1] - d, at least 1 (there the linkage folds flat and y = 1/2)
+    Returns
+        share : array [1] - at most 1/2; the output stops where it is 1/(2 (1 - i3)) or more
+    Raises
+        NoSolution - for d < 1
+    Example
+        >>> speed_swing_share([1.0, 2.0, 3.0]).tolist()
+        [0.5, 0.4, 0.3]
+
+    Source
+        thesis (4-13), figure 4-4
+    """
+    d = np.asarray(frame_ratio, dtype=float)
+    wrong = ~((d >= 1.0) & (d < np.inf))
+    if np.any(wrong):
+        raise NoSolution(f"the frame ratio is {d[wrong].flat[0]:.9g}; frame/crank starts at 1 in the family I = 1")
+    return np.asarray(1.0 / (d + 1.0 / d))
+
+
+def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Reals:
+    """Frame ratio d over i3 at constant nonuniformity of the output speed.
+
+    d = q + sqrt(q^2 - 1),   q = 2 (1 - i3)/delta,   delta = 2 (W_max - W_min)/(W_max + W_min)
+
+    Parameters
+        i3 : array [1] - negative
+        nonuniformity : array [1] - 0 < delta < 2 (1 - i3); at 2 the output just stops, above it steps back
+    Returns
+        frame_ratio : array [1] - above 1; not a number where this i3 does not reach the nonuniformity
+    Raises
+        NoSolution - for a nonuniformity that is not positive, and where no i3 reaches it
+    Example
+        >>> frame_ratio_at_nonuniformity(-1.0, [1.0, 2.0]).round(6).tolist()
+        [7.872983, 3.732051]
+
+    Source
+        thesis (4-20), figure 4-6
+    """
+    ratio, delta = np.broadcast_arrays(_ratios(i3), np.asarray(nonuniformity, dtype=float))
+    wrong = ~((delta > 0.0) & (delta < 2.0 * (1.0 - ratio)))
+    if np.any(~(delta > 0.0)) or np.all(wrong):
+        at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
+        raise NoSolution(
+            f"no frame ratio gives the nonuniformity {value:.9g} at i3 = {at:.9g}: it must lie above 0 and below "
+            f"2 (1 - i3) = {2.0 * (1.0 - at):.9g}; reduce it or make -i3 larger"
+        )
+    q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
+    return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
+
+
+def _ratios(i3: ArrayLike) -> Reals:
+    ratio = np.asarray(i3, dtype=float)
+    wrong = ~((ratio > -np.inf) & (ratio < 0.0))
+    if np.any(wrong):
+        raise NoSolution(
+            f"i3 = {ratio[wrong].flat[0]:.9g}: -idler/output teeth must be negative and finite (external meshes)"
+        )
+    return ratio
+
+
+def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
+    phi12 = np.asarray(back_step_crank_angle, dtype=float)
+    wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
+    if np.any(wrong):
+        raise NoSolution(
+            f"the crank angle of the back-step is {math.degrees(float(phi12[wrong].flat[0])):.9g} deg; it must lie "
+            "from 0 (momentary dwell) to below 180 deg"
+        )
+    return np.asarray(0.5 * phi12)
+
+
+FRAME_TOLERANCE = math.radians(0.5)
+"""Tolerance of the chart over the frame."""
+
+
+def window_over_ratio(i3: ArrayLike, tolerance: float) -> Reals:
+    """Longest window over i3 at constant tolerance.
+
+    Parameters
+        i3 : array [1] - negative
+        tolerance : float [rad]
+    Returns
+        window : array [rad]
+    Example
+        >>> np.degrees(window_over_ratio([-1.8, -2.0], math.radians(1.0))).round(6).tolist()
+        [88.177957, 87.702903]
+    """
+    return _each(lambda ratio: symmetric.longest_window(ratio, tolerance), i3)
+
+
+def window_over_tolerance(tolerance: ArrayLike, i3: float) -> Reals:
+    """Longest window over the tolerance at constant i3.
+
+    Parameters
+        tolerance : array [rad]
+        i3 : float [1] - negative
+    Returns
+        window : array [rad]
+    Example
+        >>> np.degrees(window_over_tolerance(np.radians([0.5, 1.0]), -1.8)).round(6).tolist()
+        [70.436492, 88.177957]
+    """
+    return _each(lambda band: symmetric.longest_window(i3, band), tolerance)
+
+
+def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
+    """Window within +-0.5 deg over the frame ratio at constant i3: it rises to its longest, and falls at once.
+
+    Parameters
+        frame_ratio : array [1] - d, above 1
+        i3 : float [1] - negative
+    Returns
+        window : array [rad]
+    Notes
+        The longest window is that of the frame whose back-step fills the band; a little shorter a frame, and the
+        back-step exceeds it.
+    Example
+        >>> np.degrees(window_over_frame([5.178349, 5.1783], -1.8)).round(3).tolist()
+        [70.436, 52.478]
+    """
+
+    def window(ratio: float) -> float:
+        linkage, train = symmetric.symmetric_linkage(ratio, 1.0), GearTrain(1.0, -i3, 1.0)
+        return tolerance_dwell(linkage, train, FRAME_TOLERANCE).crank_angle
+
+    return _each(window, frame_ratio)
+
+
+def _each(function: Callable[[float], float], values: ArrayLike) -> Reals:
+    def value(x: float) -> float:
+        try:
+            return function(x)
+        except NoSolution:
+            return math.nan
+
+    return np.array([value(float(x)) for x in np.atleast_1d(np.asarray(values, dtype=float))])
+
+
+_QUARTER = 0.5 * math.pi
+
+
+def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
+    """h = phi12/2 [rad] whose dwell angle is phi13.
+
+    n [asin(k sin(y)) + asin(k sin(h))] = phi13,   y = phi13 - h
+
+    Source
+        thesis (4-16), as `symmetric.crank_angle_for_dwell`
+    """
+    return newton_roots(_missing_dwell, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
+
+
+def _missing_dwell(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
+    """The equation of `half_angle_for_dwell`, and its derivative with respect to h."""
+    y = phi13 - h
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    rest = n * n - 1.0
+    square = rest * cos_h * cos_h + cos_y * cos_y
+    root = np.sqrt(square)
+    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - phi13
+    whole = square + sin_y * sin_y
+    slope = (n * sin_y * rest * cos_h * sin_h / whole - n * cos_y) / root + n * n / whole
+    return value, slope
+
+
+def dwell_angle(n: Reals, h: Reals) -> Reals:
+    """phi13 [rad] of a back-step over 2 h: the same equation solved for y.
+
+    Source
+        as `symmetric.dwell_angle`
+    """
+    limit = 2.0 * math.pi * n / (n + 1.0)
+    high = np.minimum(3.0 * h, limit - h)
+    # At y = h the value is least: beyond it it rises, and the root lies at about 2 h.
+    return h + newton_roots(_regained, h, high, np.minimum(2.0 * h, high), n, h)
+
+
+def half_angle_for_window(n: Reals, window: Reals) -> Reals:
+    """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given.
+
+    Source
+        as `symmetric.crank_angle_for_window`
+    """
+    y = 0.5 * window
+    return newton_roots(_missing_window, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
+
+
+def _missing_window(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
+    """What `_regained` gives, of the other sign, and its derivative with respect to h."""
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    rest = n * n - 1.0
+    root = np.sqrt(rest * cos_h * cos_h + cos_y * cos_y)
+    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - h - y
+    whole = rest * cos_h * cos_h + 1.0
+    return value, n * sin_y * rest * cos_h * sin_h / (root * whole) + n * n / whole - 1.0
+
+
+def longest_window(n: Reals, h: Reals) -> Reals:
+    """2 phi13 - phi12 [rad] of a back-step over 2 h: the window over which the output stays within it."""
+    return 2.0 * (dwell_angle(n, h) - h)
+
+
+def _regained(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals]:
+    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its speed there."""
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    root = np.sqrt((n * n - 1.0) * cos_h * cos_h + cos_y * cos_y)
+    value = h + y - n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h))
+    return value, 1.0 - n * cos_y / root
+
+
+def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
+    """h [rad] whose back-step is `angle` [rad].
+
+    2 n atan(tan(h)/n) - 2 h = angle
+
+    Source
+        thesis (4-19), as `symmetric.crank_angle_for_back_step`
+    """
+    start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
+    return newton_roots(_missing_back_step, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
+
+
+def _missing_back_step(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
+    sin_h, cos_h = np.sin(h), np.cos(h)
+    value = 2.0 * (n * np.arctan2(sin_h, n * cos_h) - h) - angle
+    whole = n * n * cos_h * cos_h + sin_h * sin_h
+    return value, 2.0 * (n * n - 1.0) * sin_h * sin_h / whole
+
+
+def back_step(n: Reals, h: Reals) -> Reals:
+    """The back-step [rad] over 2 h (thesis (4-19))."""
+    return np.asarray(2.0 * (n * np.arctan2(np.sin(h), n * np.cos(h)) - h))
+
+
+def in_range(value: Reals, low: Any, high: Any) -> Mask:
+    """Where low < value < high."""
+    return np.asarray((low < value) & (value < high))
