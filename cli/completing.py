@@ -32,7 +32,7 @@ def kinds(incomplete: str) -> Offer:
 def explained(incomplete: str) -> Offer:
     """Everything that `explain` knows."""
     from gearlink.cli.commands.explain import names, plain_names, symbols
-    from gearlink.cli.texts.glossary import glossary
+    from gearlink.cli.glossary import glossary
 
     known = names() if "." in incomplete else plain_names()  # paths of keys only where one is begun: they take a second
     more = ((symbol, words) for symbol, words in symbols() if incomplete)  # many, and short

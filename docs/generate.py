@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gearlink.cli.texts import glossary, indexing, known
+from gearlink.cli import glossary
+from gearlink.cli.texts import indexing, known
 from gearlink.cli.verification import page
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.nomenclature import TERMS
@@ -38,14 +39,15 @@ def text() -> str:
 
 _GLOSSARY_HEAD = """# Glossary
 
-The terms of the field in English, German (VDI 2127, 2142, 2143, ISO 21771) and Chinese, with what gearlink has about them:
-`gearlink explain dwell`, `gearlink explain Druckwinkel` and `gearlink explain 传动角` print an entry. Blanks, hyphens and case
-do not matter. This page is written by `make docs` from `cli/texts/glossary.json`.
+The terms of the field in English, German (VDI 2127, 2142, 2143, ISO 21771) and Chinese, with what gearlink has about
+them: `gearlink explain dwell`, `gearlink explain Druckwinkel` and `gearlink explain 传动角` print an entry. Blanks,
+hyphens and case do not matter. This page is written by `make docs` from `cli/texts/glossary.json`.
 
 """
 _PLACES_HEAD = """## Figures and equations of the sources
 
-`gearlink explain "(4-26)"` and `gearlink explain "figure 2-4"` lead to these; [errata.md](errata.md) says what is wrong in them.
+`gearlink explain "(4-26)"` and `gearlink explain "figure 2-4"` lead to these; [errata.md](errata.md) says what is
+wrong in them.
 
 | source | place | what | kinds | commands |
 | --- | --- | --- | --- | --- |
@@ -68,14 +70,15 @@ def glossary_text() -> str:
         for place in glossary.places()
     ]
     words = [
-        f"| {', '.join(each.words)} | {', '.join(each.kinds) or f'section `{each.section}`'} | {each.means} | {_write(each)} |"
+        f"| {', '.join(each.words)} | {', '.join(each.kinds) or f'section `{each.section}`'} | {each.means} "
+        f"| {_write(each)} |"
         for each in glossary.meanings()
     ]
     parts = [_GLOSSARY_HEAD + "\n".join(map(_entry, terms)), _WORDS_HEAD + "\n".join(words)]
     return "\n\n".join([*parts, _PLACES_HEAD + "\n".join(places)]) + "\n"
 
 
-def _entry(term: glossary.Word) -> str:
+def _entry(term: glossary.Concept) -> str:
     """A term: its names, definition and what of the program is about it."""
     code = [("Keys", term.keys), ("Quantities", term.quantities), ("Checks", term.checks), ("Kinds", term.kinds)]
     told = [f"{label}: {', '.join(f'`{name}`' for name in names)}" for label, names in code if names]

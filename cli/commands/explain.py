@@ -15,7 +15,7 @@ from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.glossary import Meaning, Place, Word
+    from gearlink.cli.glossary import Meaning, Place, Concept
     from gearlink.core.base.kind import Kind
     from gearlink.core.base.report import Rule
 
@@ -116,7 +116,7 @@ def run_explain(subject: str | None, format: Format) -> int:
 
 def find(subject: str) -> list[Topic]:
     """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter."""
-    from gearlink.cli.texts.glossary import meanings_of, named_places, named_terms
+    from gearlink.cli.glossary import meanings_of, named_places, named_terms
 
     subject = " ".join(subject.split())
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
@@ -216,7 +216,7 @@ def names() -> tuple[str, ...]:
 
 def term_names() -> Iterator[str]:
     """The terms of the field in all their languages."""
-    from gearlink.cli.texts.glossary import glossary
+    from gearlink.cli.glossary import glossary
 
     for term in glossary().values():
         yield from term.names()
@@ -236,7 +236,7 @@ def plain_names() -> tuple[str, ...]:
 # Terms of the field, places of the sources, words of other tools
 
 
-def _term(term: Word) -> Topic:
+def _term(term: Concept) -> Topic:
     names = {"Also": term.also, "German": term.german, "Chinese": term.chinese, "Symbol": (term.symbol,)}
     program = {"Keys": term.keys, "Quantities": term.quantities, "Checks": term.checks, "Kinds": term.kinds}
     told = {label: ", ".join(words) for label, words in (names | program).items()}
@@ -429,16 +429,16 @@ def _index(format: Format) -> str:
         return markdown_table(("code", "meaning", "check"), rows)
     known = listed((code, title + (f" [{checks}]" if checks else "")) for code, title, checks in rows)
     more = (
-        "`gearlink explain NAME` takes a code, a term of the field in English, German or Chinese, a figure or equation of "
-        "a source such as (4-26), and the name of a check, quantity, symbol, key, column, kind or law."
+        "`gearlink explain NAME` takes a code, a term of the field in English, German or Chinese, a figure or equation "
+        "of a source such as (4-26), and the name of a check, quantity, symbol, key, column, kind or law."
     )
     return f"{known}\n\n{hanging(more, '')}"
 
 
 def _unknown(subject: str, format: Format) -> int:
+    from gearlink.cli.glossary import folded
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
-    from gearlink.cli.texts.glossary import folded
     from gearlink.core.base.nomenclature import TERMS
 
     everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]

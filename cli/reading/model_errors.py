@@ -21,6 +21,8 @@ from gearlink.core.base.wording import amount
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
 
+    from gearlink.cli.glossary import Meaning
+
     Unions = tuple[tuple[KeyPath, str], ...]
 
 
@@ -201,6 +203,7 @@ def truth_remedy(text: str) -> str:
 _MOST_ERRORS = 500
 _MOST_READINGS = 64
 _LISTED_KEYS = 24
+_LONGEST_WORD = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +223,10 @@ def diagnose(loaded: LoadedFile, model: type[BaseModel], error: ValidationError)
     raw = error.errors(include_url=False)
     findings = [_finding(dict(item), loaded.data) for item in raw[:_MOST_ERRORS]]
     wording = _Wording(loaded, model)
-    return [wording.diagnostic(group) for group in _without_other_members(findings)], len(raw) - len(findings)
+    explained = wording.explained(findings)
+    told = [wording.diagnostic(group) for group in _without_other_members(findings)]
+    told = [each for each in told if each.code != "GL106" or each.key not in explained]
+    return told, len(raw) - len(findings)
 
 
 def diagnose_truth_values(loaded: LoadedFile, model: type[BaseModel], paths: Sequence[KeyPath]) -> Iterator[Diagnostic]:
@@ -373,6 +379,10 @@ class _Wording:
             return f"a space belongs after the colon: '{name}: {rest[:40].strip()}'"
         if value is None and re.fullmatch(r"[0-9]+", key):
             return "a comma separates entries: write decimals with a point"
+        if (meaning := self._meaning(key, parent, allowed)) is not None:
+            from gearlink.cli.glossary import hint
+
+            return hint(meaning, key, value, parent, self.loaded.data)
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
@@ -385,6 +395,27 @@ class _Wording:
             return listed
         place = f"to '{format_path(sections[0])}'" if sections[0] else "to the top level of the file"
         return f"it belongs {place}; {listed}"
+
+    def _meaning(self, key: str, parent: KeyPath, allowed: Sequence[str]) -> Meaning | None:
+        """What an unknown key means by the words of the field; nothing for another spelling of an allowed one."""
+        from gearlink.cli.glossary import folded, meaning_in
+
+        if len(key) > _LONGEST_WORD or folded(key) in map(folded, allowed):
+            return None
+        return meaning_in(key, str(self.loaded.data.get("kind", "")), parent)
+
+    def explained(self, findings: Sequence[_Finding]) -> set[str]:
+        """The keys that words in place of them stand for, and their sections: that they are missing is said already."""
+        found: set[str] = set()
+        for finding in findings:
+            if finding.kind == "extra_forbidden":
+                *parent, last = finding.path
+                allowed = list(fields_at(self.model, tuple(parent), self.loaded.data))
+                meaning = self._meaning(str(last), tuple(parent), allowed)
+                for key in meaning.keys if meaning else ():
+                    steps = key.split(".")
+                    found.update(".".join(steps[:depth]) for depth in range(1, len(steps) + 1))
+        return found
 
     def _sections(self) -> list[KeyPath]:
         return [(), *((name,) for name in self._keys(()))]

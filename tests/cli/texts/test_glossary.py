@@ -11,8 +11,8 @@ import pytest
 from factory import DESIGNS
 
 from gearlink.cli.commands.explain import find, plain_names
+from gearlink.cli.glossary import folded, glossary, meanings, named_places, named_terms, places
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.glossary import folded, glossary, meanings, named_places, named_terms, places
 from gearlink.cli.texts.spec_keys import known_keys, spec_keys
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.core.base.kinds import FILES
@@ -25,20 +25,24 @@ CHECKS = {check for rule in explanations().values() for check in rule.checks}
 SHEETS = {"motion", "timing", "pressure", "drawing"}
 
 FIELD = """
-    transmission angle; pressure angle; dwell; dead centre; dead center; limit position; return stroke; prime circle; base circle;
-    profile shift; contact ratio; undercut; backlash; tip clearance; addendum modification; polydyne; force closure; form closure;
-    jump of the follower; register; gripper; front lay; feeder; dog; Geneva drive; Grashof; coupler curve; cognate; pole; centrode;
-    pilgrim; pilgrim-step motion; progressive oscillation; back-step; instantaneous dwell; momentary dwell; non-uniform transmission;
-    variable-speed; coefficient of speed fluctuation; pick-up position; impression cylinder; sheet transfer; handover; conjugate cams;
-    primary and complementary cam; double-cam drive; cam-follower separation; force-closed; form-closed; positive drive;
-    prime-circle radius; prime_radius; distribution; contributor; sensitivities; Pareto front; knee; toggle position; change point;
-    overhung shaft; internal gear; ring gear; dimension over balls; diametral measurement; tip alteration; start of active profile; SAP;
-    base tangent length; mating gear; clearance; intermittent gear; mutilated gear; geared linkage; geared four-bar mechanism; bed drive;
-    cylinder drive; balancing device; crank; coupler; rocker; frame; crank-rocker; double-rocker; drag link; pitch curve; follower; lift;
-    modified sine; 345; MCV; profile shift coefficient; working pressure angle; specific sliding; span measurement; flywheel;
-    shaking force; energy fluctuation; preload; worst case; RSS; tip relief; plate cam; indexing; globoidal; translating; planetary;
-    dwell-rise-dwell-return; reducer; Druckwinkel; Rast; Pilgerschritt; Kurbelschwinge; Doppelkurbel; Totlage; Übertragungswinkel;
-    Uebertragungswinkel; Rollenmittelpunktsbahn; Vorgreifer; Vordermarke; Flankenspiel; Profilverschiebung; 传动角; 停歇; 根切; 槽轮机构
+    transmission angle; pressure angle; dwell; dead centre; dead center; limit position; return stroke; prime
+    circle; base circle; profile shift; contact ratio; undercut; backlash; tip clearance; addendum
+    modification; polydyne; force closure; form closure; jump of the follower; register; gripper; front lay;
+    feeder; dog; Geneva drive; Grashof; coupler curve; cognate; pole; centrode; pilgrim; pilgrim-step motion;
+    progressive oscillation; back-step; instantaneous dwell; momentary dwell; non-uniform transmission;
+    variable-speed; coefficient of speed fluctuation; pick-up position; impression cylinder; sheet transfer;
+    handover; conjugate cams; primary and complementary cam; double-cam drive; cam-follower separation;
+    force-closed; form-closed; positive drive; prime-circle radius; prime_radius; distribution; contributor;
+    sensitivities; Pareto front; knee; toggle position; change point; overhung shaft; internal gear; ring
+    gear; dimension over balls; diametral measurement; tip alteration; start of active profile; SAP; base
+    tangent length; mating gear; clearance; intermittent gear; mutilated gear; geared linkage; geared four-bar
+    mechanism; bed drive; cylinder drive; balancing device; crank; coupler; rocker; frame; crank-rocker;
+    double-rocker; drag link; pitch curve; follower; lift; modified sine; 345; MCV; profile shift coefficient;
+    working pressure angle; specific sliding; span measurement; flywheel; shaking force; energy fluctuation;
+    preload; worst case; RSS; tip relief; plate cam; indexing; globoidal; translating; planetary;
+    dwell-rise-dwell-return; reducer; Druckwinkel; Rast; Pilgerschritt; Kurbelschwinge; Doppelkurbel; Totlage;
+    Übertragungswinkel; Uebertragungswinkel; Rollenmittelpunktsbahn; Vorgreifer; Vordermarke; Flankenspiel;
+    Profilverschiebung; 传动角; 停歇; 根切; 槽轮机构
 """
 NAMES = [" ".join(name.split()) for name in FIELD.split(";")]
 

@@ -1,6 +1,7 @@
-"""Terms of the field, places of the sources and words of other tools: the records of `glossary.json`.
+"""Terms of the field, places of the sources and words of other tools: the records of `texts/glossary.json`.
 
-`explain`, completion, the hints at unknown keys and docs/glossary.md read them; nothing else does, and nothing at start-up.
+`explain`, completion, the hints at unknown keys and docs/glossary.md read them; nothing else does, and nothing at
+start-up.
 How a name is written does not matter: case, blanks, hyphens, underscores and accents are folded.
 """
 
@@ -14,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unicodedata import normalize
 
-GLOSSARY = Path(__file__).parent / "glossary.json"
+GLOSSARY = Path(__file__).parent / "texts" / "glossary.json"
 _FOLDED = {"ß": "ss", "ä": "ae", "ö": "oe", "ü": "ue"}
 _SEPARATORS = re.compile(r"[\s_'’-]+")
 _PLACE = re.compile(
@@ -26,7 +27,7 @@ _WHAT = {"fi": "figure", "图": "figure", "ри": "figure", "ab": "figure", "eq"
 _WHAT |= {"se": "section", "sh": "sheet", "附图": "sheet"}
 
 
-class Word(NamedTuple):
+class Concept(NamedTuple):
     """A term of the field.
 
     Fields
@@ -104,9 +105,9 @@ def _records() -> dict[str, Any]:
 
 
 @cache
-def glossary() -> dict[str, Word]:
+def glossary() -> dict[str, Concept]:
     """The terms by their names, in the order of the subjects."""
-    return {name: Word(name=name, **_as_tuples(record)) for name, record in _records()["terms"].items()}
+    return {name: Concept(name=name, **_as_tuples(record)) for name, record in _records()["terms"].items()}
 
 
 @cache
@@ -137,16 +138,16 @@ def folded(name: str) -> str:
     return "".join(letter for letter in letters if normalize("NFKC", letter) and not "\u0300" <= letter <= "\u036f")
 
 
-def named_terms(name: str) -> list[Word]:
-    """The terms that a name stands for, those that it names first; several where the field uses one word for several."""
+def named_terms(name: str) -> list[Concept]:
+    """The terms that a name stands for, those that it names first; several where one word has several meanings."""
     asked = folded(name)
     return sorted(_by_name().get(asked, ()), key=lambda term: folded(term.name) != asked)
 
 
 @cache
-def _by_name() -> dict[str, list[Word]]:
+def _by_name() -> dict[str, list[Concept]]:
     """The terms by each of their names, folded."""
-    found: dict[str, list[Word]] = {}
+    found: dict[str, list[Concept]] = {}
     for term in glossary().values():
         for name in dict.fromkeys(map(folded, term.names())):
             found.setdefault(name, []).append(term)
@@ -158,6 +159,99 @@ def meanings_of(word: str, kind: str = "") -> list[Meaning]:
     asked = folded(word)
     found = [meaning for meaning in meanings() if asked in map(folded, meaning.words)]
     return sorted(found, key=lambda meaning: kind not in meaning.kinds)
+
+
+_GEOMETRY = {
+    "links",
+    "gears",
+    "dwell",
+    "back_step",
+    "speed",
+    "momentary",
+    "input_gears",
+    "cylinder",
+    "bed",
+    "sync",
+    "cam",
+}
+_GEOMETRY |= {
+    "size",
+    "follower",
+    "phases",
+    "arm",
+    "cycle",
+    "drive",
+    "slider",
+    "swing",
+    "limits",
+    "target",
+    "rod",
+    "feed",
+}
+_OTHER_SUBJECTS = {"load", "material", "tool", "cutter", "allowances"}
+_LONGEST_VALUE = 40
+
+
+def meaning_in(word: str, kind: str, section: tuple[str | int, ...]) -> Meaning | None:
+    """What an unknown key stands for in a section of a file; None where the word says nothing there.
+
+    Masses and loads have letters of their own: m in `loads` is no module.
+    """
+    top = str(section[0]) if section else ""
+    for meaning in meanings_of(word, kind):
+        if meaning.section and meaning.section == top:
+            return meaning
+        places = {"", *_GEOMETRY, *(key.partition(".")[0] for key in meaning.keys)}
+        if kind in meaning.kinds and top in places and _OTHER_SUBJECTS.isdisjoint(section):
+            return meaning
+    return None
+
+
+def hint(meaning: Meaning, word: str, value: Any, section: tuple[str | int, ...], data: dict[str, Any]) -> str:
+    """What to write in place of an unknown key, with the value that the file gives.
+
+    Example
+        >>> e = meaning_in("e", "three-gear-four-bar", ("links",))
+        >>> hint(e, "e", 28, ("links",), {"links": {"e": 28}})
+        'e is the crank length here: write `crank: 28` in `links`'
+    """
+    head = f"{word} is {meaning.means}"
+    if meaning.says:
+        return f"{head}: {meaning.says}"
+    parts = []
+    if meaning.keys:
+        keys = _nearest(meaning, section, data)
+        values = value if meaning.each and isinstance(value, list) and len(value) == len(keys) else [value] * len(keys)
+        known = not meaning.each or values is value
+        lines = [_line(key, each, known) for key, each in zip(keys, values, strict=True)]
+        parts.append(f"write {_in_sections(lines, ', ' if meaning.each else ' or ')}")
+    parts += [f"quantity `{name}`" for name in meaning.quantities]
+    return f"{head}{' here' if meaning.keys else ''}: {'; or '.join(parts)}"
+
+
+def _nearest(meaning: Meaning, section: tuple[str | int, ...], data: dict[str, Any]) -> list[str]:
+    """Of the keys those of the same section, else those of sections that the file has, else all."""
+    here = ".".join(map(str, section))
+    ranks = [
+        [key for key in meaning.keys if key.rpartition(".")[0] == here],
+        [key for key in meaning.keys if key.partition(".")[0] in data],
+    ]
+    return next((keys for keys in ranks if keys and not meaning.each), list(meaning.keys))
+
+
+def _line(key: str, value: Any, known: bool) -> tuple[str, str]:
+    """Section and `key: value` of a key."""
+    section, _, last = key.rpartition(".")
+    text = json.dumps(value, ensure_ascii=False) if known and value is not None else "..."
+    return section, f"`{last}: {text if len(text) <= _LONGEST_VALUE else '...'}`"
+
+
+def _in_sections(lines: list[tuple[str, str]], joined: str) -> str:
+    sections: dict[str, list[str]] = {}
+    for section, line in lines:
+        sections.setdefault(section, []).append(line)
+    place = {section: f"in `{section}`" if section else "at the top level of the file" for section in sections}
+    return " or ".join(f"{joined.join(found)} {place[section]}" for section, found in sections.items())
 
 
 def named_places(name: str) -> Iterator[tuple[str, Place]]:
