@@ -66,6 +66,8 @@ def build(
     try:
         with refusals_located(loaded):
             design = kind.design(command, spec) if designs is None else designs.of(command)
+            if options.format is Format.JSON and not (only or options.quantities or findings_only):
+                wanted["tables"] = (*options.tables, *design.tables_of_data(command))
             report = design.report(command, **wanted)  # type: ignore[arg-type]
     except UnknownName as error:
         if options.candidates and error.name == "candidates":

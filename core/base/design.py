@@ -102,6 +102,8 @@ class Design:
     outlines: ClassVar[dict[str, Outline]]
     extra_tables: ClassVar[tuple[str, ...]] = ()
     page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
+    beside_tables: ClassVar[Mapping[str, Outline]] = {}
+    """Quantities and checks that an extra table brings along, which are dear without it."""
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
     """Keys of what the machine has to do: a remedy that changes one asks for less, and is sought last."""
@@ -147,6 +149,10 @@ class Design:
     def tables_of_page(cls, _command: str, _spec: Any, /) -> tuple[str, ...]:
         """The extra tables that the page of `report` shows of a command."""
         return cls.page_tables
+
+    def tables_of_data(self, _command: str, /) -> tuple[str, ...]:
+        """The extra tables of a command's result as JSON."""
+        return ()
 
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
@@ -355,7 +361,7 @@ class Design:
         self._require_names(quantities, tables)
         if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
             raise UnknownName("command", command, tuple(self.outlines))
-        outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
+        outline = Outline(tuple(quantities)) if quantities or only else self._with_tables(self.outline(command), tables)
         asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
         found: Iterable[Quantity | None] = ()
         if findings_only:
@@ -375,6 +381,15 @@ class Design:
                 for name in asked
             ),
         )
+
+    def _with_tables(self, outline: Outline, tables: Sequence[str]) -> Outline:
+        """An outline with what the extra tables bring along."""
+        for name in tables:
+            if beside := self.beside_tables.get(name):
+                outline = Outline(
+                    outline.quantities + beside.quantities, outline.checks + beside.checks, outline.tables
+                )
+        return outline
 
 
 def _several(names: Sequence[str]) -> Sequence[str]:
@@ -396,7 +411,8 @@ def _rows(samples: Any) -> int:
 
 @cache
 def _quantities_of(kind: type[Design]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(name for outline in kind.outlines.values() for name in outline.quantities))
+    outlines = (*kind.outlines.values(), *kind.beside_tables.values())
+    return tuple(dict.fromkeys(name for outline in outlines for name in outline.quantities))
 
 
 @cache

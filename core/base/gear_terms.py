@@ -92,7 +92,7 @@ GEAR_PAIR = {
         "ISO 6336-3",
     ),
     "dynamic_factor": Term("K_v", "1", "dynamic factor (method B)", "ISO 6336-1"),
-    "resonance_ratio": Term("N", "1", "speed over the resonance speed", "ISO 6336-1"),
+    "resonance_ratio": Term("N_E", "1", "speed over the resonance speed", "ISO 6336-1"),
     "resonance_speed": Term("n_E1", "1/min", "resonance speed of gear 1", "ISO 6336-1"),
     "reduced_mass": Term(
         "m_red", "kg/mm", "mass of both gears, reduced to the line of action, per width", "ISO 6336-1"

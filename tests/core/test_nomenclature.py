@@ -20,6 +20,9 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS
 REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {
     "kg m^2",
+    "kg/mm",
+    "N/(mm um)",
+    "deg C",
     "W",
     "J",
     "N/mm^2",

@@ -733,12 +733,12 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     @cached_property
     def gear_data(self) -> GearData:
         """The input gears with all that their drawing needs."""
-        from gearlink.core.parts.gears.from_spec import data_of
+        from gearlink.core.parts.gears.from_spec import data_of, required_of
 
         pair = self.gear_pair
         assert self.spec.input_gears is not None, "the pair asks for it"
         with in_section("input_gears"):
-            return data_of(self.spec.input_gears, pair)
+            return replace(data_of(self.spec.input_gears, pair), required=required_of(self.spec.limits))
 
     @property
     def mesh_data(self) -> dict[str, GearData]:
@@ -801,7 +801,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def rests_on(self, name: str) -> str:
         """The factors of the rating."""
-        from gearlink.core.parts.gears.drawing_checks import rests_on
+        from gearlink.core.parts.gears.strength_checks import rests_on
 
         return rests_on(name, self.gear_data) if name in DRAWING_QUANTITIES else ""
 

@@ -7,17 +7,24 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, Outline
-from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Remedy, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.codes import AT_LIMITS
 from gearlink.core.parts.gears.data import GearData
-from gearlink.core.parts.gears.drawing_checks import pair_check, rests_on
-from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
+from gearlink.core.parts.gears.drawing_checks import pair_check
+from gearlink.core.parts.gears.drawing_names import (
+    BESIDE_ROOT,
+    DERIVED,
+    DRAWING_CHECKS,
+    DRAWING_QUANTITIES,
+    lacking,
+)
 from gearlink.core.parts.gears.from_spec import data_of, pair_of
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.strength_checks import rests_on
 
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.spec import GearPairSpec
@@ -81,7 +88,25 @@ class GearPairDesign(GearQuantities, Design):
 
     derived = DERIVED
     page_tables = ("drawing",)
-    extra_tables = ("drawing", "path", "candidates", "contour", "margins")
+    extra_tables = ("drawing", "factors", "root", "path", "candidates", "contour", "margins")
+    beside_tables = {"root": Outline(*BESIDE_ROOT)}
+
+    def tables_of_data(self, _command: str, /) -> tuple[str, ...]:
+        """The calculation sheet, where the file has `rating`."""
+        return () if self.spec.rating is None else ("factors",)
+
+    @classmethod
+    def tables_of_page(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """With `rating` also the calculation sheet and the root on the generated fillet."""
+        found = super().tables_of_page(command, spec)
+        return found if spec.rating is None else (*found, "factors", "root")
+
+    def require_table(self, name: str, /) -> None:
+        """The calculation sheet needs `rating`."""
+        if name in ("factors", "root") and self.spec.rating is None:
+            raise MissingSection(
+                f"the table {name} needs rating: {{life: 20000, material: 16MnCr5, ...}}", key="rating"
+            )
 
     @property
     def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
@@ -200,6 +225,19 @@ class GearPairDesign(GearQuantities, Design):
             if self.rack is not None:
                 return rack_drawing(self.rack, of_both)
             return drawing_table(self.data, of_both)
+
+    def table_factors(self, _samples: int | None = None) -> Table:
+        """The calculation sheet of the rating."""
+        from gearlink.core.parts.gears.rating.sheet import factors_table
+
+        with at_key("rating"):
+            assert self.data.rated is not None, "require_table asks for it"
+            return factors_table(self.data.rated)
+
+    def table_root(self, _samples: int | None = None) -> Table:
+        """Stress along the generated fillets."""
+        with at_key("rating"):
+            return self.data.root_table
 
     def table_path(self, samples: int | None = None) -> Table:
         """Sliding, pressure and root stress along the path of contact."""

@@ -97,6 +97,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             raise PydanticCustomError(
                 "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
             )
+        self._fits_its_system(internal)
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
@@ -106,6 +107,16 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         return self
+
+    def _fits_its_system(self, internal: bool) -> None:
+        """Refuse a place in a planetary gear that the pair does not have."""
+        system = None if self.rating is None else self.rating.system
+        if system in (None, "pair") or (system == "planet-ring") == internal:
+            return
+        message = (
+            "system: planet-ring is that of a gear and its ring (negative teeth), sun-planet of two external gears"
+        )
+        raise PydanticCustomError("GL111", message, {"key": "rating.system"})
 
     @property
     def rack(self) -> bool:
@@ -126,7 +137,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         if self.shift_split != "equal":
             message = "a rack takes no share of the shift: leave shift_split out; center_distance alone gives x1"
             raise PydanticCustomError("GL111", message, {"key": "shift_split"})
-        for key in ("loads", "tip_diameter"):
+        for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
                 message = "{key} is not known of a gear on a rack: leave it out"
                 raise PydanticCustomError("GL111", message, {"key": key})

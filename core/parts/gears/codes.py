@@ -161,13 +161,13 @@ INSPECTION = Rule(
 PITTING = Rule(
     "GL210",
     "safety against pitting too small",
-    "The contact stress is too near to what the material bears. K factors and life factors are inputs, 1 where the "
-    "file gives none.",
+    "The contact stress is too near to what the material bears. K factors and life factors are computed with `rating`, "
+    "else inputs, 1 where the file gives none.",
     "Flanks break out in small pits and wear away.",
     "Widen the gears, take a larger module or centre distance, or a better material.",
     "S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/(Z_B,D sigma_H0 sqrt(K_A K_v K_Hb K_Ha)) >= limits.safety_pitting (1); "
     "warns below 1 whatever the limit",
-    "ISO 6336-2:2006, method B; K and life factors are not computed: 1 unless given",
+    "ISO 6336-2:2006, method B; K and life factors by `rating`, else 1 unless given",
     ("pitting",),
     ("load", "material", "face_width", *_within("load", "material", "face_width")),
 )
@@ -180,8 +180,82 @@ BENDING = Rule(
     "S_F = sigma_Flim Y_ST Y_d Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa) >= "
     "limits.safety_bending (1.4), warns below 1 whatever the limit; Y_ST = 2, Y_d = 0.7 of a gear with two mates, its "
     "teeth are bent both ways, else 1",
-    "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; no published example of "
+    "ISO 6336-3:2006, method B; K and life factors by `rating`, else 1 unless given; no published example of "
     "rings and racks; a rack is the limit of ever larger wheels",
     ("bending",),
     ("load", "material", "tool", "face_width", *_within("load", "material", "face_width")),
 )
+RATING_RANGE = Rule(
+    "GL214",
+    "a factor outside of its range, or unconfirmed",
+    "A formula of the rating is used outside of the range it is known for, a hardness outside of its class, or a "
+    "formula that no printed number was compared with decides (a warning).",
+    "The safety may then be wrong, and nothing else in the result shows it.",
+    "Compare these lines of the table factors (--table factors) with the standard, or give the factor or limit itself.",
+    "range of each formula; confirmed: a report or worked example prints a number that the formula meets",
+    "ISO 6336-1, -2, -3 and -5",
+    ("rating-range",),
+    ("rating", "load.factors", "material", *_within("rating")),
+)
+RESONANCE = Rule(
+    "GL215",
+    "near the main resonance",
+    "Gear 1 runs near the speed at which the teeth vibrate most (a warning).",
+    "The dynamic load may be several times the nominal one, and K_v is least sure there.",
+    "Change the speed or the numbers of teeth; better grades and a tip relief lower what vibrates.",
+    "N = n_1/n_E1 outside 0.85 to 1.15, n_E1 = 30000/(pi z_1) sqrt(c_gamma,alpha/m_red)",
+    "ISO 6336-1:2006, method B",
+    ("resonance",),
+    ("load.speed", "teeth", "rating.grade", "rating.tip_relief", *_within("rating")),
+)
+SCUFFING = Rule(
+    "GL216",
+    "safety against scuffing too small",
+    "The mean temperature of the flanks comes too near to that at which the oil fails in the test.",
+    "The film breaks down, flanks weld and tear.",
+    "Take an oil of a higher load stage or viscosity, a tip relief, smoother flanks, or a lower oil temperature.",
+    "S_intS = theta_intS/theta_int >= limits.safety_scuffing (1.8)",
+    "ISO/TR 13989-2, ISO/TS 6336-21; within 0.5 % of a printed report",
+    ("scuffing",),
+    ("rating.lubricant", "rating.tip_relief", "rating.roughness", *_within("rating")),
+)
+DAMAGE = Rule(
+    "GL217",
+    "damage above 1",
+    "The load spectrum over the required life damages a flank or a root by more than 1 at the required safety, or its "
+    "greatest load exceeds the static limit.",
+    "The gear fails before its life ends.",
+    "Widen the gears, take a larger module or a better material, or ask for less life.",
+    "U = sum n_k/N(S sigma_k) <= 1, S the required safety; static: sigma_HG, sigma_FG at the static knee",
+    "ISO 6336-6",
+    ("damage",),
+    ("rating.spectrum", "rating.life", "load", "face_width", *_within("rating", "load")),
+    side="<=",
+)
+FACE_LOAD = Rule(
+    "GL218",
+    "load on one end of the face",
+    "The face load factor is above 2: less than half of the width carries well (a warning).",
+    "The teeth break or pit at one end; wider gears then carry hardly more.",
+    "Narrow the gears, take a better grade or a stiffer shaft, or modify the helix (rating.face.modification).",
+    "K_Hbeta <= 2",
+    "ISO 6336-1:2006, method C; the limit is usual practice",
+    ("face-load",),
+    ("rating.face", "rating.grade", "face_width", *_within("rating")),
+    side="<=",
+)
+TRUE_FILLET = Rule(
+    "GL219",
+    "the true fillet is stressed otherwise",
+    "The root stress on the generated fillet, by a boundary integral, differs from Y_F Y_S by more than a quarter "
+    "(a warning); judged only with --table root.",
+    "The standard's section does not describe this root well.",
+    "Have the root checked by other means, or take a tool with a larger rounding.",
+    "|Y_gen/(Y_F Y_S) - 1| <= 0.25",
+    "own derivation: Sherman-Lauricella equation of one tooth with its rim, within 4 %",
+    ("true-fillet",),
+    ("tool", "cutter", "profile_shift", *_within("tool")),
+    side="<=",
+)
+OF_RATING = (RATING_RANGE, RESONANCE, SCUFFING, DAMAGE, FACE_LOAD)
+"""What is judged of a file with `rating`."""

@@ -29,6 +29,7 @@ _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "co
 """Of method C: for comparison with a rating that was made by it."""
 _LIVES = frozenset(("pitting_life", "bending_life"))
 """Without a value of either gear where none of them is damaged, which is known."""
+_REQUIRED = Required()
 MAGNITUDES = frozenset(
     (
         "center_distance",
@@ -80,7 +81,7 @@ class GearData:
     idlers: tuple[bool, bool] = (False, False)
     roles: Roles = GEARS
     conditions: Conditions | None = None
-    required: Required = Required()
+    required: Required = _REQUIRED
 
     @cached_property
     def path(self) -> PathOfContact:
@@ -312,7 +313,7 @@ class GearData:
         if name in _LIVES and self.rated is not None:
             return getattr(self.rated, name)
         value: Any = self
-        for step in PLACES[name].split("."):
+        for step in (PLACES.get(name) or name).split("."):
             if value is None:
                 return None
             value = getattr(value, step)

@@ -8,18 +8,17 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple, Protocol
 
-from gearlink.core.base.report import Check, Rule, Status, safely_above
+from gearlink.core.base.report import Check, Status, safely_above
 from gearlink.core.base.wording import amount
+from gearlink.core.parts.gears import strength_checks
 from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, fouling_check, gear_check
 from gearlink.core.parts.gears.codes import (
     AT_LIMITS,
     BACKLASH,
-    BENDING,
     CONTACT_RATIO,
     FILLET,
     INSPECTION,
     INTERFERENCE,
-    PITTING,
     TIP_FOULING,
 )
 from gearlink.core.parts.gears.data import GearData
@@ -29,7 +28,6 @@ from gearlink.core.parts.gears.measures.inspection import preferred_pin
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.tip_corner import CornerGap, TipCorner
-from gearlink.core.parts.gears.rating.load import Factors
 
 # Checks of the pinion cutter that shapes a ring
 
@@ -95,6 +93,8 @@ class DrawingLimits(Protocol):
     def safety_pitting(self) -> float: ...
     @property
     def safety_bending(self) -> float: ...
+    @property
+    def safety_scuffing(self) -> float: ...
 
 
 class PairLimits(Limits, DrawingLimits, Protocol):
@@ -329,88 +329,18 @@ def _amiss(data: GearData, gear: int) -> str | None:
     return f"lies below the tips of {name}" if sign * (center - tip) + 0.5 * ball.diameter < 0.0 else None
 
 
-def _pitting(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
-    against = "pitting", _contact_inputs(data)
-    yield from _safety(PITTING, data, data.flank.safety, limits.safety_pitting, *against)
-
-
-def _bending(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
-    if data.load is not None:
-        yield from _out_of_range(data)
-    against = "breaking at the root", _bending_inputs(data)
-    yield from _safety(BENDING, data, data.root.safety, limits.safety_bending, *against)
-
-
-def _safety(
-    rule: Rule, data: GearData, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
-) -> Iterator[Check]:
-    for gear, safety in enumerate(found or ()):
-        if safety is None:
-            continue
-        both_ways = ", an idler's, bent both ways (Y_d 0.7)" if data.idlers[gear] and rule is BENDING else ""
-        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}{both_ways}, nominal: {inputs}"
-        if safety < max(least, 1.0):
-            limit = f"the limit {least:g}" if safety < least else f"1, though the limit {least:g} allows it"
-            text += f"; below {limit}: widen the gears, take a larger module or a better material"
-        status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
-        yield rule.check(status, text, safety, least)
-
-
-def rests_on(quantity: str, data: GearData) -> str:
-    """Which inputs a stress or a safety rests on, in words; empty for other quantities."""
-    if quantity in ("contact_stress", "safety_pitting"):
-        return _contact_inputs(data)
-    return _bending_inputs(data) if quantity in ("root_stress", "safety_bending") else ""
-
-
-def _contact_inputs(data: GearData) -> str:
-    factors = data.load.factors if data.load else Factors()
-    return (
-        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Hb {factors.face_contact:g}, "
-        f"K_Ha {factors.transverse_contact:g} and the life factors are not computed: 1 unless given"
-    )
-
-
-def _bending_inputs(data: GearData) -> str:
-    factors = data.load.factors if data.load else Factors()
-    edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
-    return (
-        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Fb {factors.face_bending:g}, "
-        f"K_Fa {factors.transverse_bending:g} and the life factors are not computed: 1 unless given{edition}"
-    )
-
-
-def _out_of_range(data: GearData) -> Iterator[Check]:
-    """Where the formulas of the root leave the range of their standard."""
-    if data.face_width is None:
-        yield BENDING.check("warn", "a load without face_width gives no stress and no safety: give face_width")
-    eps = data.path.contact_ratio
-    if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
-        text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
-        yield BENDING.check("warn", text, eps)
-    for gear, factor in enumerate(data.root.rim_factor or ()):
-        if factor is None:
-            least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
-            text = f"the rim of {data.called(gear)} is too thin for ISO 6336-3: no root stress is given"
-            yield BENDING.check("warn", f"{text}; raise rim_thickness above {least}")
-    for gear, section in enumerate(data.root.sections):
-        if section is None:
-            text = f"{data.called(gear)} has no root section that ISO 6336-3 could judge: no root stress is given"
-            yield BENDING.check("warn", f"{text}; {data.rated_with(gear)}")
-        elif not 1.0 <= section.notch < 8.0:
-            text = f"notch parameter q_s = {section.notch:.4g} of {data.called(gear)} is outside 1 to 8"
-            yield BENDING.check("warn", f"{text}, where Y_S holds", section.notch)
-        elif data.pair.teeth[gear] < 0 and data.pair.cutter is None:
-            text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
-            yield BENDING.check("warn", text)
-
-
 _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "tip-fouling": _tip_fouling,
     "fillet-interference": _fillet,
     "backlash": _backlash,
     "inspection": _inspection,
     **{name: partial(distance_limits, name) for name in AT_LIMITS},
-    "pitting": _pitting,
-    "bending": _bending,
+    "pitting": strength_checks.pitting,
+    "bending": strength_checks.bending,
+    "rating-range": strength_checks.rating_range,
+    "resonance": strength_checks.resonance,
+    "scuffing": strength_checks.scuffing,
+    "damage": strength_checks.damage,
+    "face-load": strength_checks.face_load,
+    "true-fillet": strength_checks.true_fillet,
 }

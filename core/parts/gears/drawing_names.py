@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from gearlink.core.parts.gears.codes import AT_LIMITS
+from gearlink.core.parts.gears.codes import AT_LIMITS, OF_RATING, TRUE_FILLET
 
 Roles: TypeAlias = tuple[str, str]
 """What findings call the gears of a pair."""
@@ -147,6 +147,8 @@ RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("
 """Strength by ISO 6336."""
 DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
 """Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""
+RATING_CHECKS = tuple(rule.name for rule in OF_RATING)
+"""They find something only where the file has `rating`."""
 DRAWING_CHECKS = (
     "tip-fouling",
     "radial-assembly",
@@ -156,4 +158,7 @@ DRAWING_CHECKS = (
     *AT_LIMITS,
     "pitting",
     "bending",
+    *RATING_CHECKS,
 )
+BESIDE_ROOT = ("generated_root_factor", "generated_root_stress"), (TRUE_FILLET.name,)
+"""Quantities and checks beside the table `root` alone, whose boundary integral takes a tenth of a second."""

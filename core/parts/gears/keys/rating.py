@@ -101,8 +101,8 @@ class ShaftSpec(Spec):
     """The shaft of the pinion, whose deflection is in the face load factor."""
 
     position: Literal["a", "b", "c", "d", "e"] = Field(
-        description="where the pinion stands by ISO 6336-1: a between bearings and the torque from the far side, b from "
-        "the near side, c overhung, d and e on further shafts"
+        description="where the pinion stands by ISO 6336-1: a between bearings and the torque from the far side, b "
+        "from the near side, c overhung, d and e on further shafts"
     )
     span: Reach = Field(description="distance l of the bearings")
     offset: Bore = Field(description="distance s of the pinion from their middle")

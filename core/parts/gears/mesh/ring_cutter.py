@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass, replace
 from typing import Any, cast
@@ -137,7 +136,7 @@ class ShapedRing:
 
     @cached_property
     def virtual(self) -> ShapedRing:
-        """Cutter and ring of module 1 in the normal section: virtual spur gears of z/(cos^2(beta_b) cos(beta)) teeth."""
+        """The ring of module 1 in the normal section: virtual spur gears of z/(cos^2(beta_b) cos(beta)) teeth."""
         turned = math.cos(self.mesh.base_helix_angle) ** 2 * math.cos(self.helix_angle)
         cutter = replace(self.cutter, teeth=cast(int, self.cutter.teeth / turned))
         return replace(self, module=1.0, teeth=cast(int, self.teeth / turned), cutter=cutter, helix_angle=0.0)
@@ -151,27 +150,30 @@ class ShapedRing:
         """
         ring = self.virtual
         start, end = ring.turns
-
-        def off(turn: float) -> float:
-            return ring._leaning(turn) - math.pi / 3.0
-
-        if (off(start) > 0.0) == (off(end) > 0.0):
+        if (ring.leaning(start) > 0.0) == (ring.leaning(end) > 0.0):
             return None
-        path = ring._path(bracketed_root(off, start, end))
-        return ring.cutter.rounding + abs(path[1]) ** 3 / abs((path[2] * path[1].conjugate()).imag)
+        return ring.radius_at(bracketed_root(ring.leaning, start, end))
 
-    def _leaning(self, turn: float) -> float:
-        """Angle between the tangent of the fillet and the middle of the tooth [rad]."""
-        ahead = self._path(turn)[1] * cmath.rect(1.0, math.pi / self.teeth)  # the ring's teeth are negative
-        return math.atan2(abs(ahead.imag), abs(ahead.real))
+    def leaning(self, turn: float) -> float:
+        """Angle between the tangent of the fillet and the middle of the tooth, less 60 deg [rad]."""
+        fn = self.mesh.fn
+        ahead: Any = self._path(turn)[1] * fn.turn(math.pi / self.teeth)  # the ring's teeth are negative
+        return fn.atan2(abs(ahead.imag), abs(ahead.real)) - math.pi / 3.0
+
+    def radius_at(self, turn: float) -> float:
+        """Radius of the fillet [module] of a ring of module 1."""
+        _, ahead, bent = self._path(turn)
+        across: Any = bent * ahead.conjugate()
+        found: float = self.cutter.rounding + abs(ahead) ** 3 / abs(across.imag)
+        return found
 
     def _path(self, turn: float) -> tuple[complex, complex, complex]:
-        """The path of the centre of the cutter's rounding and its derivatives by the turn, which is that of `fillet`."""
-        rolled = self.cutter.teeth / -self.teeth
-        beside, sense = self._half_angle_of_center, math.copysign(1.0, self._turned_to_flank)
+        """The path of the centre of the cutter's rounding and its derivatives by the turn of `fillet`."""
+        fn, rolled = self.mesh.fn, self.cutter.teeth / -self.teeth
+        beside, sense = self._half_angle_of_center, fn.copysign(1.0, self._turned_to_flank)
         turn = sense * turn - (1.0 - sense) * beside
-        carried = cmath.rect(-self.mesh.center_distance, -rolled * turn)
-        own, by = cmath.rect(self._rounding_center, (1.0 - rolled) * turn + beside), 1.0 - rolled
+        carried = -self.mesh.center_distance * fn.turn(-rolled * turn)
+        own, by = self._rounding_center * fn.turn((1.0 - rolled) * turn + beside), 1.0 - rolled
         return carried + own, 1j * (by * own - rolled * carried), -(by * by * own + rolled * rolled * carried)
 
     def fillet(self, turn: float) -> complex:

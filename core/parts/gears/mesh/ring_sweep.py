@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.gears.mesh.pair_limits import bound_of_shift_sum
 from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs
 from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
@@ -112,6 +113,13 @@ class ShapedRings(ShapedRing):
             helix_angle=self.helix_angle,
             given_shift=(self.cutter.shift, self.shift),
         )
+
+    @cached_property
+    def fillet_radius(self) -> Any:
+        """rho_F* [module]; NaN where no tangent of 60 deg touches the fillet."""
+        ring = self.virtual
+        start, end = np.broadcast_arrays(*ring.turns)
+        return ring.radius_at(bracketed_roots(ring.leaning, start, end))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.rating.materials import Endurance
@@ -64,7 +65,7 @@ class LimitLine:
         knees, at = self._knees, math.log(cycles)
         if at <= knees[0][0]:
             return knees[0][column]
-        for before, after in zip(knees, knees[1:], strict=False):
+        for before, after in pairwise(knees):
             if at <= after[0]:
                 share = (at - before[0]) / (after[0] - before[0])
                 return before[column] + share * (after[column] - before[column])
@@ -87,7 +88,7 @@ class LimitLine:
         knees, at = self._knees, math.log(stress)
         if at < knees[-1][2] or (at == knees[-1][2] and self.long_life == 1.0):
             return math.inf
-        for before, after in zip(knees, knees[1:], strict=False):
+        for before, after in pairwise(knees):
             falls = before[2] - after[2]
             if (at >= after[2] or after is knees[-1]) and falls > 0.0:
                 return math.exp(after[0] - (at - after[2]) / falls * (after[0] - before[0]))

@@ -107,7 +107,7 @@ class FlankStrength:
     @cached_property
     def stress(self) -> tuple[float | None, float | None] | None:
         """sigma_H of gear 1 and 2."""
-        return None if self.load is None else self.stress_under(self.load.factors)
+        return self.stress_under(Factors() if self.load is None else self.load.factors)
 
     def stress_under(self, factors: Factors) -> tuple[float | None, float | None] | None:
         """sigma_H of gear 1 and 2 with other K factors."""

@@ -250,10 +250,11 @@ class LoadFactors:
     def _run_in(self, deviation: float) -> float:
         """y_p or y_f: the part of a deviation that running in takes away, mean of both gears [um]."""
         v = self.pitch_line_speed
-        return math.fsum(0.5 * run_in(each, deviation, v) for each in self._run_in_by)
+        return math.fsum(0.5 * run_in(each, deviation, v) for each in self.run_in_by)
 
     @property
-    def _run_in_by(self) -> tuple[tuple[str, float], ...]:
+    def run_in_by(self) -> tuple[tuple[str, float], ...]:
+        """How each gear runs in, and its sigma_Hlim."""
         return tuple((steel.kind.running_in, steel.contact_limit) for steel in self._conditions.steels)
 
     @cached_property
@@ -325,7 +326,7 @@ class LoadFactors:
     def face_run_in(self) -> float:
         """y_beta [um], mean of both gears."""
         found, v = self.mesh_misalignment, self.pitch_line_speed
-        return math.fsum(0.5 * run_in(each, found, v, face=True) for each in self._run_in_by)
+        return math.fsum(0.5 * run_in(each, found, v, face=True) for each in self.run_in_by)
 
     @cached_property
     def face_contact(self) -> float:
@@ -397,10 +398,7 @@ def dynamic_constants(total_contact_ratio: float) -> tuple[float, ...]:
         ISO 6336-1:2006, table of C_v; those of N > 0.85 from memory, in two public programs alike
     """
     eps = total_contact_ratio
-    if eps <= 1.5:
-        last = 0.75
-    else:
-        last = 0.125 * math.sin(math.pi * (eps - 2.0)) + 0.875 if eps <= 2.5 else 1.0
+    last = 0.125 * math.sin(math.pi * (min(max(eps, 1.5), 2.5) - 2.0)) + 0.875  # 0.75 below, 1 above
     if eps <= 2.0:
         return 0.32, 0.34, 0.23, 0.9, 0.47, 0.47, last
     in_resonance = (0.57 - 0.05 * eps) / (eps - 1.44)
@@ -416,8 +414,8 @@ def run_in(material: tuple[str, float], deviation: float, speed: float, *, face:
         speed : float [m/s] - on the reference circle
         face : bool - y_beta, else y_alpha
     Example
-        >>> run_in(("hard", 1500.0), 16.0, 20.0), run_in(("soft", 800.0), 16.0, 20.0), run_in(("iron", 300.0), 16.0, 1.0)
-        (1.2, 3.2, 4.4)
+        >>> run_in(("hard", 1500.0), 16.0, 20.0), run_in(("soft", 800.0), 16.0, 20.0)
+        (1.2, 3.2)
 
     Source
         ISO 6336-1:2006; the bounds from memory

@@ -32,6 +32,10 @@ class Endurance(NamedTuple):
     factor: float
 
 
+_STEEL_FLANK, _STEEL_ROOT = Endurance(1e5, 5e7, 1.6), Endurance(1e4, 3e6, 2.5)
+_IRON_FLANK, _IRON_ROOT = Endurance(1e5, 2e6, 1.3), Endurance(1e3, 3e6, 1.6)
+
+
 @dataclass(frozen=True, kw_only=True)
 class MaterialClass:
     """A class of materials.
@@ -61,8 +65,8 @@ class MaterialClass:
     notch: float | None = None
     surface: str = "steel"
     size: str = "soft"
-    flank: Endurance = Endurance(1e5, 5e7, 1.6)
-    root: Endurance = Endurance(1e4, 3e6, 2.5)
+    flank: Endurance = _STEEL_FLANK
+    root: Endurance = _STEEL_ROOT
     static_notch: str = "soft"
     yield_strength: float = 300.0
 
@@ -99,7 +103,6 @@ def _lines(*pairs: tuple[float, float]) -> tuple[Line, Line, Line]:
     return one, two, three
 
 
-_IRON_FLANK, _IRON_ROOT = Endurance(1e5, 2e6, 1.3), Endurance(1e3, 3e6, 1.6)
 CLASSES = {
     "normalized": MaterialClass(
         contact=_lines((1.0, 190), (1.0, 190), (1.52, 250)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
@@ -473,7 +474,7 @@ def slip_layer(steel: GearSteel) -> float:
     at = steel.yield_strength
     if at <= _NOTCH[0][0]:
         return _NOTCH[0][1]
-    for (low, one), (high, other) in zip(_NOTCH, _NOTCH[1:], strict=False):
+    for (low, one), (high, other) in pairwise(_NOTCH):
         if at <= high:
             return one + (at - low) / (high - low) * (other - one)
     return _NOTCH[-1][1]

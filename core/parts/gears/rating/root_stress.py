@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
@@ -68,6 +69,8 @@ class RootStress:
     ring_fillet: float | None = None
     standard_ring: bool = False
 
+    section_of: ClassVar[type[RootSection]] = RootSection
+
     @cached_property
     def sections(self) -> tuple[RootSection | None, RootSection | None]:
         """The root sections; None where the tool leaves none with a 30 (60) deg tangent and a fillet."""
@@ -86,7 +89,7 @@ class RootStress:
 
     def _made(self, gear: int) -> RootSection:
         pair, eps = self.path.pair, self.path.contact_ratio
-        made = RootSection(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
+        made = self.section_of(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
         if gear == 0 or not pair.internal:
             return made
         radius = made.standard_fillet_radius if self.standard_ring else self.ring_fillet
@@ -230,7 +233,7 @@ class RootStress:
     @cached_property
     def stress(self) -> Both | None:
         """sigma_F."""
-        return None if self.load is None else self.stress_under(self.load.factors)
+        return self.stress_under(Factors() if self.load is None else self.load.factors)
 
     def stress_under(self, factors: Factors) -> Both | None:
         """sigma_F with other K factors."""

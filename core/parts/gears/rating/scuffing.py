@@ -57,7 +57,8 @@ class Scuffing:
     def viscosity(self) -> float:
         """eta at the oil temperature [mPa s], by Walther."""
         given = self._conditions
-        assert given.viscosity_100 is not None and given.oil_temperature is not None, "given together"
+        assert given.viscosity_100 is not None, "given with the load stage"
+        assert given.oil_temperature is not None, "given with the load stage"
 
         def doubled(viscosity: float) -> float:
             return math.log10(math.log10(viscosity + 0.7))

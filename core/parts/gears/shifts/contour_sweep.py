@@ -55,18 +55,6 @@ class GearDatas(GearData):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RootStresses(RootStress):
-    """Root stresses of many pairs."""
-
-    def _section(self, gear: int) -> RootSection | None:
-        return self._made(gear)
-
-    def _made(self, gear: int) -> RootSection:
-        pair, eps = self.path.pair, self.path.contact_ratio
-        return RootSections(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
-
-
-@dataclass(frozen=True, kw_only=True)
 class RootSections(RootSection):
     """The root sections of one gear of many pairs."""
 
@@ -84,6 +72,16 @@ class RootSections(RootSection):
         """Y_S; NaN where fillet radius, section, lever or form factor is not positive."""
         least = np.minimum(np.minimum(self.fillet_radius, self.chord), self.moment_arm)
         return np.where((least > 0.0) & (self.form_factor > 0.0), self._stress_correction, np.nan)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RootStresses(RootStress):
+    """Root stresses of many pairs."""
+
+    section_of = RootSections
+
+    def _section(self, gear: int) -> RootSection | None:
+        return self._made(gear)
 
 
 def shifted(data: GearData, first: Reals, second: Reals) -> GearDatas:

@@ -27,7 +27,7 @@ _LISTS = (
     "pin_diameter",
 )
 _OF_TEETH = ("tool", "helix_angle", "tip_shortening", "cutter", "span_teeth")
-RATED = ("load", "material")
+RATED = ("load", "material", "rating")
 
 
 class TrainKeys(ToothKeys):
@@ -73,6 +73,9 @@ class TrainKeys(ToothKeys):
     load: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainLoad")] | None = Field(
         None, description="load of the rating by ISO 6336; each free gear hands it on"
     )
+    rating: Annotated[Any, Deferred("parts.gears.train.rating_keys:TrainRating")] | None = Field(
+        None, description="rating by ISO 6336 with all factors computed: life, material, grade, oil"
+    )
     material: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainMaterial")] | None = Field(
         None, description="materials, for the rating"
     )
@@ -103,8 +106,23 @@ class TrainKeys(ToothKeys):
     def _lists(self) -> Iterator[tuple[str, Any]]:
         """Every key that may be a list with an entry for each gear, and its value."""
         yield from ((key, getattr(self, key)) for key in _LISTS)
-        for section in ("allowances", "material"):
-            yield from ((f"{section}.{key}", value) for key, value in getattr(self, section) or ())
+        for section in ("allowances", "material", "rating"):
+            found = getattr(self, section) or ()
+            yield from ((f"{section}.{key}", value) for key, value in found if key not in ("web", "spectrum"))
+        if self.rating is not None:
+            yield from ((f"rating.roughness.{key}", value) for key, value in self.rating.roughness)
+
+    @model_validator(mode="after")
+    def _rated(self) -> Self:
+        if self.rating is None:
+            return self
+        from gearlink.core.parts.gears.keys.rating import require_rated
+
+        require_rated(self, self.rating)
+        if self.rating.system != "pair":
+            message = "system is that of a gear-pair: leave it out, and give reduced_mass where planets matter"
+            raise PydanticCustomError("GL111", message, {"key": "rating.system"})
+        return self
 
     @model_validator(mode="after")
     def _fits_its_gears(self) -> Self:
@@ -180,7 +198,7 @@ class TrainKeys(ToothKeys):
         from gearlink.core.parts.gears.train.key_sections import entries
 
         shared = PairKeys.model_fields.keys() & TrainKeys.model_fields.keys()
-        own = shared - {"allowances", "load", "material"}
+        own = shared - {"allowances", "load", "material", "rating"}
         given = entries({name: getattr(self, name) for name in own}, (one, other))
         given["profile_shift"] = [self.shift(one), self.shift(other)]
         if self.allowances is not None:

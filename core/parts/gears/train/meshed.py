@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from gearlink.core.parts.gears.data import GearData
+    from gearlink.core.parts.gears.rating.load import Required
     from gearlink.core.parts.gears.train.meshes import Place, Train
 
 QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
@@ -148,11 +149,18 @@ class Meshed(GearQuantities, Design):
         """The meshes with all that their drawing needs; a ring is the second gear of its pair."""
         train, pairs = self.teeth_train, self._own_pairs  # whose refusals name the section already
         with in_section("gears"):
-            found = zip(self.mesh_names, train.places, pairs.values(), strict=True)
+            found, required = zip(self.mesh_names, train.places, pairs.values(), strict=True), self._required
             return {
-                name: replace(train.data(place, pair, self.rim_of(name)), roles=self._roles(name))
+                name: replace(train.data(place, pair, self.rim_of(name)), roles=self._roles(name), required=required)
                 for name, place, pair in found
             }
+
+    @property
+    def _required(self) -> Required:
+        """The safeties that the file asks for."""
+        from gearlink.core.parts.gears.from_spec import required_of
+
+        return required_of(self.spec.limits)
 
     def widths_of(self, name: str = "") -> tuple[float, float] | None:
         """Face widths of the gears of a mesh [mm], a ring's second; None where the file has none."""
@@ -249,7 +257,7 @@ class Meshed(GearQuantities, Design):
         mesh, _, quantity = name.rpartition(".")
         if quantity not in RATING:
             return ""
-        from gearlink.core.parts.gears.drawing_checks import rests_on
+        from gearlink.core.parts.gears.strength_checks import rests_on
 
         return rests_on(quantity, self.mesh_data[mesh])
 

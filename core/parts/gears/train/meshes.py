@@ -130,7 +130,11 @@ class Train:
             rims = rims[0], rim_radius(root, pair.module, rim) - root
         count = len(self.teeth)  # those between the ends hand the force on, with one flank to the other
         one, other = (0 < gear < count - 1 for gear in place.gears)
-        return replace(data, load=self._load(place), rims=rims, idlers=(one, other))
+        rated: dict[str, Any] = {}
+        if keys.rating is not None:
+            limits = tuple((each.contact_limit, each.bending_limit) for each in data.materials)
+            rated["conditions"] = keys.rating.of(place.gears).conditions(limits, keys.accuracy_grade)
+        return replace(data, load=self._load(place), rims=rims, idlers=(one, other), **rated)
 
     def _load(self, place: Place) -> Load:
         """The load of a mesh; one tangential force on the reference circles goes through all of them.
