@@ -50,9 +50,9 @@ def laws(incomplete: str) -> Offer:
 
 def charts(incomplete: str) -> Offer:
     """Names of the design charts."""
-    from gearlink.cli.views.figures.chart_list import CHARTS
+    from gearlink.cli.views.figures.chart_list import CHARTS, OF_FILES
 
-    return _beginning(incomplete, ((name, "") for name in CHARTS))
+    return _beginning(incomplete, ((name, "") for name in (*CHARTS, *OF_FILES)))
 
 
 def quantities(incomplete: str) -> Offer:

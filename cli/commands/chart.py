@@ -18,12 +18,12 @@ from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.lists import listed
-from gearlink.cli.views.figures.chart_list import CHARTS, DesignChart, Marked
+from gearlink.cli.views.figures.chart_list import CHARTS, OF_FILES, DesignChart, Marked
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.write import save
 from gearlink.core.base.errors import NoSolution, at_key, named
-from gearlink.core.base.report import Report
+from gearlink.core.base.report import Report, Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from gearlink.cli.views.figures.chart_list import Axis
     from gearlink.core.base.report import Table
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar
+    from gearlink.core.parts.cams.shaped_design import Vibration
 
 
 _LINK_TOLERANCE = 1e-3
@@ -52,6 +53,8 @@ def run_chart(asked: Asked, options: Options) -> int:
     """Print or draw a chart and give the exit status; without a name, list the charts."""
     if not asked.name:
         return _list_charts(options)
+    if asked.name in OF_FILES:
+        return _residual(asked, options)
     try:
         chart = _chart_named(asked.name)
         low, high = _range(asked.range, chart)
@@ -75,21 +78,72 @@ def run_chart(asked: Asked, options: Options) -> int:
     return written_beside(draw, "<--out>", options) if options.plot else ExitCode.OK
 
 
+def _residual(asked: Asked, options: Options) -> int:
+    """The chart of what vibration the laws of a file leave."""
+    try:
+        if not asked.design:
+            words = "the chart residual is about the laws of a file: gearlink chart residual SPEC"
+            raise DesignFileError([Diagnostic("GL115", words, "<command line>", key="residual")])
+        if options.plot:
+            require_folder(options.out)
+        name, found = _vibrations(asked, options)
+    except (DesignFileError, CannotWrite) as error:
+        return show_refusal(error, asked.design or "<command line>", options)
+    tables = tuple(_vibration_table(each) for each in found)
+    print_report(Report("design-chart", f"residual, {name}", "chart", (), (), tables), options)
+
+    def draw() -> None:
+        from gearlink.cli.views.figures.motion_laws import write_residuals
+
+        path = write_residuals(name, found, options)
+        if not options.quiet:
+            print(wrote(path), file=sys.stderr)
+
+    return written_beside(draw, "<--out>", options) if options.plot else ExitCode.OK
+
+
+def _vibrations(asked: Asked, options: Options) -> tuple[str, list[Vibration]]:
+    """Name of the design, and what each of its laws leaves.
+
+    Raises
+        DesignFileError - for a kind without laws, or a file that names no natural frequency
+    """
+    from gearlink.core.parts.cams.shaped_design import WithShapedLaws
+
+    loaded, kind = open_design(asked.design, options)
+    spec = read_spec(loaded, kind, asked.design)
+    with refusals_located(loaded):
+        design: Any = whole_design(kind, spec)
+        if not isinstance(design, WithShapedLaws):
+            raise wrong_kind(loaded, f"a {kind.name} has no motion laws, of which the chart residual is")
+        found = design.vibrations(asked.samples - 1)
+        if not found:
+            words = "no law of this file has natural periods: give loads.vibration.frequency, or frequency and time"
+            raise NoSolution(f"{words} of the law, and the speed")
+    return spec.name, found
+
+
+def _vibration_table(found: Vibration) -> Table:
+    columns: dict[str, tuple[Any, str]] = {"speed": (found.speed, found.unit), "periods": (found.periods, "1")}
+    return Table.of(found.path, columns | {name: (values, "1") for name, values in found.residuals.items()})
+
+
 def _list_charts(options: Options) -> int:
+    known = {chart.name: (chart.title, chart.source) for chart in CHARTS.values()} | OF_FILES
     if options.format is Format.JSON:
         import json
 
-        print(json.dumps({chart.name: {"title": chart.title, "source": chart.source} for chart in CHARTS.values()}))
+        print(json.dumps({name: {"title": title, "source": source} for name, (title, source) in known.items()}))
         return ExitCode.OK
-    print(listed((chart.name, f"{chart.title} ({chart.source})") for chart in CHARTS.values()))
+    print(listed((name, f"{title} ({source})") for name, (title, source) in known.items()))
     return ExitCode.OK
 
 
 def _chart_named(name: str) -> DesignChart:
     if name in CHARTS:
         return CHARTS[name]
-    near = get_close_matches(name.lower().replace("_", "-"), CHARTS, n=3, cutoff=0.4)
-    known = f"the charts are {', '.join(CHARTS)}"
+    near = get_close_matches(name.lower().replace("_", "-"), [*CHARTS, *OF_FILES], n=3, cutoff=0.4)
+    known = f"the charts are {', '.join([*CHARTS, *OF_FILES])}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known
     raise DesignFileError([Diagnostic("GL115", f"no chart {named(name)}", "<command line>", key=name, help=remedy)])
 

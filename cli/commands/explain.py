@@ -15,7 +15,7 @@ from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.cli.glossary import Meaning, Place, Concept
+    from gearlink.cli.glossary import Concept, Meaning, Place
     from gearlink.core.base.kind import Kind
     from gearlink.core.base.report import Rule
 

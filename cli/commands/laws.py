@@ -27,7 +27,7 @@ _OF_FILES = ("overrides", "quantities", "tables", "strict", "save", "force")
 )
 def laws(
     options: Options,
-    spec: Annotated[str, typer.Argument(metavar="[SPEC]", help="design file of kind motion-law; default: all laws")] = "",
+    spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file of kind motion-law; default: all laws")] = "",
     law: Annotated[
         list[str],
         typer.Option(

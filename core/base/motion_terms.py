@@ -66,7 +66,9 @@ SHAPED_LAWS = {
     "periods": Term("lambda", "1", "natural periods of what a law moves per phase"),
     "residual": Term("R", "1", "greatest vibration that a phase leaves over a band of speeds, over the rise"),
     "residual_at_design": Term("R_d", "1", "vibration that a phase leaves at the design's speed, over the rise"),
-    "lower_bound": Term("", "1", "no law of the degree that keeps the limits lies below: duals of the linear programme"),
+    "lower_bound": Term(
+        "", "1", "no law of the degree that keeps the limits lies below: duals of the linear programme"
+    ),
     "lower_bound_all_laws": Term("", "1", "no law of any form that keeps the limits lies below: closed form"),
     "gap": Term("", "1", "what was minimized over its lower bound, less 1"),
 }

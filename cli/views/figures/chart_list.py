@@ -265,3 +265,6 @@ CHARTS: dict[str, DesignChart] = {
         ),
     )
 }
+
+OF_FILES = {"residual": ("Vibration left over the speed, of the laws of a file and of usual ones", "own derivation")}
+"""Charts that a design file alone has: title and source."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
@@ -10,12 +10,15 @@ from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.core.parts.cams.law_tables import MotionLaws
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.base.report import Table
+    from gearlink.cli.options import Options
     from gearlink.core.machines.motion_law.design import MotionLawDesign
     from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.shaped_design import Vibration
 
 _HEADINGS = {
     "rest_to_rest": "From rest to rest, over x = 0 to 1",
@@ -51,6 +54,12 @@ def draw(design: MotionLaws) -> Figure:
 
 def draw_design(command: str, design: MotionLawDesign) -> Figure:
     """Rise and derivatives of the law of a file, and the vibration that it leaves beside that of usual laws."""
+    import numpy as np
+
+    from gearlink.core.parts.cams.laws import law as law_of
+    from gearlink.core.parts.cams.shaped import residuals
+    from gearlink.core.parts.cams.shaped_design import BESIDE
+
     figure = panels.page(f"{design.spec.name}: {command}")
     law, vibrates = design.law, design.band is not None
     grid = figure.subplots(len(_AXES) + vibrates, 1, squeeze=False, height_ratios=[1.0] * 4 + [1.7] * vibrates)
@@ -58,32 +67,53 @@ def draw_design(command: str, design: MotionLawDesign) -> Figure:
         axes.sharex(grid[0, 0])
     _column([row[0] for row in grid[: len(_AXES)]], _HEADINGS.get(law.kind.replace("-", "_"), "Over x = 0 to 1"), [law])
     if vibrates:
-        residual_panel(grid[-1, 0], [(law.name, design.law, design.damping)], design.table("residual", samples=600))
+        periods = np.asarray(design.table("residual", samples=600)["periods"], dtype=np.float64)
+        beside = {name: law_of(name) for name in BESIDE}
+        left = {name: residuals(each, periods, design.damping) for name, each in {law.name: law, **beside}.items()}
+        residual_panel(grid[-1, 0], "Vibration left, over the rise", periods, left)
+        grid[-1, 0].set_xlabel("natural periods per phase (faster to the left)")
     return figure
 
 
-def residual_panel(axes: Axes, laws: Sequence[tuple[str, Law, float]], table: Table) -> None:
-    """Vibration left over the natural periods per phase, of some laws and of the usual ones, on a logarithmic axis."""
+def residual_panel(axes: Axes, heading: str, x: Any, left: Mapping[str, Any]) -> None:
+    """Vibration left over x by the names of laws, on a logarithmic axis."""
     import numpy as np
 
-    from gearlink.core.parts.cams.laws import law as law_of
-    from gearlink.core.parts.cams.shaped import residuals
-
-    periods = np.asarray(table["periods"], dtype=np.float64)
-    damping = laws[0][2]
-    curves = [*laws, *((name, law_of(name), damping) for name in BESIDE)]
-    panels.heading(axes, "Vibration left, over the rise")
-    found = [residuals(each, periods, ratio) for _, each, ratio in curves]
-    least = _FAINTEST * max(float(values.max()) for values in found)
-    for (name, *_), values, look in zip(curves, found, _looks(len(curves)), strict=True):
-        axes.semilogy(periods, np.maximum(values, least), linewidth=1.0 if name in BESIDE else 1.4, label=name, **look)
+    panels.heading(axes, heading)
+    least = _FAINTEST * max(float(values.max()) for values in left.values())
+    for k, (name, values, look) in enumerate(zip(left, left.values(), _looks(len(left)), strict=True)):
+        axes.semilogy(x, np.maximum(values, least), linewidth=1.0 if k else 1.6, label=name, **look)
     style.curves(axes, "", "residual R")
-    axes.set_xlim(float(periods.min()), float(periods.max()))
-    axes.set_xlabel("natural periods per phase (faster to the left)")
+    axes.set_xlim(float(np.min(x)), float(np.max(x)))
     panels.legend_below(axes, 2, labelled=True)
 
 
-BESIDE = ("cycloidal", "modified-sine", "polynomial-4567")
+def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> Path:
+    """Draw what the laws of a design leave over the speed, and write NAME-residual-chart.FORMAT.
+
+    Raises
+        CannotWrite - where the folder or the disk does not take the file
+    """
+    from gearlink.cli.files import safe_stem, write_atomically
+    from gearlink.cli.views.figures.drawing.placing import settled
+    from gearlink.cli.views.figures.write import save
+
+    ending = options.plot_format.value
+    path = options.out / f"{safe_stem(name)}-residual-chart.{ending}"
+
+    def make() -> Figure:
+        figure = panels.page(f"{name}: vibration that its laws leave, over the rise")
+        grid = figure.subplots(len(found), 1, squeeze=False)
+        for axes, each in zip(grid[:, 0], found, strict=True):
+            residual_panel(axes, f"{each.path}: {next(iter(each.residuals))}", each.speed, each.residuals)
+            unit = "share of the design's speed" if each.unit == "1" else f"speed [{each.unit}]"
+            axes.set_xlabel(unit)
+        return settled(figure)
+
+    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi))
+    return path
+
+
 _FAINTEST = 1e-5  # of the greatest
 
 

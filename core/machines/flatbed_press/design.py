@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.profile import RollerPath
+    from gearlink.core.parts.cams.shaped import Phase
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
@@ -368,13 +369,18 @@ class PressCams(DiscCams):
     def _return_of(self, rise: float) -> Law:
         """The law of a return that numbers shape, over the rise that it takes back [mm]."""
         from gearlink.core.parts.cams.laws import law
+
+        with in_section("cam.return_law"):
+            found = law(self.section.return_law, self.return_phase(rise))
+            _require_rest(found)
+        return found
+
+    def return_phase(self, rise: float | None = None) -> Phase:
+        """What the law of the return is told of its phase; the cam turns once a sheet."""
         from gearlink.core.parts.cams.shaped import Drive
 
         drive = Drive.of(self.spec, rate=2.0 * math.pi / 3600.0, unit="sheets/h")
-        with in_section("cam.return_law"):
-            found = law(self.section.return_law, drive.phase(math.radians(self.section.return_angle), rise))
-            _require_rest(found)
-        return found
+        return drive.phase(math.radians(self.section.return_angle), rise)
 
     @property
     def transition_end(self) -> float:
@@ -681,6 +687,10 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     def law_at(self, _path: str, /) -> Law:
         """The law of the follower's return."""
         return self.cams.follower.return_law
+
+    def law_phase(self, _path: str, /) -> Phase:
+        """The phase of the follower's return."""
+        return self.cams.return_phase()
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """Input gears of other modules side by side."""

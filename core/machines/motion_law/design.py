@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.motion_law.spec import MotionLawSpec
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.optimal import Optimum
-    from gearlink.core.parts.cams.shaped import Shaping
+    from gearlink.core.parts.cams.shaped import Phase, Shaping
 
 _QUANTITIES = (
     "peak_velocity",
@@ -55,15 +55,18 @@ class MotionLawDesign(WithShapedLaws, Design):
     def law(self) -> Law:
         """The law over x in [0, 1]."""
         from gearlink.core.parts.cams.laws import law
+
+        with in_section("law"):
+            return law(self.spec.law, self.law_phase(""))
+
+    def law_phase(self, _path: str, /) -> Phase:
+        """What the file says of the phase."""
         from gearlink.core.parts.cams.shaped import Phase
 
         spec = self.spec
         angle = None if spec.angle is None else math.radians(spec.angle)
-        with in_section("law"):
-            return law(
-                spec.law,
-                Phase(angle, spec.stroke, spec.seconds, spec.speed, "", spec.frequency, spec.damping),
-            )
+        unit = "" if spec.speed is None else "rev/min"
+        return Phase(angle, spec.stroke, spec.seconds, spec.speed, unit, spec.frequency, spec.damping, in_periods=True)
 
     @property
     def law_definitions(self) -> Mapping[str, Any]:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.profile import RollerPath
+    from gearlink.core.parts.cams.shaped import Phase
     from gearlink.core.parts.cams.size import RockingRoller
 
 
@@ -624,6 +625,10 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         """The law of a phase."""
         found: Law = getattr(self.motion.law, {"return": "return_"}.get(phase := path.removeprefix("laws."), phase))
         return found
+
+    def law_phase(self, path: str, /) -> Phase:
+        """The phase of a law."""
+        return self.motion.phase(path.removeprefix("laws."))
 
     # Quantities
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.shaped import Phase
 
 _STATED = 1e-6
 _TURN = 2.0 * math.pi
@@ -69,16 +70,19 @@ class Motion:
 
         definition = getattr(self.spec.laws, phase if phase != "return" else "return_")
         with in_section(f"laws.{phase}"):
-            if isinstance(definition, str | Mapping):
-                return law(definition)
-            from gearlink.core.parts.cams.shaped import Drive
-
-            drive, to_speed = Drive.of(self.spec, rate=_TURN / 3600.0, unit="sheets/h"), phase != "return"
-            length = getattr(self.spec.phases, phase if phase != "return" else "return_")
-            return law(
-                definition,
-                drive.phase(math.radians(length), rise * length if to_speed else rise, to_speed=to_speed),
+            return (
+                law(definition) if isinstance(definition, str | Mapping) else law(definition, self.phase(phase, rise))
             )
+
+    def phase(self, name: str, rise: float | None = None) -> Phase:
+        """What a law is told of its phase; `rise` as of the return in deg, else per deg of the phase."""
+        from gearlink.core.parts.cams.shaped import Drive
+
+        to_speed = name != "return"
+        length = self.spec.phases.return_ if not to_speed else getattr(self.spec.phases, name)
+        whole = rise * length if to_speed and rise is not None else rise
+        drive = Drive.of(self.spec, rate=_TURN / 3600.0, unit="sheets/h")
+        return drive.phase(math.radians(length), whole, to_speed=to_speed)
 
     def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
         swing = math.degrees(law.total_swing)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from gearlink.core.base.design import Found
     from gearlink.core.parts.cams.follower_motion import FollowerMotion
     from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.shaped import Phase
 
 _CURVES = ("lift", "velocity", "acceleration", "jerk")
 _EXTREMES = (
@@ -58,7 +59,16 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     def law_at(self, path: str, /) -> Law | None:
         """The law of a segment."""
-        return next((each.law for each in self.follower_motion.pieces if path == f"motion[{each.number - 1}].law"), None)
+        return next(
+            (each.law for each in self.follower_motion.pieces if path == f"motion[{each.number - 1}].law"), None
+        )
+
+    def law_phase(self, path: str, /) -> Phase:
+        """The phase of a segment."""
+        from gearlink.core.parts.cams.shaped import Drive
+
+        pieces = self.follower_motion.pieces
+        return Drive.of(self.spec).phase(next(p.width for p in pieces if path == f"motion[{p.number - 1}].law"))
 
     def completion(self) -> Iterator[Found]:
         """The optimal laws as they were solved."""

@@ -42,7 +42,7 @@ class Piece:
         coefficients : (6,) tuple - of a polynomial in x, the lift itself; empty: no polynomial
         joints : floats in (0, 1) - where its law changes
         ends : (velocity, acceleration) at start and end - what the law imposes on its neighbours, by the cam angle
-        law : Law or None - a law with numbers of its own
+        law : Law or None - that it runs by, where it is one of `laws`
         waits : Segment or None - whose law takes the values of a neighbour, and is made when that is known
     """
 
@@ -267,7 +267,7 @@ def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any
         with in_section(f"motion[{blank.number - 1}].law"):
             one = law(definition, phase)
         joints, name = one.joints, one.name
-        blank = replace(blank, law=one if one.shaping is not None else None)
+        blank = replace(blank, law=one)
         if one.kind == "rest-to-speed":
             shape, speed = _to_speed(one), (slope / one.kappa, 0.0)
             if segment.mirrored:

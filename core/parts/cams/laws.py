@@ -314,9 +314,9 @@ def law(definition: Any, phase: Phase | None = None) -> Law:
     if isinstance(definition, str):
         return _named(definition)
     if not isinstance(definition, Mapping) or "type" in definition:
-        from gearlink.core.parts.cams.shaped import Phase, shaped_law
+        from gearlink.core.parts.cams.shaped import shaped_law
 
-        return shaped_law(definition, phase or Phase())
+        return shaped_law(definition, phase)
     if len(definition) != 1:
         raise NoSolution(f"motion law {dict(definition)!r}: give one key, scca, quintic or septic")
     (key, value), *_ = definition.items()

@@ -64,7 +64,9 @@ class _Search(Programme):
         return np.asarray(v0[:, None] * a + a0[:, None] * v - (v0 * a0)[:, None] * one)
 
     def _value(self, series: Reals) -> float:
-        return float(np.max(np.abs((self.basis.rows(1, self.fine) @ series) * (self.basis.rows(2, self.fine) @ series))))
+        return float(
+            np.max(np.abs((self.basis.rows(1, self.fine) @ series) * (self.basis.rows(2, self.fine) @ series)))
+        )
 
     def _begin(self) -> None:
         """From the law of least acceleration that keeps the other limits."""
@@ -102,17 +104,17 @@ class _Search(Programme):
 class _Energy(NamedTuple):
     """Columns v_0..v_N, K_0..K_N, M of the programme over half the phase."""
 
-    count: int
+    intervals: int
     step: float
     acceleration: float
 
     @property
     def columns(self) -> int:
-        return 2 * self.count + 3
+        return 2 * self.intervals + 3
 
     def rows(self) -> tuple[Reals, Reals]:
         """Rows and their upper limits that hold for every law: steps of v and K, and the rise."""
-        n, h, top = self.count, self.step, self.acceleration
+        n, h, top = self.intervals, self.step, self.acceleration
         v, k = np.eye(n + 1, self.columns), np.eye(n + 1, self.columns, n + 1)
         torque = np.zeros((n, self.columns))
         torque[:, -1] = h
@@ -126,9 +128,9 @@ class _Energy(NamedTuple):
     def cuts(self, at: Reals) -> tuple[Reals, Reals]:
         """v_j below the tangents of sqrt(2 K) at places of K."""
         root = np.sqrt(2.0 * at)
-        rows = np.zeros((self.count + 1, self.columns))
-        j = np.arange(self.count + 1)
-        rows[j, j], rows[j, self.count + 1 + j] = 1.0, -1.0 / root
+        rows = np.zeros((self.intervals + 1, self.columns))
+        j = np.arange(self.intervals + 1)
+        rows[j, j], rows[j, self.intervals + 1 + j] = 1.0, -1.0 / root
         return rows, 0.5 * root
 
 

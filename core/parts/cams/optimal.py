@@ -181,10 +181,8 @@ class Basis:
         found = bernstein.from_chebyshev(full)
         found[[0, -1]] = 0.0
         mirror = 1.0 if wish.to_speed else -1.0
-        if wish.symmetric:
-            found = 0.5 * (found + mirror * found[::-1])
-        else:
-            found = _made_exact(found, to_speed=wish.to_speed)
+        halved = 0.5 * (found + mirror * found[::-1])
+        found = halved if wish.symmetric else _made_exact(found, to_speed=wish.to_speed)
         places = _DIGITS - 1 - math.floor(math.log10(float(np.max(np.abs(found)))))
         return np.round(found, places)
 
@@ -193,10 +191,8 @@ def _made_exact(found: Reals, *, to_speed: bool) -> Reals:
     """The nearest coefficients that keep their sum, and the rise."""
     n = found.size - 1
     i = np.arange(1, n)
-    rows, values = [np.ones(n - 1)], [(n + 1.0) if to_speed else 0.0]
-    if not to_speed:
-        rows, values = [*rows, n + 1.0 - i], [*values, (n + 1.0) * (n + 2.0)]
-    matrix = np.array(rows)
+    values = [n + 1.0] if to_speed else [0.0, (n + 1.0) * (n + 2.0)]
+    matrix = np.array([np.ones(n - 1), n + 1.0 - i][: len(values)])
     off = np.array(values) - matrix @ found[1:-1]
     inner = found[1:-1] + matrix.T @ np.linalg.solve(matrix @ matrix.T, off)
     return np.concatenate([[0.0], inner, [0.0]])
@@ -324,7 +320,9 @@ class Programme:
     @staticmethod
     def peak_of(key: str, coefficients: Reals) -> float:
         """Upper bound of a derivative's magnitude, from the coefficients of s''."""
-        return bernstein.peak({1: bernstein.integral, 2: np.asarray, 3: bernstein.derivative}[_ORDERS[key]](coefficients))
+        if key == "velocity":
+            return bernstein.peak(bernstein.integral(coefficients))
+        return bernstein.peak(bernstein.derivative(coefficients) if key == "jerk" else coefficients)
 
     def solved(self, slack: float = 0.0) -> Solved:
         """The programme solved with its limits tightened, and with places added until none passes its limit."""
@@ -385,7 +383,8 @@ class Programme:
             least = 0.25 * wish.jerk * (1.0 - math.sqrt(1.0 - 32.0 / wish.jerk))
             text += f" (with jerk {wish.jerk:g} the acceleration of any law reaches {least:.6g})"
         elif not wish.to_speed and wish.acceleration is not None:
-            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {_ramp(wish.acceleration):.6g})"
+            least = _ramp(wish.acceleration)
+            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {least:.6g})"
         return NoSolution(text)
 
     # What is proved

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 _TWO_PI = 2.0 * math.pi
 _LEAST_PERIODS = 0.5
+ASSUMED_DAMPING = 0.03
+"""As `loads.vibration` has it where the file gives none."""
 _LEAST_SPEED_BAND = 100.0
 _SAME = 1e-9
 _PHASE_OF_PANEL, _NODES = 6.0, 24
@@ -35,9 +38,10 @@ class Phase(NamedTuple):
         rise : float - over the phase, in the unit of the file
         time : float [s] - of the phase at the design's speed
         speed : float - of the design, in `unit`
-        unit : str - of speeds and of bands of speeds; empty: bands are natural periods per phase
+        unit : str - of speeds, and of bands of speeds
         frequency : float [Hz], damping : float - of what the design drives
         to_speed : bool - the phase ends at speed
+        in_periods : bool - bands are natural periods per phase, not speeds
     """
 
     angle: float | None = None
@@ -48,6 +52,7 @@ class Phase(NamedTuple):
     frequency: float | None = None
     damping: float | None = None
     to_speed: bool = False
+    in_periods: bool = False
 
 
 class Drive(NamedTuple):
@@ -71,6 +76,7 @@ class Drive(NamedTuple):
         """The drive of a design file with the keys `speed` and `loads.vibration`, where it has them."""
         vibration = getattr(getattr(spec, "loads", None), "vibration", None)
         frequency, damping = (getattr(vibration, key, None) for key in ("frequency", "damping"))
+        damping = ASSUMED_DAMPING if vibration is not None and damping is None else damping
         return cls(getattr(spec, "speed", None), rate, unit, frequency, damping)
 
     def phase(self, angle: float, rise: float | None = None, *, to_speed: bool = False) -> Phase:
@@ -98,12 +104,12 @@ class Shaping(NamedTuple):
     optimum: Optimum | None = None
 
 
-def shaped_law(definition: Any, phase: Phase = Phase()) -> Law:
+def shaped_law(definition: Any, phase: Phase | None = None) -> Law:
     """The law of a mapping with a `type`.
 
     Parameters
         definition : model of `shaped_spec`, or the mapping itself
-        phase : Phase - what the design says of it
+        phase : Phase or None - what the design says of it
     Raises
         NoSolution - for what no law can be, at the key within the mapping
     Example
@@ -123,7 +129,7 @@ def shaped_law(definition: Any, phase: Phase = Phase()) -> Law:
         raise NoSolution(f"motion law {definition.get('type')}: {key}: {first['msg']}", key=key) from error
     if isinstance(model, dict):
         raise NoSolution(f"unknown type of law {model.get('type')!r}: {', '.join(MODELS)}; in a cam blend, shifted")
-    return _made(_Asked(model, model.model_dump_json(), phase))
+    return _made(_Asked(model, model.model_dump_json(), phase or Phase()))
 
 
 class _Asked:
@@ -163,7 +169,9 @@ def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
     if given == "join":
         raise NoSolution(f"{key}: join takes the values of a neighbour, which only a segment of a cam has", key=key)
     if phase.angle is None or not phase.rise:
-        raise NoSolution(f"{key}: speed and acceleration of a lift belong to a segment of a cam: give [s, v, a]", key=key)
+        raise NoSolution(
+            f"{key}: speed and acceleration of a lift belong to a segment of a cam: give [s, v, a]", key=key
+        )
     scale = phase.angle / phase.rise
     return [1.0 if key == "end" else 0.0, given.speed * scale, given.acceleration * scale * phase.angle]
 
@@ -252,7 +260,7 @@ def of_powers(powers: Sequence[float | Fraction], name: str, shaping: Shaping) -
     return _of_orders(name, orders, shaping._replace(acceleration=tuple(orders[2].tolist())))
 
 
-def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping = Shaping("bernstein")) -> Law:
+def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping | None = None) -> Law:
     """The law from rest whose second derivative is sum c_i B_i,n; from rest to rest with rise 1, or to speed 1.
 
     Raises
@@ -270,7 +278,11 @@ def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping =
         c, v, s = c / s[-1], v / s[-1], s / s[-1]
     v[-1] = 0.0 if rests else 1.0
     j = bernstein.derivative(c)
-    return _of_orders(name, [s, v, c, j, bernstein.derivative(j)], shaping._replace(acceleration=tuple(coefficients)))
+    return _of_orders(
+        name,
+        [s, v, c, j, bernstein.derivative(j)],
+        (shaping or Shaping("bernstein"))._replace(acceleration=tuple(coefficients)),
+    )
 
 
 def _of_orders(name: str, orders: Sequence[Reals], shaping: Shaping) -> Law:
@@ -331,8 +343,8 @@ def polydyne(periods: float, damping: float = 0.0) -> Law:
         raise NoSolution(f"{message}allow at least {_LEAST_PERIODS:g}, by a longer phase or less speed", key="periods")
     y = [Fraction(c) for c in (0, 0, 0, 0, 0, 126, -420, 540, -315, 70)]
     w = Fraction(_TWO_PI * periods)
-    first = [k * c for k, c in enumerate(y)][1:] + [Fraction(0)]
-    second = [k * c for k, c in enumerate(first)][1:] + [Fraction(0)]
+    first = [*(k * c for k, c in enumerate(y) if k), Fraction(0)]
+    second = [*(k * c for k, c in enumerate(first) if k), Fraction(0)]
     ratio = 2 * Fraction(damping) / w
     powers = [a + ratio * b + c / w**2 for a, b, c in zip(y, first, second, strict=True)]
     return of_powers(powers, f"polydyne {periods:.6g}", Shaping("polydyne", periods=periods, damping=damping))
@@ -420,7 +432,7 @@ def _band(model: OptimalLaw, phase: Phase) -> tuple[float, float]:
     """The band in natural periods per phase."""
     assert model.band is not None
     low, high = model.band
-    if model.unit == "periods" or not phase.unit:
+    if model.unit == "periods" or phase.in_periods or not phase.unit:
         return low, high
     if phase.speed is None or phase.time is None:
         message = f"a band of speeds ({phase.unit}) needs the speed of the design: give it, or unit: periods"
@@ -448,8 +460,7 @@ def residuals(law: Law, periods: Reals, damping: float = 0.0) -> Reals:
     joints = [0.0, *law.joints, 1.0]
     step = _PHASE_OF_PANEL / (_TWO_PI * float(np.max(periods)))
     edges = np.concatenate(
-        [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in zip(joints[:-1], joints[1:], strict=True)]
-        + [np.ones(1)]
+        [np.linspace(a, b, math.ceil((b - a) / step) + 1)[:-1] for a, b in pairwise(joints)] + [np.ones(1)]
     )
     x, weight = np.polynomial.legendre.leggauss(_NODES)
     width = np.diff(edges)[:, None]

@@ -1,20 +1,45 @@
-"""What designs have whose files shape their motion laws by numbers: checks, coefficients, the solved laws for a file."""
+"""What designs have whose files shape their motion laws by numbers: checks, coefficients, solved laws."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Found
 from gearlink.core.base.report import Check, Table
 from gearlink.core.parts.cams.codes import LAW_GAP, POLYDYNE_RANGE
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
+    from gearlink.core.parts.cams.shaped import Phase
 
 LAW_CHECKS = ("law-gap", "polydyne-range")
 LAW_TABLE = "law_coefficients"
 _MOST_GAP, _LEAST_PERIODS = 1e-3, 1.0
+
+
+BESIDE = ("cycloidal", "modified-sine", "polynomial-4567")
+"""Laws that are shown beside those of a file."""
+SPEEDS = (0.5, 1.3)
+_STEPS = 160
+
+
+class Vibration(NamedTuple):
+    """What a law of a design leaves over the speed, and usual laws in its place.
+
+    Fields
+        path : str - of the law in the file
+        speed : (N,) array - in `unit`; "1": shares of the speed for which the law is shaped
+        periods : (N,) array - natural periods per phase
+        residuals : (N,) arrays by the name of the law, its own first - over the rise
+    """
+
+    path: str
+    speed: Reals
+    unit: str
+    periods: Reals
+    residuals: dict[str, Reals]
 
 
 def is_shaped(definition: Any, *types: str) -> bool:
@@ -33,6 +58,35 @@ class WithShapedLaws:
     def law_at(self, path: str, /) -> Law | None:
         """The law of a path; None where nothing moves by it."""
         raise NotImplementedError
+
+    def law_phase(self, path: str, /) -> Phase:
+        """What the design says of the phase of a law."""
+        raise NotImplementedError
+
+    def vibrations(self, samples: int | None = None) -> list[Vibration]:
+        """What each law leaves from 0.5 to 1.3 of the design's speed, as far as natural periods are known of it."""
+        import numpy as np
+
+        from gearlink.core.parts.cams.laws import law as law_of
+        from gearlink.core.parts.cams.shaped import residuals
+
+        share, found = np.linspace(*SPEEDS, (samples or _STEPS) + 1), []
+        for path in self.law_definitions:
+            law = self.law_at(path)
+            if law is None or law.kind == "given-ends":
+                continue
+            phase, shaping = self.law_phase(path), law.shaping
+            periods = shaping.periods if shaping is not None else None
+            if periods is None and phase.frequency is not None and phase.time is not None:
+                periods = phase.frequency * phase.time
+            if periods is None:
+                continue
+            damping = (phase.damping or 0.0) if shaping is None or shaping.periods is None else shaping.damping
+            names = {law.name: law, **{name: law_of(name) for name in BESIDE if law.kind == "rest-to-rest"}}
+            left = {name: residuals(each, periods / share, damping) for name, each in names.items()}
+            speed = share if phase.speed is None else share * phase.speed
+            found.append(Vibration(path, speed, phase.unit if phase.speed is not None else "1", periods / share, left))
+        return found
 
     def _shaped(self, *types: str) -> Iterator[tuple[str, Law]]:
         for path, definition in self.law_definitions.items():
@@ -58,7 +112,11 @@ class WithShapedLaws:
                 continue
             few = periods < _LEAST_PERIODS
             text = f"{path}: {periods:.4g} natural periods per phase"
-            text += f", below {_LEAST_PERIODS:g}: the acceleration grows as 1/lambda^2; give the phase more time" if few else ""
+            text += (
+                f", below {_LEAST_PERIODS:g}: the acceleration grows as 1/lambda^2; give the phase more time"
+                if few
+                else ""
+            )
             yield POLYDYNE_RANGE.check("warn" if few else "pass", text, periods, _LEAST_PERIODS)
 
     def table_law_coefficients(self, _samples: int | None = None) -> Table:

@@ -16,7 +16,9 @@ Hertz = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})]
 Periods = Annotated[float, Field(gt=0, le=100, json_schema_extra=PLAIN)]
 Damping = Annotated[float, Field(ge=0, lt=1, json_schema_extra=PLAIN)]
 Rate = Annotated[float, Field(gt=0, le=1e7, json_schema_extra=PLAIN)]
-Coefficients = Annotated[list[Number], Field(min_length=3, max_length=4), Entries("[s, v, a] or [s, v, a, j]", "[1, 0.8, 0]")]
+Coefficients = Annotated[
+    list[Number], Field(min_length=3, max_length=4), Entries("[s, v, a] or [s, v, a, j]", "[1, 0.8, 0]")
+]
 
 
 def _refused(key: str, message: str) -> PydanticCustomError:
@@ -34,7 +36,10 @@ End = Coefficients | Literal["join"] | EndInFile
 
 
 class _WithEnds(Spec):
-    start: End = Field([0.0, 0.0, 0.0], description="s, v, a (, j) at x = 0; in a cam also join, or speed and acceleration")
+    type: Literal["polynomial", "harmonic"] = Field(description="how the law is shaped")
+    start: End = Field(
+        [0.0, 0.0, 0.0], description="s, v, a (, j) at x = 0; in a cam also join, or speed and acceleration"
+    )
     end: End = Field([1.0, 0.0, 0.0], description="the same at x = 1")
 
     @property
@@ -50,7 +55,8 @@ class PolynomialEnds(_WithEnds):
 
     @model_validator(mode="after")
     def _alike(self) -> PolynomialEnds:
-        if not self.joins and len(self.start) != len(self.end):
+        start, end = self.start, self.end
+        if isinstance(start, list) and isinstance(end, list) and len(start) != len(end):
             raise _refused("end", "start and end have as many values each: 3, or 4 with the jerk")
         return self
 
@@ -73,7 +79,7 @@ class Polydyne(Spec):
 
     type: Literal["polydyne"] = Field(description="how the law is shaped")
     periods: Periods | None = Field(None, description="natural periods per phase, at least 0.5")
-    frequency: Hertz | None = Field(None, description="natural frequency, in place of periods; default: loads.vibration")
+    frequency: Hertz | None = Field(None, description="natural frequency, in place of periods; default: that of loads")
     damping: Damping = Field(0.0, description="damping ratio")
     speed: Rate | None = Field(None, description="speed for which it is shaped; default: the design's")
 
@@ -102,11 +108,11 @@ class OptimalLaw(Spec):
     degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(15, description="of the acceleration")
     symmetric: bool = Field(True, description="the second half mirrors the first")
     velocity: Bound | None = Field(None, description="greatest |ds/dx|, rise 1 over x from 0 to 1")
-    acceleration: Bound | None = Field(None, description="greatest second derivative by x (bernstein: its coefficients)")
+    acceleration: Bound | None = Field(None, description="greatest second derivative by x; bernstein: its coefficients")
     jerk: Bound | None = Field(None, description="greatest third derivative by x")
     limit: LawLimits | None = Field(None, description="the same in the units of the file, at the design's speed")
     band: Annotated[list[Bound], Field(min_length=2, max_length=2), Entries("[from, to]", "[8000, 12000]")] | None = (
-        Field(None, description="speeds (design's unit), or natural periods per phase, over which the residual is least")
+        Field(None, description="speeds (design's unit) or natural periods per phase of least residual")
     )
     unit: Literal["periods"] | None = Field(None, description="periods: the band is in natural periods per phase")
     frequency: Hertz | None = Field(None, description="natural frequency; default: loads.vibration")
@@ -125,7 +131,8 @@ class OptimalLaw(Spec):
         for key in self.KEYS if self.limit is not None else ():
             if getattr(self.limit, key) is not None and (getattr(self, key) is not None or key == self.minimize):
                 raise _refused(f"limit.{key}", f"{key} has another limit, or is minimized: leave this one out")
-        bounded = any(getattr(at, key) is not None for at in (self, self.limit) if at for key in ("acceleration", "jerk"))
+        places = [at for at in (self, self.limit) if at is not None]
+        bounded = any(getattr(at, key) is not None for at in places for key in ("acceleration", "jerk"))
         if self.minimize == "residual" and not bounded:
             raise _refused("acceleration", "minimize: residual needs a limit of acceleration or jerk: give one")
         return self
@@ -149,9 +156,6 @@ MODELS: dict[str, type[Spec]] = {
     "optimal": OptimalLaw,
     "bernstein": BernsteinLaw,
 }
-Shaped = Annotated[
-    PolynomialEnds | HarmonicEnds | Polydyne | OptimalLaw | BernsteinLaw, Field(discriminator="type")
-]
 
 
 def shaped(definition: Any) -> Any:
