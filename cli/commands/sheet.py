@@ -17,6 +17,7 @@ from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import named
+from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
@@ -74,6 +75,8 @@ def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
     return path
 
 
+_ALIKE = ("motion", "timing", "pressure", "drawing")
+"""Sheets that are drawn alike of what a kind gives for them; others a kind draws itself."""
 Makers = dict[str, Callable[[], "Figure"]]
 
 
@@ -95,6 +98,9 @@ def sheets_of(design: Any) -> Makers:
         found["motion"] = lambda: motion_sheet.draw(design)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
+    for name, place in KINDS[design.kind].sheets.items():
+        if name not in _ALIKE and place:
+            found[name] = lambda place=place: load(place)(design)  # type: ignore[misc]
     cams = cam_sheets.discs(design)
     if cams:
         found["pressure"] = lambda: cam_sheets.pressure(design)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from gearlink.cli.reading.design_file import load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
-from gearlink.cli.reading.places import ENDINGS
-from gearlink.cli.reading.yaml_reader import Tree, format_path
+from gearlink.cli.reading.places import ENDINGS, base_path
+from gearlink.cli.reading.yaml_reader import format_path
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.studies.study.faults import Fault
 
@@ -23,7 +22,7 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
         DesignFileError - GL156 at the places of the base, GL101 where there is no such file
     """
     if spec.of is None:
-        base = _inside(loaded)
+        base = loaded.part(("design",))
         where = "the base design"
     else:
         path = base_path(loaded.file, spec.of)
@@ -51,20 +50,6 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
             ) from None
         raise DesignFileError([_of_base(d, where, below) for d in error.diagnostics]) from None
     return spec.model_copy(update={"design": base.data})
-
-
-def base_path(study: str, of: str) -> Path:
-    """Where the file of `of` stands: relative to the study, or to the current folder where that is no file."""
-    return Path(of) if study.startswith("<") else Path(study).parent / of
-
-
-def _inside(loaded: LoadedFile) -> LoadedFile:
-    """The design that stands in a study, as a file of its own whose keys lie in the study's text."""
-    marks = (loaded.tree.marks or {}).get("design")
-    at, below = (marks[0], marks[2]) if marks else (loaded.tree.at, None)
-    tree = Tree(loaded.tree.source, loaded.data["design"], below, at)
-    overrides = [o._replace(path=o.path[1:]) for o in loaded.overrides if o.path[:1] == ("design",) and len(o.path) > 1]
-    return LoadedFile(loaded.file, loaded.data["design"], tree, overrides)
 
 
 def _of_base(wrong: Diagnostic, where: str, below: str) -> Diagnostic:

@@ -11,11 +11,12 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
+from gearlink.cli.files import stem_of
 from gearlink.cli.options import Keyed
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.files_read import note
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, nearest_file, piped
+from gearlink.cli.reading.places import ENDINGS, astray, base_path, is_named_pipe, nearest_file, piped
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -175,6 +176,10 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     from pydantic import ValidationError
 
     wrong = list(loaded.problems)
+    faulty: set[str] = set()
+    if section := getattr(model, "section_of_members", ""):
+        found_there, faulty = _read_members(loaded, section)
+        wrong += found_there
     if _starts_with_a_number(loaded.data):
         from gearlink.cli.reading.units import convert
 
@@ -196,6 +201,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         found = [diagnose_no_solution(loaded, error)]
     wrong += [_no_size(loaded, model, path, value) for path, value in odd if path in sizes]
     seen = {diagnostic.key for diagnostic in wrong if diagnostic.code in ("GL108", "GL180", "GL181")}
+    found = [d for d in found if not any(d.key.startswith(f"{member}.design") for member in faulty)]
     wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
         from gearlink.cli.reading.model_errors import diagnose_truth_values
@@ -205,6 +211,96 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     if wrong or spec is None:
         raise DesignFileError(wrong, omitted)
     return spec
+
+
+def _read_members(loaded: LoadedFile, section: str) -> tuple[list[Diagnostic], set[str]]:
+    """Put the design of every member in the place of the file that it names; units become numbers in all of them.
+
+    Parameters
+        section : str - the key under which the members stand
+    Returns
+        wrong, keys : what is wrong with them, at its place in their own files; keys of the members that have faults
+    """
+    members = loaded.data.get(section)
+    wrong: list[Diagnostic] = []
+    bad: set[str] = set()
+    for name, member in members.items() if isinstance(members, dict) else ():
+        if not isinstance(member, dict):
+            continue
+        path = (section, name)
+        try:
+            design = _design(loaded, path, member)
+        except DesignFileError as error:
+            wrong += error.diagnostics
+            bad.add(format_path(path))
+            continue
+        if design is not None:
+            kept = {key: value for key, value in member.items() if key not in ("of", "design")}
+            loaded.data = {**loaded.data, section: {**loaded.data[section], name: {**kept, "design": design}}}
+    return wrong, bad
+
+
+def _design(loaded: LoadedFile, path: KeyPath, member: dict[str, Any]) -> dict[str, Any] | None:
+    """The data of a member's design, validated; None where it has none, or two, which the model refuses."""
+    of, own = member.get("of"), member.get("design")
+    written = loaded.tree.data.get(path[0], {})
+    in_file = written.get(path[1], {}) if isinstance(written, dict) else {}
+    if isinstance(of, str) and not (isinstance(in_file, dict) and "design" in in_file and "of" in in_file):
+        return _of_file(loaded, path, of, own if isinstance(own, dict) else {})
+    if of is not None or not isinstance(own, dict):
+        return None
+    below = loaded.part((*path, "design"))
+    try:
+        validate(below, _model_of(below))
+    except DesignFileError as error:
+        raise DesignFileError([_below(each, f"{format_path(path)}.design") for each in error.diagnostics]) from None
+    return {"name": path[1], **below.data}
+
+
+def _of_file(loaded: LoadedFile, path: KeyPath, of: str, put_over: dict[str, Any]) -> dict[str, Any]:
+    """The data of the file that a member names, with what `--set` puts over it."""
+    place = base_path(loaded.file, of)
+    if not place.name.endswith(ENDINGS):
+        message = f"the member {place} is no design file ({', '.join(ENDINGS)})"
+        raise DesignFileError([loaded.report("GL101", message, (*path, "of"))])
+    try:
+        found = load(str(place))
+    except DesignFileError as error:
+        if error.diagnostics[0].code != "GL101":
+            raise
+        wrong = error.diagnostics[0]
+        message = f"the member {place}: {wrong.message}"
+        raise DesignFileError([loaded.report("GL101", message, (*path, "of"), help=wrong.help)]) from None
+    if put_over:
+        found.data = _over(found.data, put_over)
+        found.overrides = [
+            each._replace(path=each.path[len(path) + 1 :])
+            for each in loaded.overrides
+            if each.path[: len(path) + 1] == (*path, "design") and len(each.path) > len(path) + 1
+        ]
+    validate(found, _model_of(found))
+    return {"name": stem_of(str(place)), **found.data}
+
+
+def _model_of(loaded: LoadedFile) -> type[BaseModel]:
+    """The model of a member's kind."""
+    from gearlink.core.base.kinds import KINDS
+
+    model: type[BaseModel] = KINDS[read_kind(loaded, tuple(KINDS))].spec_model()
+    return model
+
+
+def _over(data: dict[str, Any], put: dict[str, Any]) -> dict[str, Any]:
+    """Data with others put over them, section by section."""
+    found = dict(data)
+    for key, value in put.items():
+        both = isinstance(value, dict) and isinstance(found.get(key), dict)
+        found[key] = _over(found[key], value) if both else value
+    return found
+
+
+def _below(wrong: Diagnostic, place: str) -> Diagnostic:
+    return replace(wrong, key=f"{place}.{wrong.key}" if wrong.key else place)
 
 
 def _starts_with_a_number(node: Any) -> bool:

@@ -66,6 +66,18 @@ class LoadedFile:
         line, column = self.tree.source.place(at)
         return line, column, column + len(plain[0])
 
+    def part(self, path: KeyPath) -> LoadedFile:
+        """The design that stands at a path, as a file of its own whose keys lie in the text of this one."""
+        marks, at, data = self.tree.marks, self.tree.at, self.data
+        for step in path:
+            found = (marks or {}).get(step)
+            at, marks = (found[0], found[2]) if found else (at, None)
+            data = data[step]  # type: ignore[index]  # a path of sections
+        deep = len(path)
+        inside = [each for each in self.overrides if each.path[:deep] == path and len(each.path) > deep]
+        overrides = [each._replace(path=each.path[deep:]) for each in inside]
+        return LoadedFile(self.file, data, Tree(self.tree.source, data, marks, at), overrides)
+
     def report(
         self,
         code: str,

@@ -129,3 +129,8 @@ def _neighbours(name: str, folders: bool) -> list[str]:
             return [entry.name for entry in islice(entries, 1000) if folders or not entry.is_dir()]
     except (OSError, ValueError):
         return []
+
+
+def base_path(file: str, of: str) -> Path:
+    """Where the file named by `of` stands: beside the file that names it; in the current folder where that is none."""
+    return Path(of) if file.startswith("<") else Path(file).parent / of

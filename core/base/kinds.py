@@ -428,6 +428,19 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.motion_laws:draw_design",
             worked="quiet_law",
         ),
+        Kind(
+            "machine",
+            "several mechanisms on one main shaft, or driven by each other: timing, loads, torsion, register",
+            "machines.machine",
+            "spec:MachineSpec",
+            {"analyze": "design:Machine"},
+            picture="cli.views.figures.machine:draw",
+            sheets={
+                "timing-line": "cli.views.figures.machine:line_sheet",
+                "timing-circle": "cli.views.figures.machine:circle_sheet",
+            },
+            worked="sheet_press",
+        ),
     )
 }
 

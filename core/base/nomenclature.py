@@ -9,6 +9,7 @@ from __future__ import annotations
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.gear_terms import GEAR_PAIR
 from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
+from gearlink.core.base.machine_terms import MACHINE
 from gearlink.core.base.motion_terms import MOTION_EXTREMES, SHAPED_LAWS
 from gearlink.core.base.planar_terms import PLANAR
 from gearlink.core.base.stepping_terms import STEPPING
@@ -374,6 +375,7 @@ TERMS: dict[str, Term] = {
     **MOTION_EXTREMES,
     **SHAPED_LAWS,
     **PLANAR,
+    **MACHINE,
     **_STUDY,
     **_TOLERANCE,
     **_REGISTER,

@@ -1,0 +1,279 @@
+"""Pictures of a machine: its timing as a line and as a circle, the torques on the main shaft, and its register."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.scenes.colors import PHASE_TINTS
+from gearlink.core.machines.machine.relations import Before, Value
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_A3 = (16.54, 11.69)
+_BAR = 0.16
+"""Height of the bar with the runs below a curve, the row being 1."""
+_STATUS = {"pass": style.GREEN, "warn": style.ORANGE, "fail": style.WRONG}
+_INNER = 3.0
+
+
+def draw(command: str, design: Any) -> Figure:
+    """The picture of a command, as wide as a page."""
+    if command == "loads":
+        return _loads(design)
+    if command == "register":
+        return _register(design)
+    made = panels.page(f"{design.spec.name}: timing", min(1.5, 0.16 + 0.085 * len(design.spec.members)))
+    _line(made.add_subplot(), design)
+    return made
+
+
+def line_sheet(design: Any) -> Figure:
+    """The timing as a line, A3."""
+    made = style.figure(*_A3, f"{design.spec.name}: timing")
+    _line(made.add_subplot(), design)
+    return made
+
+
+def circle_sheet(design: Any) -> Figure:
+    """The timing as a circle, A3."""
+    made = style.figure(*_A3, f"{design.spec.name}: timing\n")
+    axes: Any = made.add_subplot(projection="polar")
+    _circle(axes, design)
+    return made
+
+
+def _degrees(design: Any) -> Any:
+    return np.linspace(0.0, design.timing.dial, 720 * design.cycle_turns + 1)
+
+
+def _positions(design: Any, name: str) -> tuple[Any, str]:
+    """The output of a member over the dial, in mm or deg."""
+    member = design.members[name]
+    value = member.rates(np.radians(_degrees(design) - design.phases[design.spec.root(name)]), 0)[0]
+    return (np.degrees(value), "°") if member.course.unit == "rad" else (value, " mm")
+
+
+def _runs(design: Any, name: str) -> list[tuple[str, float, float]]:
+    """Runs of a member, from a start on the dial."""
+    phase = design.phases[design.spec.root(name)]
+    runs = [(run.name, design.timing.on_dial(phase + run.start), run.duration) for run in design.timing.runs(name)]
+    return [(name, start, start + duration) for name, start, duration in runs]
+
+
+# The line
+
+
+def _line(axes: Axes, design: Any) -> None:
+    """A row for each member: its curve, its runs below; relations as arrows with their margins."""
+    members, dial = list(design.spec.members), design.timing.dial
+    rows = {name: float(len(members) - 1 - i) for i, name in enumerate(members)}
+    labels = []
+    for name, bottom in rows.items():
+        values, unit = _positions(design, name)
+        low, high = float(values.min()), float(values.max())
+        share = (values - low) / (high - low) if high > low else np.zeros_like(values)
+        axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
+        _bars(axes, design, name, bottom)
+        labels.append(f"{name}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
+    for relation, margin in design.margins:
+        _relation(axes, design, rows, relation, margin)
+    style.curves(axes, "machine angle [deg]", "")
+    axes.set_xlim(0.0, dial)
+    axes.set_ylim(-0.08, len(members))
+    style.numbers_at(axes, list(range(0, int(dial) + 1, 30 * design.cycle_turns)))
+    axes.set_yticks([bottom + 0.5 for bottom in rows.values()], labels, fontsize=8)
+    axes.tick_params(axis="y", length=0)
+    for bottom in rows.values():
+        axes.axhline(bottom - 0.04, color=style.LIGHT, linewidth=0.8)
+    _key(axes, design)
+
+
+def _bars(axes: Axes, design: Any, name: str, bottom: float) -> None:
+    from matplotlib.patches import Rectangle
+
+    dial = design.timing.dial
+    for word, start, end in _runs(design, name):
+        for shift in (0.0, -dial):
+            if end + shift <= 0.0:
+                continue
+            look: dict[str, Any] = {"facecolor": PHASE_TINTS[word], "edgecolor": style.GREY, "linewidth": 0.6}
+            axes.add_artist(Rectangle((start + shift, bottom), end - start, _BAR, **look))
+        middle = 0.5 * (start + end) % dial
+        if end - start > 0.06 * dial and 0.03 * dial < middle < 0.97 * dial:
+            axes.text(middle, bottom + 0.5 * _BAR, word, ha="center", va="center", fontsize=6.5)
+
+
+def _relation(axes: Axes, design: Any, rows: dict[str, float], relation: Any, margin: float) -> None:
+    """An arrow from one event to the other, or a mark at the place of a value."""
+    color = _STATUS[design.status_of(relation, margin)]
+    words = style.number(margin, 4) + ("" if isinstance(relation, Value) else "°")
+    if isinstance(relation, Value):
+        at = design.timing.angle(relation.at, design.phases)
+        y = rows[relation.of.partition(".")[0]] + 0.85
+        axes.plot([at], [y], "v", color=color, markersize=5, zorder=6)
+        _words(axes, at, y, words, color)
+        return
+    one, two = (relation.one, relation.two) if isinstance(relation, Before) else (
+        relation.two._replace(end="start"), relation.one._replace(end="start")
+    )  # fmt: skip
+    start = design.timing.angle(one, design.phases)
+    way = design.timing.wrap(design.timing.angle(two, design.phases) - start)
+    ends = _height(design, rows, one, two), _height(design, rows, two, one)
+    for shift in (0.0, -design.timing.dial if start + way > design.timing.dial else design.timing.dial):
+        a, b = start + shift, start + way + shift
+        if max(a, b) <= 0.0 or min(a, b) >= design.timing.dial:
+            continue
+        shape = {"arrowstyle": "-|>", "color": color, "linewidth": 1.1, "shrinkA": 0, "shrinkB": 0}
+        drawn = axes.annotate("", (b, ends[1]), (a, ends[0]), arrowprops=shape, annotation_clip=False, zorder=6)
+        if drawn.arrow_patch is not None:
+            drawn.arrow_patch.set_clip_box(axes.bbox)
+        middle = 0.5 * (a + b)
+        if 0.0 <= middle <= design.timing.dial:
+            _words(axes, middle, 0.5 * sum(ends), words, color)
+
+
+def _height(design: Any, rows: dict[str, float], moment: Any, other: Any) -> float:
+    """Where an event stands in its row; an angle of the machine stands with the other one."""
+    named = moment if not isinstance(moment, float) else other
+    of = named.member or design.spec.events[named.what].of.partition(".")[0]
+    return rows[of] + 0.5
+
+
+def _words(axes: Axes, x: float, y: float, words: str, color: str) -> None:
+    axes.annotate(words, (x, y), (0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=7.5,
+                  color=color, path_effects=style.outlined(), zorder=8)  # fmt: skip
+
+
+def _key(axes: Axes, design: Any) -> None:
+    """What bars and arrows mean, below."""
+    for word in ("rise", "dwell", "return"):
+        axes.bar([0.0], [0.0], color=PHASE_TINTS[word], edgecolor=style.GREY, linewidth=0.6, label=word)
+    for status, words in (("pass", "relation that holds, with its margin"), ("fail", "relation that does not hold")):
+        if any(design.status_of(relation, margin) == status for relation, margin in design.margins):
+            axes.plot([], [], color=_STATUS[status], linewidth=1.4, label=words)
+    handles, labels = axes.get_legend_handles_labels()
+    kept = [(handle, label) for handle, label in zip(handles, labels, strict=True) if label not in design.spec.members]
+    axes.legend(*zip(*kept, strict=True), loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=5, frameon=False,
+                fontsize=7.5)  # fmt: skip
+
+
+# The circle
+
+
+def _circle(axes: Any, design: Any) -> None:
+    """A ring for each member with its runs and its curve, the first outside; machine angle 0 at the top, clockwise."""
+    members, dial = list(design.spec.members), design.timing.dial
+    axes.set_theta_zero_location("N")
+    axes.set_theta_direction(-1)
+    step = 10 * design.cycle_turns
+    marks = np.arange(0.0, dial, step)
+    axes.set_xticks(2.0 * math.pi * marks / dial, [f"{each:g}°" if i % 3 == 0 else "" for i, each in enumerate(marks)])
+    axes.set_yticks([])
+    axes.spines["polar"].set_visible(False)
+    axes.grid(color=style.LIGHT, linewidth=0.5)
+    radii = {name: _INNER + len(members) - 1 - i for i, name in enumerate(members)}
+    turn = 2.0 * math.pi / dial
+    for name, radius in radii.items():
+        for word, start, end in _runs(design, name):
+            look: dict[str, Any] = {"color": PHASE_TINTS[word], "edgecolor": style.GREY, "linewidth": 0.7}
+            axes.bar(start * turn, 0.92, (end - start) * turn, radius, align="edge", **look)
+            middle = 0.5 * (start + end) * turn
+            if (end - start) * turn * (radius + 0.5) > 0.55:
+                axes.text(middle, radius + 0.14, f"{word} {start % dial:.4g}–{end % dial:.4g}°", fontsize=7,
+                          ha="center", va="center", rotation=_along(middle), rotation_mode="anchor")  # fmt: skip
+        values, _ = _positions(design, name)
+        span = float(np.ptp(values))
+        share = (values - values.min()) / span if span > 0.0 else np.zeros_like(values)
+        axes.plot(_degrees(design) * turn, radius + 0.26 + 0.58 * share, color=style.BLUE, linewidth=1.3)
+        axes.text(0.0, radius + 0.46, name, fontsize=9, fontweight="bold", ha="center", va="center",
+                  path_effects=style.outlined(), zorder=8)  # fmt: skip
+    axes.set_ylim(0.0, _INNER + len(members))
+    axes.text(0.5, 0.5, "machine angle,\nclockwise from the top", transform=axes.transAxes, ha="center", va="center",
+              fontsize=9, color=style.GREY)  # fmt: skip
+    _list_of_relations(axes, design)
+
+
+def _along(angle: float) -> float:
+    """How words along a ring are turned [deg]."""
+    degrees = math.degrees(angle) % 360.0
+    return -degrees if degrees <= 90.0 or degrees >= 270.0 else 180.0 - degrees
+
+
+def _list_of_relations(axes: Any, design: Any) -> None:
+    """Relations with their margins beside the circle."""
+    for relation, margin in design.margins:
+        unit = "" if isinstance(relation, Value) else "°"
+        words = f"{relation.text}: {style.number(margin, 4)}{unit}"
+        axes.plot([], [], color=_STATUS[design.status_of(relation, margin)], linewidth=3, label=words)
+    if design.margins:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=8, title="margins")
+
+
+# Loads and register
+
+_COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY, style.RED, style.GREY, style.BLACK)
+_LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
+
+
+def _loads(design: Any) -> Figure:
+    """Torques of the members on the main shaft and their sum, the speed, and the wind-up of the shaft."""
+    found = design.table("torque")
+    x = np.asarray(found.data[0])
+    wound = design.spec.shaft is not None
+    runs = design.speed_min is not None
+    made = panels.page(f"{design.spec.name}: loads", 0.45 + 0.25 * (wound + runs))
+    grid = made.add_gridspec(1 + runs + wound, 1, height_ratios=[1.6, *[1.0] * (runs + wound)])
+    axes = made.add_subplot(grid[0])
+    _over(axes, design, "Torque on the main shaft", "torque [N m]")
+    for i, column in enumerate(name for name in found.columns if name.endswith(".torque")):
+        line = _LINES[(i // len(_COLORS) + i) % len(_LINES)]
+        axes.plot(x, found[column], color=_COLORS[i % len(_COLORS)], linestyle=line, linewidth=1.1,
+                  label=column.removesuffix(".torque"))  # fmt: skip
+    axes.plot(x, found["input_torque"], color=style.BLACK, linewidth=1.9, label="sum")
+    panels.legend_above(axes, 6)
+    if runs:
+        speed = made.add_subplot(grid[1])
+        _over(speed, design, "Speed of the main shaft", "speed [rev/min]")
+        speed.plot(x, design.table("speed")["speed"], color=style.BLUE, linewidth=1.4)
+        speed.margins(y=0.15)
+    if wound:
+        swing = made.add_subplot(grid[1 + runs])
+        _over(swing, design, "Wind-up of the discs against the first", "wind-up [deg]")
+        table = design.table("wind_up_course")
+        for i, column in enumerate(table.columns[2:]):
+            swing.plot(
+                table["input_angle"], table[column], color=_COLORS[i % len(_COLORS)], linewidth=1.2, label=column
+            )
+        panels.legend_above(swing, 6)
+    return made
+
+
+def _over(axes: Axes, design: Any, title: str, ylabel: str) -> None:
+    style.curves(axes, "machine angle [deg]", ylabel)
+    panels.small_ticks(axes)
+    panels.heading(axes, title)
+    axes.set_xlim(0.0, 360.0 * design.turns)
+    style.numbers_at(axes, list(range(0, 360 * design.turns + 1, 30 * design.turns)))
+
+
+def _register(design: Any) -> Figure:
+    """What every source of every member gives to the register at the print."""
+    found = design.table("budget")
+    sigma, words = (
+        np.asarray(found["sigma"]),
+        [f"{a}: {b}" for a, b in zip(found["member"], found["source"], strict=True)],
+    )
+    order = np.argsort(sigma)
+    made = panels.page(f"{design.spec.name}: register", min(1.2, 0.2 + 0.03 * len(order)))
+    axes = made.add_subplot()
+    style.curves(axes, "standard deviation [mm]", "")
+    panels.heading(axes, "What gives most to the register at the print")
+    axes.barh(np.arange(len(order)), sigma[order], color=style.BLUE)
+    axes.set_yticks(np.arange(len(order)), [words[i] for i in order], fontsize=8)
+    return made

@@ -1,0 +1,20 @@
+"""Words of a whole machine; a quantity of a member stands behind the member's name."""
+
+from __future__ import annotations
+
+from gearlink.core.base.term import Term
+
+MACHINE = {
+    "least_margin": Term("", "deg", "least margin of the relations between events", "own derivation"),
+    "limiting_relations": Term("", "1", "relations that leave the free phases no greater margin"),
+    "cycle_turns": Term("", "1", "turns of the main shaft after which everything repeats"),
+    "phase": Term("", "deg", "machine angle at which the member's input angle is 0, as found", "own derivation"),
+    "phase_room": Term("", "deg", "width of the interval in which the phase was taken", "own derivation"),
+    "natural_frequencies": Term("f", "Hz", "natural frequencies of the main shaft", "Thomson, 12.4"),
+    "critical_speeds": Term("n_c", "1/min", "speeds at which the main shaft turns once a period of its own", "60 f"),
+    "machine_speed_limit": Term("", "1/min", "speed of the main shaft at which the first member reaches its limit"),
+    "speed_limit_member": Term("", "1", "the member that limits the machine's speed"),
+    "speed_limit_check": Term("", "1", "the check by which it does"),
+    "wind_up_max": Term("", "deg", "greatest wind-up of a disc of the main shaft against the first one", "modes"),
+    "machine_yield": Term("", "1", "share of the machines that keep the allowed register", "normal law"),
+}

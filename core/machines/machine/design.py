@@ -1,0 +1,436 @@
+"""A machine as a design: its timing, what its members do over the machine angle, and its main shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Outline, UnknownName, in_unit
+from gearlink.core.base.errors import MissingSection, at_key, in_section
+from gearlink.core.base.nomenclature import term
+from gearlink.core.base.report import Check, Quantity, Status, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.machine import codes
+from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from gearlink.core.machines.machine.phases import Solution, Tie
+    from gearlink.core.machines.machine.relations import Moment, Relation
+    from gearlink.core.machines.machine.series import Members
+    from gearlink.core.machines.machine.shaft import Chain
+    from gearlink.core.machines.machine.spec import MachineSpec
+    from gearlink.core.machines.machine.timing import Timing
+    from gearlink.core.numerics.arrays import Reals
+
+_OF_MEMBER = {"phase": "deg", "phase_room": "deg"}
+OWN = ("least_margin", "limiting_relations", "cycle_turns", "natural_frequencies", "critical_speeds")
+_OWN_CHECKS = ("timing-relation", "member-speed", "critical-speed")
+_SAME_SPEED = 1e-9
+
+
+class OfMachine:
+    """Names that follow the members of a file: of a class those that every machine has, of a design its own."""
+
+    def __get__(self, design: Any, cls: Any) -> Callable[[], tuple[str, ...]]:
+        if design is not None:
+            return lambda: design.own_names
+        shown = (name for outline in cls.outlines.values() for name in outline.quantities)
+        names = tuple(dict.fromkeys(shown))
+        return lambda: names
+
+
+class OfMembers(Design):
+    """What a machine shares for all its commands: results and findings of its members beside its own.
+
+    `command` is that which is asked of the members.
+    """
+
+    kind = "machine"
+    spec: MachineSpec
+    quantity_names = OfMachine()
+    advises = False
+    command = "analyze"
+
+    @cached_property
+    def members(self) -> Members:
+        """The members, each behind what drives it."""
+        from gearlink.core.machines.machine.series import Members
+
+        return Members(self.spec)
+
+    def member(self, name: str) -> Design | None:
+        """The design of a member that answers the command; None where it does not take it."""
+        return self.members[name].design
+
+    @cached_property
+    def _answering(self) -> dict[str, Design]:
+        """The members that answer the command."""
+        found = {name: self.member(name) for name in self.spec.members}
+        return {name: design for name, design in found.items() if design is not None}
+
+    def _own(self) -> tuple[str, ...]:
+        """Names of the machine's own quantities."""
+        return type(self).outlines[self.command].quantities
+
+    @property
+    def own_names(self) -> tuple[str, ...]:
+        """The machine's quantities, those of free members, and of every member its own as MEMBER.NAME."""
+        return tuple(dict.fromkeys([*self._shown, *self._of_members]))
+
+    @property
+    def _shown(self) -> list[str]:
+        return [*self._own(), *(f"{name}.{what}" for name in self.spec.free for what in _OF_MEMBER)]
+
+    @property
+    def _of_members(self) -> Iterator[str]:
+        for name, design in self._answering.items():
+            yield from (f"{name}.{each}" for each in design.quantity_names())
+
+    @classmethod
+    def names_for(cls, spec: Any, /) -> tuple[str, ...]:
+        """The quantities of a file."""
+        return cls(spec).own_names
+
+    @classmethod
+    def unit_for(cls, spec: Any, name: str, /) -> str:
+        """The unit of a quantity of a file."""
+        return cls(spec).unit_of(name)
+
+    def unit_of(self, name: str) -> str:
+        """The unit of a quantity: of a member's own what its kind says."""
+        member, _, rest = name.partition(".")
+        if rest in _OF_MEMBER:
+            return _OF_MEMBER[rest]
+        if rest and member in self._answering:
+            design = self._answering[member]
+            return type(design).unit_for(design.spec, rest)
+        return term(name).unit
+
+    def outline(self, command: str) -> Outline:
+        """With the phases that are found, and the checks of the members."""
+        found = super().outline(command)
+        return found._replace(quantities=tuple(self._shown), checks=tuple(self._checks(found)))
+
+    def _checks(self, own: Outline) -> Iterable[str]:
+        more = (check for design in self._answering.values() for check in design.outline(self._asked(design)).checks)
+        return dict.fromkeys([*own.checks, *more])
+
+    def _asked(self, design: Design) -> str:
+        """The command as a member has it."""
+        return self.command if self.command in design.outlines else next(iter(design.outlines))
+
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """Own checks and those of the members."""
+        return cls(spec).outline(command).checks
+
+    def decisive(self, command: str) -> Iterable[str]:
+        """What can say that there is no such machine."""
+        return type(self).outlines[command].quantities
+
+    def raw(self, name: str) -> Any:
+        """A quantity in mm and radians; of a member under its name."""
+        member, _, rest = name.partition(".")
+        if not rest:
+            return super().raw(name)
+        if rest in _OF_MEMBER:
+            return self.phase_of(member, rest)
+        with in_section(f"members.{member}.design"):
+            return self._answering[member].raw(rest)
+
+    def phase_of(self, _member: str, _what: str) -> float | None:
+        """Phase and its room of a free member [rad]."""
+        return None
+
+    def quantity(self, name: str) -> Quantity | None:
+        """A quantity in the units of design files; of a member as its own design gives it."""
+        member, _, rest = name.partition(".")
+        if not rest:
+            return super().quantity(name)
+        if rest in _OF_MEMBER and member in self.spec.free:
+            entry, value = term(rest), self.raw(name)
+            return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
+        if name not in self.quantity_names():
+            raise UnknownName("quantity", name, self.quantity_names())
+        with in_section(f"members.{member}.design"):
+            found = self._answering[member].quantity(rest)
+        return None if found is None else replace(found, name=name)
+
+    def check(self, name: str) -> list[Check]:
+        """The findings of a check: the machine's own, then those of the members with their names before them."""
+        found = super().check(name) if hasattr(self, "check_" + name.replace("-", "_")) else []
+        for member, design in self._answering.items():
+            if name in design.outline(self._asked(design)).checks:
+                with in_section(f"members.{member}.design"):
+                    found += [of_member(member, each) for each in design.check(name)]
+        return found
+
+
+def of_member(member: str, found: Check) -> Check:
+    """A finding of a member as one of the machine."""
+    remedy = tuple((f"members.{member}.design.{key}", value) for key, value in found.remedy)
+    return replace(found, message=f"{member}: {found.message}", remedy=remedy)
+
+
+class Machine(OfMembers):
+    """Several mechanisms on one main shaft."""
+
+    outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
+    extra_tables = ("modes",)
+    derived = frozenset(OWN)
+
+    @cached_property
+    def timing(self) -> Timing:
+        """Runs and events of all members."""
+        from gearlink.core.machines.machine.timing import Timing
+
+        return Timing(self.spec, self.members)
+
+    def outline(self, command: str) -> Outline:
+        """With the shapes of the main shaft where there is one, without relations where there are none."""
+        found = super().outline(command)
+        tables = tuple(name for name in found.tables if name != "relations" or self.spec.require)
+        return found._replace(tables=(*tables, "modes") if self.spec.shaft else tables)
+
+    def decisive(self, _command: str) -> Iterable[str]:
+        """What can say that there is no such machine."""
+        return OWN
+
+    # Timing
+
+    @property
+    def cycle_turns(self) -> int:
+        """Turns of the main shaft after which everything repeats."""
+        return self.members.turns
+
+    @cached_property
+    def _ties(self) -> list[Tie]:
+        """The relations between events as ways between members."""
+        from gearlink.core.machines.machine.relations import Value
+
+        found = []
+        for i, relation in enumerate(self.spec.relations):
+            if not isinstance(relation, Value):
+                with at_key(f"require[{i}]"):
+                    found.append(self._tie(relation))
+        return found
+
+    def _tie(self, relation: Any) -> Tie:
+        from gearlink.core.machines.machine.phases import Tie
+        from gearlink.core.machines.machine.relations import Within
+
+        if isinstance(relation, Within):
+            inner, outer = (
+                self._free_offset(relation.one._replace(end="start")),
+                self._free_offset(relation.two._replace(end="start")),
+            )
+            most = self.timing.room(relation) - relation.by
+            return Tie(outer[0], inner[0], inner[1] - outer[1], relation.by, most, relation.text)
+        one, two = self._free_offset(relation.one), self._free_offset(relation.two)
+        return Tie(one[0], two[0], two[1] - one[1], relation.by, math.inf, relation.text)
+
+    def _free_offset(self, moment: Moment) -> tuple[str, float]:
+        """A moment by the free member that it moves with, "" for none, and its angle from that phase, or from 0."""
+        root, offset = self.timing.offset(moment)
+        phase = self.timing.phase_of_root(root) if root else 0.0
+        return (root, offset) if phase is None else ("", offset + phase)
+
+    @cached_property
+    def solution(self) -> Solution:
+        """The free phases, and the least margin of the relations between events."""
+        from gearlink.core.machines.machine.phases import solve
+
+        return solve(self.spec.free, self._ties, self.timing.dial)
+
+    @cached_property
+    def phases(self) -> Mapping[str, float]:
+        """Phase of every member on the main shaft [deg], free ones as they were found."""
+        found = {}
+        for name, member in self.spec.members.items():
+            if member.input is None:
+                free = member.phase == "free"
+                found[name] = self.timing.on_dial(self.solution.phases[name]) if free else float(member.phase)
+        return found
+
+    def phase_of(self, member: str, what: str) -> float | None:
+        """Phase and its room of a free member [rad]."""
+        return math.radians(self.phases[member] if what == "phase" else self.solution.room[member])
+
+    @cached_property
+    def margins(self) -> list[tuple[Relation, float]]:
+        """Every relation with its margin [deg, or the value's unit]."""
+        found = []
+        for i, relation in enumerate(self.spec.relations):
+            with at_key(f"require[{i}]"):
+                found.append((relation, self.timing.margin(relation, self.phases)))
+        return found
+
+    @property
+    def least_margin(self) -> float | None:
+        """Least margin of the relations between events [rad]; None where there are none."""
+        from gearlink.core.machines.machine.relations import Value
+
+        found = [margin for relation, margin in self.margins if not isinstance(relation, Value)]
+        return math.radians(min(found)) if found else None
+
+    @property
+    def limiting_relations(self) -> list[str] | None:
+        """The relations that leave free phases no greater margin; None without free phases or relations."""
+        return list(self.solution.limiting) or None if self.spec.free else None
+
+    # Main shaft
+
+    @cached_property
+    def chain(self) -> Chain:
+        """The main shaft.
+
+        Raises
+            MissingSection
+        """
+        from gearlink.core.machines.machine.shaft import Chain
+
+        if self.spec.shaft is None:
+            message = "this needs the main shaft: shaft: {inertias: [0.8, 0.3], stiffnesses: [9000]} (kg m^2, N m/rad)"
+            raise MissingSection(message, key="shaft")
+        return Chain.of(self.spec.shaft)
+
+    @property
+    def natural_frequencies(self) -> list[float] | None:
+        """Natural frequencies of the main shaft [Hz]."""
+        return None if self.spec.shaft is None else (self.chain.natural / (2.0 * math.pi)).tolist()
+
+    @property
+    def critical_speeds(self) -> list[float] | None:
+        """Speeds at which the main shaft turns once a period of its own [1/min]."""
+        return None if self.spec.shaft is None else (self.chain.natural * 30.0 / math.pi).tolist()
+
+    # Tables
+
+    def table_timing(self, _samples: int | None = None) -> Table:
+        """Every run of every member on the machine angle."""
+        rows = []
+        for name in self.spec.members:
+            phase = self.phases[self.spec.root(name)]
+            for run in self.timing.runs(name):
+                start, end = (self.timing.on_dial(phase + run.start + share * run.duration) for share in (0.0, 1.0))
+                rows.append((name, run.name, start, end, run.duration, run.of, run.to))
+        columns = ("member", "motion", "start", "end", "duration", "from", "to")
+        return Table("timing", columns, ("1", "1", "deg", "deg", "deg", "1", "1"), tuple(zip(*rows, strict=True)))
+
+    def table_relations(self, _samples: int | None = None) -> Table:
+        """Every relation with its margin and what comes of it."""
+        rows = [(relation.text, margin, self.status_of(relation, margin)) for relation, margin in self.margins]
+        data = tuple(zip(*rows, strict=True)) or ((), (), ())
+        return Table("relations", ("relation", "margin", "status"), ("1", "1", "1"), data)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """What every member does over the machine angle."""
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples, self.members.turns)
+        columns: dict[str, tuple[Any, str]] = {"machine_angle": (degrees, "deg")}
+        for name in self.spec.members:
+            columns |= self._motion_of(name, degrees)
+        return Table.of("motion", columns)
+
+    def _motion_of(self, name: str, degrees: Reals) -> dict[str, tuple[Any, str]]:
+        import numpy as np
+
+        from gearlink.core.mechanism.courses import unit_of
+
+        member = self.members[name]
+        turning = member.course.unit == "rad"
+        value, first, second = member.rates(np.radians(degrees - self.phases[self.spec.root(name)]), 2)
+        unit = member.course.unit
+        return {
+            f"{name}.position": (np.degrees(value) if turning else value, "deg" if turning else unit),
+            f"{name}.velocity": (first, unit_of(unit, 1)),
+            f"{name}.acceleration": (second, unit_of(unit, 2)),
+        }
+
+    def table_modes(self, _samples: int | None = None) -> Table:
+        """Shapes of the main shaft, the last disc 1."""
+        self.require_table("modes")
+        shapes, shaft = self.chain.shapes, self.spec.shaft
+        assert shaft is not None
+        names = shaft.members or [str(i) for i in range(1, len(shaft.inertias) + 1)]
+        columns: dict[str, tuple[Any, str]] = {"disc": (names, "1")}
+        return Table.of("modes", columns | {f"mode_{k + 1}": (shapes[:, k], "1") for k in range(shapes.shape[1])})
+
+    def require_table(self, name: str, /) -> None:
+        """The shapes need the main shaft."""
+        if name == "modes":
+            _ = self.chain
+
+    # Checks
+
+    def status(self, margin: float) -> Status:
+        """What comes of a margin."""
+        return "fail" if margin < -1e-9 else "warn" if margin < self.spec.limits.timing_margin - 1e-9 else "pass"
+
+    def status_of(self, relation: Relation, margin: float) -> Status:
+        """What comes of a relation: a value is judged at 0."""
+        from gearlink.core.machines.machine.relations import Value
+
+        return ("pass" if margin >= 0.0 else "fail") if isinstance(relation, Value) else self.status(margin)
+
+    def check_timing_relation(self) -> Iterator[Check]:
+        """GL530: each relation."""
+        from gearlink.core.machines.machine.relations import Value
+
+        for relation, margin in self.margins:
+            of_value = isinstance(relation, Value)
+            limit = 0.0 if of_value else self.spec.limits.timing_margin
+            status = self.status_of(relation, margin)
+            unit = self._unit_of_value(relation) if of_value else "deg"
+            text = f"{relation.text}: margin {margin:.5g}{'' if unit == '1' else f' {unit}'}"
+            yield codes.TIMING.check(status, text + self._against(relation, status), margin, limit, unit)
+
+    def _unit_of_value(self, relation: Any) -> str:
+        from gearlink.core.machines.machine.relations import VALUES
+        from gearlink.core.mechanism.courses import unit_of
+
+        order, unit = VALUES.index(relation.quantity), self.timing.place(relation.of).course.unit
+        return "deg" if unit == "rad" and order == 0 else unit_of(unit, order)
+
+    def _against(self, relation: Any, status: Status) -> str:
+        if status == "pass":
+            return ""
+        limiting = self.solution.limiting if self.spec.free else ()
+        if relation.text in limiting:
+            return f"; no phases do better: these limit each other: {', '.join(limiting)}"
+        return "; shift a phase, or give phase: free" if not self.spec.free else "; shift a phase that is given"
+
+    def check_member_speed(self) -> Iterator[Check]:
+        """GL531: speeds of members' own files."""
+        for name, member in self.spec.members.items():
+            given = [each for each in own_speeds(member.spec) if each.speed is not None]
+            wanted = wanted_speed(self.spec, name)
+            if wanted is None:
+                continue
+            for each in given:
+                off = abs(abs(each.speed or 0.0) / abs(wanted) - 1.0)
+                text = f"{name}: {each.key} is {each.value:.10g}, the machine turns its input with"
+                text += f" {abs(wanted) / each.per:.10g}"
+                if off > _SAME_SPEED:
+                    text += ": the machine's holds here; give the member that, or leave it out"
+                status: Status = "fail" if off > _SAME_SPEED else "pass"
+                yield codes.MEMBER_SPEED.check(status, text, off, _SAME_SPEED)
+
+    def check_critical_speed(self) -> Iterator[Check]:
+        """GL532 of the first order; with `loads` of every harmonic of the torque."""
+        if self.spec.shaft is None or self.spec.speed is None:
+            return
+        for f in self.critical_speeds or ():
+            off = abs(self.spec.speed / f - 1.0)
+            status: Status = "warn" if off < 0.1 else "pass"
+            text = f"the main shaft swings by itself once a turn at {f:.5g} rev/min, it turns at {self.spec.speed:g}"
+            yield codes.CRITICAL_SPEED.check(status, text, off, 0.1)
+
+    def require_named(self) -> None:
+        """Refuse what the file names and the machine does not have."""
+        _ = self.margins

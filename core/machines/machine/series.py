@@ -1,0 +1,358 @@
+"""What the members of a machine do over the machine angle: the main shaft drives them, or one drives another.
+
+A member's input is u = r (y - p): y the machine angle or the output of its driver, r its ratio, p its phase. Angles and
+rates here are counted from the phase of the member on the main shaft with which a row of members begins.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, in_section, named
+from gearlink.core.mechanism.motion import TURN, Course, Motion
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.studies.loads.zeros import zeros_of
+
+if TYPE_CHECKING:
+    from gearlink.core.base.design import Design
+    from gearlink.core.machines.machine.spec import MachineSpec, Member
+
+MOST_TURNS = 100
+"""Turns of the main shaft after which a machine repeats, at most."""
+_LARGEST = 1000
+_WHOLE = 1e-9
+_AT_JOINT = 1e-11  # rad or mm: an input that is off a joint by the rounding of its phase stands on it
+_SCALE = {"rad": math.pi / 180.0, "mm": 1.0}
+"""Of the units of design files in those of motions."""
+
+
+def chained(outer: Sequence[Reals], inner: Sequence[Reals]) -> list[Reals]:
+    """Derivatives of g(u(x)) by x, as many as both have.
+
+    y' = g' u',  y'' = g'' u'^2 + g' u'',  y''' = g''' u'^3 + 3 g'' u' u'' + g' u'''
+
+    Parameters
+        outer : (N,) arrays - g and its derivatives by u, up to the third
+        inner : (N,) arrays - u and its derivatives by x
+    Source
+        chain rule
+    """
+    found, most = [np.asarray(outer[0])], min(len(outer), len(inner)) - 1
+    if most >= 1:
+        found.append(outer[1] * inner[1])
+    if most >= 2:
+        found.append(outer[2] * inner[1] ** 2 + outer[1] * inner[2])
+    if most >= 3:
+        found.append(outer[3] * inner[1] ** 3 + 3.0 * outer[2] * inner[1] * inner[2] + outer[1] * inner[3])
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class OnShaft:
+    """A member on the main shaft, or behind another member.
+
+    Fields
+        name : str
+        design : Design - its own, of `analyze`
+        ratio : float - in the units of design files: deg or mm of its input per deg or mm of the driver
+        phase : float [deg or mm] - of the driver; of a member on the main shaft 0, as angles count from it
+        driver : OnShaft or None - None: the main shaft
+        driving : Course or None - the output of the driver
+    """
+
+    name: str
+    design: Design
+    ratio: float
+    phase: float = 0.0
+    driver: OnShaft | None = None
+    driving: Course | None = None
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Links and joints over its own input."""
+        return self.design.moving
+
+    @property
+    def course(self) -> Course:
+        """Its main output."""
+        return self.motion.outputs[0].course
+
+    def course_of(self, output: str) -> Course:
+        """An output by its name, in small letters with `_`, or by the first word of it; "" or output: the main one.
+
+        Raises
+            NoSolution
+        """
+        if output in ("", "output"):
+            return self.course
+        found = {slug(each.name): each.course for each in self.motion.outputs}
+        if output in found:
+            return found[output]
+        alike = [course for name, course in found.items() if name.split("_")[0] == output]
+        if len(alike) == 1:
+            return alike[0]
+        raise NoSolution(f"{self.name} has no output {named(output)}: it has output, {', '.join(found)}")
+
+    @property
+    def scale(self) -> float:
+        """The unit of its input in design files in that of its motion."""
+        return _SCALE[self.motion.input.unit]
+
+    @cached_property
+    def period(self) -> float | None:
+        """Input after which it repeats [rad]; None of a range."""
+        given = self.motion.input
+        return None if given.turns is None else given.end - given.start
+
+    @cached_property
+    def turns(self) -> int:
+        """Turns of the main shaft after which it repeats, with all that drives it.
+
+        Raises
+            NoSolution - at its ratio
+        """
+        with in_section(f"members.{self.name}"):
+            if self.driver is None:
+                if self.period is None:
+                    raise NoSolution("its input has a range and does not turn: give it a driver by input", key="input")
+                return self._whole(abs(self.ratio) * TURN / self.period)
+            gained = gain(self.driver.motion, self._driving) * self._driver_periods
+            if abs(gained) < _WHOLE:
+                return self.driver.turns
+            if self.period is None:
+                message = "its driver turns on and on, its own input has a range: take a driver that swings"
+                raise NoSolution(message, key="input")
+            return self.driver.turns * self._whole(abs(self._step * gained) / self.period)
+
+    @property
+    def _driving(self) -> Course:
+        assert self.driving is not None, "asked for only of members with a driver"
+        return self.driving
+
+    @property
+    def _driver_periods(self) -> float:
+        """Periods of the driver's own input in the turns after which it repeats, with their sign."""
+        assert self.driver is not None
+        return self.driver.periods
+
+    @cached_property
+    def periods(self) -> float:
+        """Periods of its own input in `turns`, with their sign; 0 where it swings."""
+        if self.period is None:
+            return 0.0
+        if self.driver is None:
+            return float(round(self.ratio * self.turns * TURN / self.period))
+        gained = gain(self.driver.motion, self._driving) * self._driver_periods * self.turns / self.driver.turns
+        return float(round(self._step * gained / self.period))
+
+    def _whole(self, share: float) -> int:
+        """Turns that make a share of periods a turn a whole number."""
+        found = Fraction(share).limit_denominator(_LARGEST)
+        if abs(float(found) - share) > _WHOLE * max(1.0, share):
+            message = f"ratio {self.ratio:.12g} is none of whole numbers up to {_LARGEST}: the machine never repeats"
+            raise NoSolution(f"{message}; give it with all its digits", key="ratio")
+        return found.denominator
+
+    @property
+    def _step(self) -> float:
+        """Own input per output of the driver, in the units of motions."""
+        per = 1.0 if self.driver is None else self.scale / _SCALE[_unit(self._driving)]
+        return self.ratio * per
+
+    # Over the machine angle
+
+    def input(self, angle: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:
+        """Its input and the derivatives of it over machine angles from the phase of the row on.
+
+        Parameters
+            angle : (N,) array [rad]
+            side : +1 or -1 - at a joint the rates just after it or just before, as the machine turns
+        Returns
+            u, u', ... : (N,) arrays [rad or mm, per rad]
+        """
+        if self.driver is None:
+            still = np.zeros_like(angle)
+            return [self.ratio * angle, still + self.ratio, still, still][: order + 1]
+        value, *rates = self.driver.rates(angle, order, side=side, course=self._driving)
+        start = self.phase * _SCALE[_unit(self._driving)]
+        return [self._step * (value - start), *(self._step * rate for rate in rates)]
+
+    def rates(self, angle: Reals, order: int = 2, *, side: int = 1, course: Course | None = None) -> list[Reals]:
+        """Its output and the derivatives of it by the machine angle, over angles from the phase of the row on.
+
+        Parameters
+            angle : (N,) array [rad]
+            order : int - 0 to 3
+            side : as of `input`
+            course : Course - another output than the main one
+        Returns
+            y, y', ... : (N,) arrays [rad or mm, per rad]
+        Raises
+            NoSolution - where it does not close, or its input leaves its range
+        """
+        course = course or self.course
+        inner = self.input(angle, max(order, 1), side=side)
+        ways = self._ways(inner, side)
+        found = [np.empty_like(angle) for _ in range(min(order, self.motion.highest) + 1)]
+        with in_section(f"members.{self.name}.design"):
+            for way in np.unique(ways).tolist():
+                rows = ways == way
+                outer = self._own(inner[0][rows], order, int(way), course)
+                for into, values in zip(found, chained(outer, [each[rows] for each in inner]), strict=True):
+                    into[rows] = values
+        return found
+
+    def _ways(self, inner: Sequence[Reals], side: int) -> Reals:
+        """On which side of its own joints it stands: that to which its input goes, or from which it comes."""
+        sense = np.sign(inner[1])
+        return np.asarray(side * np.where(sense == 0.0, 1.0, sense))
+
+    def _own(self, u: Reals, order: int, side: int, course: Course) -> list[Reals]:
+        q, periods = self.reduced(u)
+        found = course.rates(self.motion, q, order, side=side)
+        gained = gain(self.motion, course)
+        if gained:
+            found = [found[0] + gained * periods, *found[1:]]
+        return found
+
+    def reduced(self, u: Reals) -> tuple[Reals, Reals]:
+        """Its input within one period, that at a joint upon it, and the periods before.
+
+        Raises
+            NoSolution - where it leaves the range of the member
+        """
+        given = self.motion.input
+        if self.period is None:
+            return self._in_range(u), np.zeros_like(u)
+        periods = np.floor((u - given.start + _AT_JOINT) / self.period)
+        q = u - periods * self.period
+        joints = np.array([given.start, *given.joints, given.end])
+        nearest = joints[np.argmin(np.abs(q[:, None] - joints), axis=1)]
+        q = np.where(np.abs(q - nearest) <= _AT_JOINT, nearest, q)
+        return q, periods
+
+    def _in_range(self, u: Reals) -> Reals:
+        given = self.motion.input
+        low, high = float(u.min()), float(u.max())
+        if low < given.start - _AT_JOINT or high > given.end + _AT_JOINT:
+            unit = "mm" if given.unit == "mm" else "deg"
+            ends = [each / self.scale for each in (low, high, given.start, given.end)]
+            message = "its input goes from {:.6g} to {:.6g} {unit}, its range from {:.6g} to {:.6g}: change its phase"
+            raise NoSolution(f"{message.format(*ends, unit=unit)} or ratio", key="range")
+        return np.asarray(np.minimum(np.maximum(u, given.start), given.end))
+
+    @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Angles from the phase of the row on, over `turns`, at which a rate may jump [rad], ascending."""
+        end = TURN * self.turns
+        if self.driver is None:
+            assert self.period is not None
+            inputs = (self.motion.input.start, *self.motion.input.joints)
+            own = [each % self.period + k * self.period for k in range(int(abs(self.periods))) for each in inputs]
+            found = [each / abs(self.ratio) if self.ratio > 0.0 else end - each / abs(self.ratio) for each in own]
+        else:
+            found = [*self._of_driver, *self._crossings]
+        return tuple(sorted({0.0, *(each for each in found if 0.0 <= each < end)}))
+
+    @property
+    def _of_driver(self) -> list[float]:
+        assert self.driver is not None
+        times = self.turns // self.driver.turns
+        return [each + k * TURN * self.driver.turns for k in range(times) for each in self.driver.joints]
+
+    @property
+    def _crossings(self) -> list[float]:
+        """Where its input comes to one of its own joints."""
+        end, given = TURN * self.turns, self.motion.input
+        seen = self.input(np.linspace(0.0, end, 360 * self.turns + 1), 0)[0]
+        low, high = float(seen.min()), float(seen.max())
+        if self.period is None:
+            places = [each for each in given.joints if low < each < high]
+        else:
+            first, last = (math.floor((each - given.start) / self.period) for each in (low, high))
+            own = (given.start, *given.joints)
+            places = [each + k * self.period for k in range(first, last + 1) for each in own]
+            places = [each for each in dict.fromkeys(places) if low < each < high]
+        wanted = [lambda angle, at=at: self.input(angle, 0)[0] - at for at in places]
+        return [each for found in zeros_of(wanted, end, self.turns, jumps=self._of_driver) for each in found]
+
+
+def _unit(course: Course) -> str:
+    return "rad" if course.unit == "rad" else "mm"
+
+
+def gain(motion: Motion, course: Course) -> float:
+    """What an output gains in a period of the input, 0 where it comes home [rad or mm]; rounding is none."""
+    given = motion.input
+    if given.turns is None:
+        return 0.0
+    ends = course.rates(motion, np.array([given.start, given.end]), 0)[0]
+    gained = float(ends[1] - ends[0])
+    return 0.0 if abs(gained) < _WHOLE * max(1.0, float(np.abs(ends).max())) else gained
+
+
+def slug(name: str) -> str:
+    """The name of an output as a design file has it.
+
+    Example
+        >>> slug("Cylinder surface"), slug("Slider F, outwards")
+        ('cylinder_surface', 'slider_f_outwards')
+    """
+    return "_".join("".join(each if each.isalnum() else " " for each in name.lower()).split())
+
+
+class Members:
+    """All members of a machine, each behind what drives it."""
+
+    def __init__(self, spec: MachineSpec) -> None:
+        self.spec = spec
+        self._made: dict[str, OnShaft] = {}
+
+    def __getitem__(self, name: str) -> OnShaft:
+        """A member by name, made when first asked for."""
+        if name not in self._made:
+            self._made[name] = self._make(name, self.spec.members[name])
+        return self._made[name]
+
+    def __iter__(self) -> Any:
+        return iter(self.spec.members)
+
+    def _make(self, name: str, member: Member) -> OnShaft:
+        with in_section(f"members.{name}.design"):
+            design = member.kind.design("analyze", self.own_spec(name))
+            if not design.moving.outputs:
+                raise NoSolution("this design moves nothing", key="kind")
+        if member.input is None:
+            return OnShaft(name, design, member.ratio)
+        of, _, output = member.input.partition(".")
+        with in_section(f"members.{name}.input"):
+            driving = self[of].course_of(output)
+        return OnShaft(name, design, member.ratio, float(member.phase), self[of], driving)
+
+    def own_spec(self, name: str) -> Any:
+        """The spec of a member at the machine's speed."""
+        from gearlink.core.machines.machine.speeds import at_speed
+
+        return at_speed(self.spec, name)
+
+    @cached_property
+    def turns(self) -> int:
+        """Turns of the main shaft after which all members repeat.
+
+        Raises
+            NoSolution - for more than are computed
+        """
+        found = 1
+        for name in self.spec.members:
+            found = math.lcm(found, self[name].turns)
+            if found > MOST_TURNS:
+                message = f"the machine repeats only after {found} turns, more than {MOST_TURNS}: take simpler ratios"
+                raise NoSolution(message, key=f"members.{name}.ratio")
+        return found

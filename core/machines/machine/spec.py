@@ -1,0 +1,264 @@
+"""The design file of a machine: members, events, relations, main shaft."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.errors import NoSolution, named
+from gearlink.core.base.spec import Deferred, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
+from gearlink.core.base.spec_paths import put
+from gearlink.core.machines.machine.relations import NotARelation, parse
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.machines.machine.relations import Relation
+
+_NAME = r"[A-Za-z][A-Za-z0-9_]*"
+_RESERVED = ("machine",)
+MemberName = Annotated[str, Field(pattern=f"^{_NAME}$")]
+AboveZero = Annotated[float, Field(gt=0, le=1e12)]
+Inertia = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
+Stiffness = Annotated[float, Field(gt=0, le=1e15, json_schema_extra={"unit": "N m/rad"})]
+Turns = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
+MachineAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={"unit": "deg"})]
+
+
+def _refuse(code: str, key: str, message: str) -> PydanticCustomError:
+    return PydanticCustomError(code, "{message}", {"message": message, "key": key})
+
+
+def first_wrong(error: ValidationError) -> tuple[str, str]:
+    """Key and message of the first thing that the model of a member refuses."""
+    item = error.errors(include_url=False)[0]
+    steps = [step for step in item["loc"] if isinstance(step, int) or step.isidentifier()]
+    below = str((item.get("ctx") or {}).get("key", ""))
+    key = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in (*steps, *filter(None, [below])))
+    return key.removeprefix("."), item["msg"].replace("Input should be", "it must be")
+
+
+class Member(Spec):
+    """A mechanism of the machine."""
+
+    of: str | None = Field(None, description="its design file, relative to that of the machine")
+    design: dict[str, Any] | None = Field(None, description="the design itself, in place of of")
+    phase: Annotated[float, Field(json_schema_extra={"unit": "deg"})] | Literal["free"] = Field(
+        0.0, description="machine angle at which its input angle is 0, in the driver's unit where it has one; or free"
+    )
+    ratio: Turns = Field(1.0, description="turns of its input per turn of the main shaft, below 0 the other way round; "
+                         "of the driver with input; of a driver that slides in deg/mm")  # fmt: skip
+    input: str | None = Field(None, description="output of another member that drives it, such as feed.output")
+
+    @model_validator(mode="after")
+    def _one_design(self) -> Member:
+        if (self.of is None) == (self.design is None):
+            message = "give `of` or `design`, exactly one"
+            raise _refuse("GL111" if self.of else "GL106", "design" if self.of else "of", message)
+        if self.ratio == 0.0:
+            raise _refuse("GL108", "ratio", "with ratio 0 the member stands still: give another one")
+        if self.phase == "free" and self.input is not None:
+            raise _refuse("GL111", "phase", "a member with input moves with its driver: give a number for its phase")
+        if self.design is not None:
+            _ = self.kind, self.spec
+        return self
+
+    @cached_property
+    def kind(self) -> Kind:
+        """The kind of its design."""
+        from gearlink.core.base.kinds import KINDS
+
+        name = (self.design or {}).get("kind")
+        moving = {each: kind for each, kind in KINDS.items() if kind.motion}
+        if not isinstance(name, str) or name not in moving:
+            message = f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}"
+            raise _refuse("GL109", "design.kind", message)
+        return moving[name]
+
+    @cached_property
+    def spec(self) -> Any:
+        """The spec of its design."""
+        return self.changed(())
+
+    def changed(self, changes: Iterable[tuple[str, Any]]) -> Any:
+        """The spec of its design with other values at some paths.
+
+        Raises
+            PydanticCustomError - at the key below `design`
+        """
+        data = json.loads(json.dumps(self.design))
+        for path, value in changes:
+            put(data, path, value)
+        try:
+            return self.kind.spec_model().model_validate_json(json.dumps(data))
+        except ValidationError as error:
+            key, message = first_wrong(error)
+            raise _refuse("GL108", f"design.{key}", message) from None
+        except NoSolution as error:
+            raise _refuse(error.code, f"design.{error.key}", error.message) from None
+
+
+class Event(Spec):
+    """A moment at which a member passes a value."""
+
+    of: str = Field(description="a member, or one of its outputs as MEMBER.OUTPUT")
+    output: Annotated[float, Field(json_schema_extra={"unit": "1"})] = Field(
+        description="the value that its output passes, mm or deg"
+    )
+    on: str | None = Field(None, description="the run in which it does: rise, return, rise[2]; default: the first")
+
+
+class MainShaft(Spec):
+    """The main shaft as a chain of discs and springs."""
+
+    inertias: Annotated[list[Inertia], Field(min_length=2, max_length=200), Entries("one of each disc")] = Field(
+        description="moments of inertia of the discs, with what they drive"
+    )
+    stiffnesses: Annotated[list[Stiffness], Field(min_length=1, max_length=199), Entries("between neighbours")] = Field(
+        description="stiffness between neighbours, at the shaft of the first of both; through a mesh that of the teeth "
+        "times the square of its base radius"
+    )
+    members: Annotated[list[str], Field(max_length=200)] | None = Field(
+        None, description="names of the discs; the torque of a member acts on the disc of its name, others on the first"
+    )
+    ratios: Annotated[list[Turns], Field(max_length=200)] | None = Field(
+        None, description="turns of each disc per turn of the main shaft; default 1"
+    )
+    fixed: bool = Field(False, description="the first disc does not swing")
+    damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="damping ratio of every mode; left out: 0.03, assumed"
+    )
+
+    @model_validator(mode="after")
+    def _as_many(self) -> MainShaft:
+        count = len(self.inertias)
+        if len(self.stiffnesses) != count - 1:
+            message = f"{count} discs have {count - 1} stiffnesses between them, not {len(self.stiffnesses)}"
+            raise _refuse("GL111", "stiffnesses", message)
+        for name in ("members", "ratios"):
+            given = getattr(self, name)
+            if given is not None and len(given) != count:
+                raise _refuse("GL111", name, f"give one for each of the {count} discs, not {len(given)}")
+        if self.ratios is not None and 0.0 in self.ratios:
+            raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 stands still")
+        if self.members is not None and len(set(self.members)) < count:
+            twice = next(name for name in self.members if self.members.count(name) > 1)
+            raise _refuse("GL111", "members", f"two discs are called {named(twice)}: give each its own name")
+        return self
+
+
+class MachineLimits(Spec):
+    """Limits of the checks."""
+
+    timing_margin: Share = Field(0.0, description="least margin of the relations, deg; below it a warning")
+    torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
+
+
+class MachineLoads(Spec):
+    """Motor and flywheel on the main shaft."""
+
+    flywheel: Annotated[Any, Deferred("studies.loads.spec:Flywheel")] | None = None
+    motor: Annotated[Any, Deferred("studies.loads.spec:Motor")] | None = None
+
+
+class MachineRegister(Spec):
+    """The register between members at the print."""
+
+    at: MachineAngle = Field(0.0, description="machine angle of the print")
+    chain: Annotated[dict[str, Annotated[float, Field(json_schema_extra={"unit": "1"})]], Field(min_length=1)] = Field(
+        description="what an error of each member costs at the print: its share, with its sign"
+    )
+    tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
+
+
+class MachineSpec(TolerancedSpec):
+    """A machine of several mechanisms on one main shaft."""
+
+    section_of_members: ClassVar[str] = "members"
+    """The section whose entries are designs of their own, read from their files."""
+
+    kind: Literal["machine"]
+    speed: Speed | None = Field(None, description="speed of the main shaft")
+    members: Annotated[dict[MemberName, Member], Field(min_length=1, max_length=60)] = Field(
+        description="the mechanisms by name, each {of: FILE} or {design: {...}}"
+    )
+    events: Annotated[dict[MemberName, Event], Field(max_length=200)] = Field(
+        {}, description="moments by name at which a member passes a value"
+    )
+    require: Annotated[list[str], Field(max_length=200)] = Field(
+        [], description="relations: EVENT before EVENT by DEG; RUN within RUN by DEG; MEMBER.velocity at EVENT <= VALUE"
+    )
+    shaft: MainShaft | None = Field(None, description="the main shaft as a torsional chain")
+    limits: MachineLimits = MachineLimits.model_construct()
+    loads: MachineLoads | None = Field(None, description="motor and flywheel on the main shaft")
+    register_: MachineRegister | None = Field(None, alias="register", description="register between members")
+
+    @cached_property
+    def relations(self) -> tuple[Relation, ...]:
+        """The relations of `require`."""
+        return tuple(parse(text) for text in self.require)
+
+    @model_validator(mode="after")
+    def _drivers(self) -> MachineSpec:
+        for name, member in self.members.items():
+            if name in _RESERVED:
+                raise _refuse("GL111", f"members.{name}", f"{name} is a word of its own: call the member otherwise")
+            if member.input is None:
+                continue
+            driver = member.input.partition(".")[0]
+            if driver not in self.members:
+                message = f"no member {named(driver)}: there are {', '.join(self.members)}"
+                raise _refuse("GL109", f"members.{name}.input", message)
+        for name in self.members:
+            if loop := self._circle(name):
+                message = f"{' <- '.join(loop)} drive each other in a circle: let one of them be driven by the shaft"
+                raise _refuse("GL111", f"members.{name}.input", message)
+        return self
+
+    def _circle(self, name: str) -> list[str]:
+        seen = [name]
+        while (given := self.members[seen[-1]].input) is not None:
+            seen.append(given.partition(".")[0])
+            if seen[-1] in seen[:-1]:
+                return seen[seen.index(seen[-1]) :] if seen[-1] == name else []
+        return []
+
+    @model_validator(mode="after")
+    def _named(self) -> MachineSpec:
+        for name, event in self.events.items():
+            if name in self.members:
+                raise _refuse("GL111", f"events.{name}", f"{name} is a member: call the event otherwise")
+            if event.of.partition(".")[0] not in self.members:
+                message = f"no member {named(event.of)}: there are {', '.join(self.members)}"
+                raise _refuse("GL109", f"events.{name}.of", message)
+        for i, text in enumerate(self.require):
+            try:
+                parse(text).require_names(tuple(self.members), tuple(self.events))
+            except NotARelation as error:
+                raise _refuse(error.code, f"require[{i}]", str(error)) from None
+        for name in self.register_.chain if self.register_ else ():
+            if name not in self.members:
+                message = f"no member {named(name)}: there are {', '.join(self.members)}"
+                raise _refuse("GL109", f"register.chain.{name}", message)
+        return self
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Members whose phase is sought."""
+        return tuple(name for name, member in self.members.items() if member.phase == "free")
+
+    def root(self, name: str) -> str:
+        """The member on the main shaft that drives a member, itself where the shaft does."""
+        while (given := self.members[name].input) is not None:
+            name = given.partition(".")[0]
+        return name
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        more = (("loads", self.loads), ("register", self.register_))
+        return ("analyze", *(name for name, section in more if section is not None))

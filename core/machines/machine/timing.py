@@ -1,0 +1,392 @@
+"""Runs of the members and events on the machine angle, and the margins of the relations between them.
+
+Angles are in deg here, as files and tables have them, so that what a file gives in whole degrees stays whole.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key, named
+from gearlink.core.machines.machine.relations import (
+    EXTREMES,
+    RUNS,
+    VALUES,
+    Before,
+    Moment,
+    Named,
+    NotARelation,
+    Value,
+    Within,
+    moment_of,
+)
+from gearlink.core.mechanism.motion import TURN, Course
+from gearlink.core.numerics.roots import bracketed_root
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.machine.relations import Relation
+    from gearlink.core.machines.machine.series import Members, OnShaft
+    from gearlink.core.machines.machine.spec import Event, MachineSpec
+    from gearlink.core.numerics.arrays import Reals
+
+_NOTHING = 1e-12  # of the greatest rate: below it is rounding
+_SAMPLES, _FEWEST = 720, 33
+_ROUND = 1e-9  # deg: events that are nearer to a whole turn stand upon it
+_WORDS = {1: "rise", -1: "return", 0: "dwell"}
+_FULL = 360.0
+
+
+class Stretch(NamedTuple):
+    """A way over which a function rises (+1), falls (-1) or stands (0), from `start` to `end`."""
+
+    start: float
+    end: float
+    sense: int
+
+
+def stretches(rate: Callable[[Reals], Reals], start: float, end: float, joints: Sequence[float]) -> list[Stretch]:
+    """Where a function rises, falls and stands over a period, by its rate.
+
+    Parameters
+        rate : function of inputs
+        joints : places where the rate or its slope may jump
+    Returns
+        stretches : those of one sense that follow each other are one, across the end of the period too; that which
+            crosses it ends beyond it
+    Notes
+        Between joints the sense is that of samples, each change of it a bracketed root; a rate that is rounding at all
+        samples stands.
+    """
+    bounds = [start, *sorted(each for each in set(joints) if start < each < end), end]
+    grids = [_inside(a, b, end - start) for a, b in pairwise(bounds)]
+    values = np.split(rate(np.concatenate(grids)), np.cumsum([each.size for each in grids])[:-1])
+    nothing = _NOTHING * max(float(np.abs(each).max()) for each in values)
+    found: list[Stretch] = []
+    for (a, b), grid, seen in zip(pairwise(bounds), grids, values, strict=True):
+        found += _between(rate, (a, b), grid, np.where(np.abs(seen) <= nothing, 0.0, np.sign(seen)))
+    return _merged(found, start, end)
+
+
+def _inside(a: float, b: float, whole: float) -> Reals:
+    count = max(_FEWEST, math.ceil(_SAMPLES * max(1.0, whole / TURN) * (b - a) / whole))
+    return a + (b - a) * (np.arange(count) + 0.5) / count
+
+
+def _between(rate: Callable[[Reals], Reals], ends: tuple[float, float], grid: Reals, signs: Reals) -> list[Stretch]:
+    """Between two joints."""
+    moving = np.flatnonzero(signs)
+    if not moving.size:
+        return [Stretch(*ends, 0)]
+    cuts, senses = [ends[0]], [int(signs[moving[0]])]
+    for i, j in pairwise(moving.tolist()):
+        if signs[i] != signs[j]:
+            cuts.append(bracketed_root(lambda x: float(rate(np.array([x]))[0]), float(grid[i]), float(grid[j])))
+            senses.append(int(signs[j]))
+    return [Stretch(a, b, sense) for (a, b), sense in zip(pairwise([*cuts, ends[1]]), senses, strict=True)]
+
+
+def _merged(found: Sequence[Stretch], start: float, end: float) -> list[Stretch]:
+    merged: list[Stretch] = []
+    for each in found:
+        if merged and merged[-1].sense == each.sense:
+            merged[-1] = merged[-1]._replace(end=each.end)
+        else:
+            merged.append(each)
+    if len(merged) > 1 and merged[0].sense == merged[-1].sense:
+        first = merged.pop(0)
+        merged[-1] = merged[-1]._replace(end=first.end + (end - start))
+    return merged
+
+
+class Run(NamedTuple):
+    """A rise, return or dwell, angles from the phase of the row on.
+
+    Fields
+        name : str - rise, return or dwell, as it goes on the machine
+        start, duration : float [deg]
+        of, to : float [mm or deg] - the output at both ends
+    """
+
+    name: str
+    start: float
+    duration: float
+    of: float
+    to: float
+
+
+class Place(NamedTuple):
+    """One output of a member over the machine angle."""
+
+    member: OnShaft
+    course: Course
+
+
+class Timing:
+    """Runs and events of all members.
+
+    Parameters
+        spec : MachineSpec
+        members : Members
+    """
+
+    def __init__(self, spec: MachineSpec, members: Members) -> None:
+        self.spec, self.members = spec, members
+        self._runs: dict[str, list[Run]] = {}
+
+    @cached_property
+    def dial(self) -> float:
+        """Machine angle after which everything repeats [deg]."""
+        return _FULL * self.members.turns
+
+    def wrap(self, angle: float) -> float:
+        """An angle between two events, in (-dial/2, dial/2] [deg]."""
+        found = math.fmod(angle, self.dial)
+        if abs(abs(found) - 0.5 * self.dial) <= _ROUND:
+            return 0.5 * self.dial
+        half = 0.5 * self.dial
+        return found - self.dial if found > half else found + self.dial if found <= -half else found
+
+    def on_dial(self, angle: float) -> float:
+        """A machine angle in [0, dial) [deg]."""
+        return _remainder(angle, self.dial)
+
+    # Runs
+
+    def place(self, of: str) -> Place:
+        """Member and output of MEMBER or MEMBER.OUTPUT."""
+        name, _, output = of.partition(".")
+        return Place(self.members[name], self.members[name].course_of(output))
+
+    def runs(self, of: str) -> list[Run]:
+        """The runs of an output over the dial, numbered as they stand: by turns of its own from the phase on, within
+        one in the order of its own input."""
+        if of not in self._runs:
+            member, course = self.place(of)
+            own = self._of_series if member.driver is not None else self._of_shaft
+            self._runs[of] = own(member, course)
+        return self._runs[of]
+
+    def _of_shaft(self, member: OnShaft, course: Course) -> list[Run]:
+        """Of a member on the main shaft: those of its own input, exact at its joints."""
+        given, period = member.motion.input, member.period
+        assert period is not None
+        found = stretches(lambda q: course.rates(member.motion, q, 1)[1], given.start, given.end, given.joints)
+        found = _with_standing(found, member, given.start, given.end)
+        ratio, width = member.ratio, math.degrees(period)
+        first = []
+        for a, b, sense in ((math.degrees(each.start), math.degrees(each.end), each.sense) for each in found):
+            own = _remainder(a if ratio > 0.0 else b, width)  # where it begins as the machine turns
+            after = own if ratio > 0.0 else _remainder(-b, width)
+            first.append((own, after / abs(ratio), (b - a) / abs(ratio), sense if ratio > 0.0 else -sense))
+        times, turn = round(self.dial * abs(ratio) / width), width / abs(ratio)
+        return [
+            self._run(member, course, start + k * turn, duration, sense)
+            for k in range(times)
+            for _, start, duration, sense in sorted(first)
+        ]
+
+    def _of_series(self, member: OnShaft, course: Course) -> list[Run]:
+        """Of a member behind another: over the machine angle, counted from machine angle 0."""
+        end, shift = math.radians(self.dial), math.radians(self.phase_of_root(member.name) or 0.0)
+        joints = [
+            each + k * TURN * member.turns for k in range(self.members.turns // member.turns) for each in member.joints
+        ]
+        found = stretches(lambda angle: member.rates(angle, 1, course=course)[1], 0.0, end, joints)
+        runs = [self._run(member, course, math.degrees(a), math.degrees(b - a), sense) for a, b, sense in found]
+        return sorted(runs, key=lambda run: self.on_dial(run.start + math.degrees(shift)))
+
+    def _run(self, member: OnShaft, course: Course, start: float, duration: float, sense: int) -> Run:
+        at = np.radians(np.array([start, start + duration]))
+        of, to = member.rates(at, 0, course=course)[0].tolist()
+        if course.unit == "rad":
+            of, to = math.degrees(of), math.degrees(to)
+        return Run(_WORDS[sense], start, duration, of, to)
+
+    def phase_of_root(self, name: str) -> float | None:
+        """The phase of the member on the main shaft that drives a member [deg]; None where it is free."""
+        phase = self.spec.members[self.spec.root(name)].phase
+        return None if phase == "free" else float(phase)
+
+    def run(self, wanted: Named) -> Run:
+        """A run by its name and number.
+
+        Raises
+            NoSolution - for a run that the member does not have
+        """
+        found = [each for each in self.runs(wanted.of) if each.name == wanted.what]
+        if wanted.number > len(found):
+            have = f"it has {len(found)}" if found else f"it has {', '.join(self._named_runs(wanted.of))}"
+            raise NoSolution(f"{wanted.of} has no {wanted.what}[{wanted.number}]: {have}")
+        return found[wanted.number - 1]
+
+    def _named_runs(self, of: str) -> list[str]:
+        return list(dict.fromkeys(each.name for each in self.runs(of)))
+
+    # Events
+
+    def offset(self, moment: Moment) -> tuple[str, float]:
+        """A moment as the member on the main shaft that it moves with, "" for none, and the angle from its phase [deg].
+
+        Raises
+            NoSolution - for an event that the member does not have
+        """
+        if isinstance(moment, float):
+            return "", moment
+        if not moment.of:
+            event = self.spec.events[moment.what]
+            with at_key(f"events.{moment.what}"):
+                return self.spec.root(event.of.partition(".")[0]), self._passing(moment.what, event)
+        root = self.spec.root(moment.member)
+        if moment.what in EXTREMES:
+            return root, self._extreme(moment)
+        run = self.run(moment)
+        return root, run.start + (run.duration if moment.end == "end" else 0.0)
+
+    def _passing(self, name: str, event: Event) -> float:
+        """Where an output passes a value."""
+        member, course = self.place(event.of)
+        value = math.radians(event.output) if course.unit == "rad" else event.output
+
+        def off(angle: float) -> float:
+            return float(member.rates(np.array([math.radians(angle)]), 0, course=course)[0][0]) - value
+
+        for run in self._seen(name, event):
+            ends = off(run.start), off(run.start + run.duration)
+            if run.name != "dwell" and (ends[0] <= 0.0 <= ends[1] or ends[1] <= 0.0 <= ends[0]):
+                if ends[0] == 0.0:
+                    return run.start
+                return bracketed_root(off, run.start, run.start + run.duration, ends=ends)
+        where = f" in {event.on}" if event.on else ""
+        message = f"{event.of} does not pass {event.output:g}{where}: {self._range(event.of)}"
+        raise NoSolution(message, key=f"events.{name}.output")
+
+    def _range(self, of: str) -> str:
+        ends = [value for run in self.runs(of) for value in (run.of, run.to)]
+        return f"it goes from {min(ends):.6g} to {max(ends):.6g}"
+
+    def _seen(self, name: str, event: Event) -> list[Run]:
+        """The runs in which a value is looked for."""
+        if event.on is None:
+            return self.runs(event.of)
+        try:
+            wanted = moment_of(f"{event.of}.{event.on}")
+        except NotARelation:
+            wanted = Named(event.of, event.on)
+        if wanted.what not in RUNS[:2] or wanted.end:
+            message = f"on is rise, return, rise[2] and so on, not {named(event.on)}"
+            raise NoSolution(message, key=f"events.{name}.on")
+        with at_key(f"events.{name}.on"):
+            return [self.run(wanted)]
+
+    def _extreme(self, moment: Named) -> float:
+        """Where an output or a rate of it is greatest or least, the first of equal places."""
+        from gearlink.core.numerics.extremes import extremes_over
+
+        member, course = self.place(moment.of)
+        order = 0 if "_" not in moment.what else VALUES.index(moment.what.partition("_")[0])
+        greatest = moment.what.endswith("maximum")
+        cycle = _FULL * member.turns
+        if moment.number > round(self.dial / cycle):
+            raise NoSolution(f"{moment.of} has {moment.what} {round(self.dial / cycle)} times in a cycle")
+        turn = (moment.number - 1) * cycle
+        if order == 0:
+            ends = [(value, run.start + i * run.duration) for run in self.runs(moment.of)
+                    for i, value in enumerate((run.of, run.to))]  # fmt: skip
+            if len({run.name for run in self.runs(moment.of)}) == 1:
+                raise NoSolution(f"{moment.of} turns on and on: it has no {moment.what}")
+            best = max(value for value, _ in ends) if greatest else min(value for value, _ in ends)
+            near = _NOTHING * max(abs(value) for value, _ in ends)
+            return min(place % cycle for value, place in ends if abs(value - best) <= near) + turn
+        (found,) = extremes_over(
+            [(lambda angle: member.rates(angle, order, course=course)[order], greatest)],
+            0.0, math.radians(cycle), joints=member.joints, samples=720 * member.turns,
+        )  # fmt: skip
+        return math.degrees(found.place) + turn
+
+    # Relations
+
+    def angle(self, moment: Moment, phases: Mapping[str, float]) -> float:
+        """Machine angle of a moment [deg], in [0, dial)."""
+        root, offset = self.offset(moment)
+        return self.on_dial(offset + (phases[root] if root else 0.0))
+
+    def margin(self, relation: Relation, phases: Mapping[str, float]) -> float:
+        """How far a relation holds [deg, or the value's unit]; below 0 how far it does not.
+
+        Source
+            (T1) to (T3): the way from one event to the other, by the shorter way round
+        """
+        if isinstance(relation, Value):
+            found = self.value(relation.of, relation.quantity, self.angle(relation.at, phases), phases)
+            return relation.limit - found if relation.side == "<=" else found - relation.limit
+        if isinstance(relation, Before):
+            return self.wrap(self.angle(relation.two, phases) - self.angle(relation.one, phases)) - relation.by
+        before, room = (
+            self.wrap(self._start(relation.one, phases) - self._start(relation.two, phases)),
+            self.room(relation),
+        )
+        return min(before, room - before) - relation.by
+
+    def _start(self, run: Named, phases: Mapping[str, float]) -> float:
+        return self.angle(run._replace(end="start"), phases)
+
+    def room(self, relation: Within) -> float:
+        """What the outer run lasts longer than the inner one [deg]."""
+        return self.run(relation.two).duration - self.run(relation.one).duration
+
+    def value(self, of: str, quantity: str, angle: float, phases: Mapping[str, float]) -> float:
+        """Position (mm or deg), velocity or acceleration (per rad) of an output at a machine angle [deg]."""
+        member, course = self.place(of)
+        order = VALUES.index(quantity)
+        at = np.radians(np.array([angle - phases[self.spec.root(member.name)]]))
+        found = float(member.rates(at, order, course=course)[order][0])
+        return math.degrees(found) if course.unit == "rad" and order == 0 else found
+
+
+def _remainder(angle: float, width: float) -> float:
+    """An angle in [0, width); what is a whole number of widths but for rounding is 0."""
+    found = math.fmod(angle, width)
+    found = found + width if found < 0.0 else found
+    return 0.0 if width - found <= _ROUND or found <= _ROUND else found
+
+
+def _with_standing(found: list[Stretch], member: OnShaft, start: float, end: float) -> list[Stretch]:
+    """With the dwell of a design that has one within a tolerance: it stands there, and moves between."""
+    names = ("tolerance_dwell_start", "tolerance_dwell_angle")
+    design = member.design
+    if not set(names) <= set(design.quantity_names()):
+        return found
+    at, width = (design.raw(name) for name in names)
+    if at is None or width is None:
+        return found
+    period = end - start
+    at = start + (float(at) - start) % period
+    outside: list[Stretch] = []
+    for each in found:  # what lies outside the dwell, the period laid out from its end on
+        for shift in (-period, 0.0, period):
+            a, b = max(each.start + shift, at + width), min(each.end + shift, at + period)
+            if b - a > _NOTHING * period:
+                outside.append(Stretch(a, b, each.sense))
+    laid = [Stretch(at, at + width, 0), *_joined(sorted(outside))]
+    return sorted(
+        Stretch(start + (each.start - start) % period, start + (each.start - start) % period + each.end - each.start,
+                each.sense)
+        for each in laid
+    )  # fmt: skip
+
+
+def _joined(found: Sequence[Stretch]) -> list[Stretch]:
+    """Neighbours of one sense as one."""
+    joined = [found[0]]
+    for each in found[1:]:
+        if each.sense == joined[-1].sense and abs(each.start - joined[-1].end) <= _NOTHING * max(1.0, abs(each.end)):
+            joined[-1] = joined[-1]._replace(end=each.end)
+        else:
+            joined.append(each)
+    return joined

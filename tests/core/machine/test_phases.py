@@ -1,0 +1,121 @@
+"""Free phases against brute force over all phases, and against the slack of every circle."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+import random
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+from machines import FEED, GRIPPER, cam, machine, of, wrapped
+
+from gearlink.core.machines.machine.phases import Tie, solve
+
+
+def least(ties: Sequence[Tie], phases: Mapping[str, Any], dial: float) -> Any:
+    """Least margin of some phases, numbers or arrays, by the definition alone."""
+    found = []
+    for tie in ties:
+        x = wrapped(phases.get(tie.two, 0.0) - phases.get(tie.one, 0.0) + tie.offset, dial)
+        found += [x - tie.least, tie.most - x]
+    return functools.reduce(np.minimum, found)
+
+
+def random_ties(seed: int, names: Sequence[str], count: int) -> list[Tie]:
+    chance = random.Random(seed)
+    found = []
+    for i in range(count):
+        one, two = chance.sample(["", *names], 2)
+        most = chance.choice([math.inf, float(chance.randint(40, 170))])
+        found.append(Tie(one, two, float(chance.randint(-180, 180)), float(chance.randint(-5, 20)), most, f"tie {i}"))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_no_phases_of_a_grid_do_better(seed: int) -> None:
+    names, dial = ("a", "b"), 360.0
+    ties = random_ties(seed, names, 3 + seed % 4)
+    found = solve(names, ties, dial)
+    assert least(ties, found.phases, dial) == pytest.approx(found.margin, abs=1e-7)  # wraps are rounded to 1e-10 deg
+    step = 2.0
+    grid = dict(zip(names, np.meshgrid(*[np.arange(0.0, dial, step)] * 2), strict=True))
+    best = float(np.max(least(ties, grid, dial)))
+    # a margin changes by at most the change of both its phases: of the nearest point of the grid by a step
+    assert best <= found.margin + 1e-7
+    assert found.margin <= best + step + 1e-7
+
+
+def test_three_members_that_chase_each_other_share_the_dial() -> None:
+    ties = [Tie(a, b, 0.0, 0.0, math.inf, f"{a} before {b}") for a, b in itertools.pairwise("abca")]
+    found = solve("abc", ties, 360.0)
+    assert found.margin == pytest.approx(120.0, abs=1e-9)
+    assert set(found.limiting) == {tie.text for tie in ties}
+    assert found.room["a"] == 360.0
+    assert found.phases["a"] == 0.0
+
+
+def test_twelve_members_are_solved_at_once_and_to_the_last_circle() -> None:
+    names = [f"m{i}" for i in range(12)]
+    ties = [Tie(names[i], names[(i + 1) % 12], 10.0, 2.0, math.inf, f"ring {i}") for i in range(12)]
+    ties += [Tie(names[i], names[i + 3], 0.0, 5.0, 150.0, f"span {i}") for i in range(9)]
+    ties.append(Tie("", "m0", 0.0, 0.0, math.inf, "first"))
+    found = solve(names, ties, 360.0)
+    assert least(ties, found.phases, 360.0) == pytest.approx(found.margin, abs=1e-7)
+    # a span of 5 to 150 deg leaves (150 - 5)/2 to either side, whatever the others ask
+    assert found.margin == pytest.approx(72.5, abs=1e-7)
+
+
+def test_a_phase_that_is_left_open_is_the_middle_of_its_interval() -> None:
+    """The tight circle of a leaves b between two events of what stands fast."""
+    ties = [
+        Tie("a", "", 30.0, 0.0, math.inf, "a1"),
+        Tie("", "a", -10.0, 0.0, math.inf, "a2"),
+        Tie("b", "", 100.0, 0.0, math.inf, "b1"),
+        Tie("", "b", 0.0, 0.0, math.inf, "b2"),
+    ]
+    found = solve("ab", ties, 360.0)
+    assert found.margin == pytest.approx(10.0, abs=1e-9)
+    assert found.phases == pytest.approx({"a": 20.0, "b": 50.0}, abs=1e-8)
+    assert found.room == pytest.approx({"a": 0.0, "b": 80.0}, abs=1e-8)
+
+
+def test_the_machine_takes_what_was_found() -> None:
+    members = {"feed": of(cam(FEED), phase=20), "gripper": of(cam(GRIPPER), phase="free")}
+    require = ["gripper.rise_end before feed.rise_start by 2", "feed.rise_end before gripper.return_start by 2"]
+    found = machine(members, require=require)
+    assert math.degrees(found.least_margin or 0.0) == pytest.approx(18.0, abs=1e-9)
+    assert found.quantity("gripper.phase").value == pytest.approx(310.0, abs=1e-9)  # type: ignore[union-attr]
+    assert found.limiting_relations == require
+    grid = [
+        machine({**members, "gripper": of(cam(GRIPPER), phase=float(p))}, require=require) for p in range(0, 360, 15)
+    ]
+    assert max(math.degrees(each.least_margin or 0.0) for each in grid) <= 18.0 + 1e-9
+
+
+def test_where_no_phases_will_do_the_relations_that_limit_each_other_are_named() -> None:
+    members = {"feed": of(cam(FEED)), "gripper": of(cam(GRIPPER), phase="free")}
+    found = machine(
+        members, require=["gripper.rise within feed.dwell by 20", "feed.rise_start before gripper.rise_end"]
+    )
+    failing = [each for each in found.check("timing-relation") if each.status == "fail"]
+    assert len(failing) == 1
+    assert failing[0].value == pytest.approx(-5.0, abs=1e-9)  # a dwell of 80 deg holds a rise of 50 with 15 to spare
+    assert "no phases do better" in failing[0].message
+
+
+def test_a_dial_of_several_turns() -> None:
+    """A member at half the speed: its events stand once in two turns, and the shorter way round is up to a turn."""
+    members = {"slow": of(cam(FEED), ratio=0.5), "fast": of(cam(GRIPPER), phase="free")}
+    found = machine(
+        members, require=["slow.rise_end before fast.rise_start", "fast.rise_end[2] before slow.rise_start"]
+    )
+    assert found.cycle_turns == 2
+    phase = float(found.quantity("fast.phase").value)  # type: ignore[union-attr, arg-type]
+    ways = [wrapped(phase - 180.0, 720.0), wrapped(0.0 - (phase + 410.0), 720.0)]
+    assert math.degrees(found.least_margin or 0.0) == pytest.approx(min(ways), abs=1e-9)
+    best = max(min(wrapped(p - 180.0, 720.0), wrapped(-p - 410.0, 720.0)) for p in np.arange(0.0, 720.0, 1.0).tolist())
+    assert best - 1e-9 <= min(ways) <= best + 1.0
