@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
@@ -133,6 +132,41 @@ def _rack(design: Any) -> Part:
     width = design.data.face_width[1] if design.data.face_width else None
     hand = pair_hands(design)[1]
     return rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width, hand)
+
+
+def slider_racks(design: Any) -> Makers:
+    """Pinion and racks at the rod end, of both meshes; the pinion once where its teeth are the same."""
+    if design.rack_drive is None:
+        return _lacking("the file has no section racks: module, fixed, moving")
+    given, drive = design.spec.racks, design.rack_drive
+    lengths = {"fixed_rack": drive.fixed_rack_length, "moving_rack": drive.moving_rack_length}
+    found: Makers = {}
+    for name, mesh in drive.meshes.items():
+        teeth = math.ceil(lengths[name] / mesh.pitch_on_line)
+        pinion = "pinion" if given.fixed == given.moving else f"{name.removesuffix('_rack')}_pinion"
+        found |= on_rack(mesh, (pinion, name), ("pinion", name.replace("_", " ")), "racks", teeth)
+    return found
+
+
+def on_rack(mesh: Any, names: tuple[str, str], titles: tuple[str, str], key: str, teeth: int) -> Makers:
+    """A pinion and its rack of so many teeth."""
+    data = mesh.data
+    widths = data.face_width or (None, None)
+    back = data.rims[1] if data.rims[1] is not None else 2.0 * mesh.pair.module
+
+    def pinion() -> Part:
+        from gearlink.cli.export import gear_parts
+
+        with at_key(key):
+            return gear_parts.gear_of(mesh.pair, 0, names[0], titles[0], widths[0], "right")
+
+    def rack() -> Part:
+        from gearlink.cli.export import gear_parts
+
+        with at_key(key):
+            return gear_parts.rack_of(mesh, teeth, back, names[1], titles[1], widths[1], "left")
+
+    return {names[0]: pinion, names[1]: rack}
 
 
 def pair_hands(design: Any) -> tuple[str, str]:

@@ -79,6 +79,8 @@ KINDS: dict[str, Kind] = {
             outputs={"motion": ("displacement",)},
             picture="cli.views.figures.slider_crank:draw",
             scene="cli.views.scenes.slider_crank:build",
+            profiles="cli.export.parts:slider_racks",
+            parts=("pinion", "fixed_pinion", "moving_pinion", "fixed_rack", "moving_rack"),
             worked="ty460_slider_crank",
         ),
         Kind(

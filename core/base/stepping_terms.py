@@ -28,4 +28,13 @@ REDUCER = {
     "backlash": Term("", "deg", "turn of the disc between both flanks of the pins", "own derivation"),
     "output_hole_radius": Term("r_w + e", "mm", "radius of the holes for the output pins"),
 }
-STEPPING = {**GENEVA, **REDUCER}
+RACKS = {
+    "stroke_ratio": Term("1 +- z_m/z_f", "1", "stroke of the rack over the rod end's, signed", "thesis 2.2.2 III"),
+    "output_stroke": Term("S_R", "mm", "stroke of the moving rack", "thesis 2.2.2 III"),
+    "pinion_turns": Term("", "1", "turns of the pinion in a stroke"),
+    "fixed_rack_travel": Term("", "mm", "how far the pinion rolls on the fixed rack"),
+    "moving_rack_travel": Term("", "mm", "how far the pinion rolls on the moving rack"),
+    "fixed_rack_length": Term("", "mm", "least length of the fixed rack: travel and path of contact"),
+    "moving_rack_length": Term("", "mm", "least length of the moving rack: travel and path of contact"),
+}
+STEPPING = {**GENEVA, **REDUCER, **RACKS}

@@ -84,7 +84,11 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     depth, speed = slider_crank_sweep.slider(np.radians(degrees), crank, part.rod, part.offset, 1)
     panels.turn_panel(travel, "travel of the\nslider [mm]")
     panels.heading(travel, f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}")
-    travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel")
+    travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel", label="slider")
+    if design.rack_drive is not None:
+        rack = design.rack_drive.stroke_ratio * (depth - depth.min())
+        travel.plot(degrees, rack, color=style.GREEN, linewidth=1.7, label="rack")
+        panels.legend_above(travel)
     panels.turn_panel(velocity, "velocity per crank\nspeed [mm/rad]")
     panels.heading(velocity, "Velocity")
     velocity.plot(degrees, speed, color=style.RED, linewidth=1.7, gid="velocity")

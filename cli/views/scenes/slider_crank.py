@@ -6,17 +6,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.views.scenes.colors import BLUE
+from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, pale
 from gearlink.cli.views.scenes.linkages import crank_readout, over_crank
 from gearlink.cli.views.scenes.scene import (
     TURN,
+    Body,
     Chain,
     Curve,
     Line,
+    Part,
+    Points,
     Readout,
     Reals,
     Scene,
     block,
+    circle,
     fixed_circle,
     letters,
     loop,
@@ -25,6 +29,36 @@ from gearlink.core.machines.slider_crank.mechanism import DEPTH
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
+
+
+def _racks(design: SliderCrankDesign, psi: Reals) -> list[Part]:
+    """Pinion and both racks, as their pitch circles and lines with a back."""
+    drive = design.rack_drive
+    if drive is None:
+        return []
+    links, (fixed, moving) = design.moving.at(psi, 0).links, drive.radii
+    pinion, rack = links["pinion"], links["rack"]
+    whole = DEPTH.rates(design.moving, TURN * loop(361), 0)[0]
+    still, module = np.zeros_like(psi), drive.given.module
+    found: list[Part] = []
+    for radius in sorted({fixed, moving}, reverse=True):
+        outline = np.concatenate([[0.0], circle(radius)])
+        found.append(Body(outline=outline, place=pinion.origin.value, turn=pinion.turn.value, color=ORANGE,
+                          fill=pale(ORANGE, 0.25), name="pinion"))  # fmt: skip
+    x, low, high = -design.slider_crank.offset + fixed, -whole.max() - moving, -whole.min() + moving
+    found.append(Body(outline=_bar(x, low, high, 3.0 * module), place=0.0 * pinion.origin.value, turn=still,
+                      color=GREY, fill=pale(GREY, 0.3), name="fixed rack"))  # fmt: skip
+    # the moving rack is touched beside the rod end, which it outruns
+    touched = (drive.stroke_ratio - 1.0) * whole
+    outline = _bar(0.0, touched.min() - moving, touched.max() + moving, -3.0 * module * drive.side)
+    found.append(Body(outline=outline, place=rack.origin.value, turn=still, color=GREEN, fill=pale(GREEN, 0.3),
+                      name="moving rack"))  # fmt: skip
+    return found
+
+
+def _bar(x: float, low: float, high: float, back: float) -> Points:
+    """A closed bar along y, its pitch line at x."""
+    return np.array([x + 1j * low, x + 1j * high, x + back + 1j * high, x + back + 1j * low, x + 1j * low])
 
 
 def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
@@ -43,6 +77,7 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
             *(Line(points=points, dashed=True) for points in dead),
             fixed_circle(0j, crank),
             block(f, 0.16 * rod, 0.2 * rod, BLUE),
+            *_racks(design, psi),
             Chain(joints=(d, e, f)),
         ),
         marks=letters("D", D=d, E=e, F=f),

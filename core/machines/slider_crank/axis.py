@@ -54,7 +54,7 @@ def axis(
         spec, command, paths, quantities, checks : as of `core.base.design_axis.Maker`
     """
     sizes = [name for name in ("stroke", "crank") if getattr(spec, name) is not None or name in paths]
-    served = spec.quick_return_ratio is None and "quick_return_ratio" not in paths
+    served = spec.racks is None and spec.quick_return_ratio is None and "quick_return_ratio" not in paths
     served = served and command in _CHECKS and set(paths) <= _DOMAIN.keys() and len(sizes) == 1
     served = served and set(checks) <= _CHECKS[command]
     if not served or not set(quantities) <= {*SliderCrankDesign.outlines["analyze"].quantities} - {*FOUND}:
@@ -131,7 +131,7 @@ class SliderCrankDesigns(SliderCrankDesign):
 
     def __init__(self, values: Mapping[str, Any], count: int) -> None:
         keys = {path: value for path, value in values.items() if "." not in path}
-        super().__init__(SimpleNamespace(**keys, quick_return_ratio=None))
+        super().__init__(SimpleNamespace(**keys, quick_return_ratio=None, racks=None))
         self.count = count
 
     @cached_property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, Outline, placed
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
@@ -17,11 +17,25 @@ from gearlink.core.parts.linkages.slider_crank.position import SliderCrank, slid
 from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.slider_crank.racks import RackDrive
     from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
     from gearlink.core.parts.linkages.standstills import Turning
 
 _SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES, "dead_center_extended_at", "dead_center_folded_at")
 FOUND = ("rod_length", "offset")
+_STROKES = (
+    "stroke_ratio", "output_stroke", "pinion_turns", "fixed_rack_travel", "moving_rack_travel", "fixed_rack_length",
+    "moving_rack_length",
+)  # fmt: skip
+_OF_RACK = (
+    "center_distance", "working_pressure_angle", "contact_ratio", "profile_shift", "reference_radius", "tip_radius",
+    "root_radius", "tooth_thickness", "tip_thickness", "span_measurement", "specific_sliding", "backlash_normal",
+)  # fmt: skip
+RACKS = (*_STROKES, *(f"{rack}.{name}" for rack in ("fixed_rack", "moving_rack") for name in _OF_RACK))
+RACK_CHECKS = (
+    "undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance", "tooth-form", "sliding",
+    "fillet-interference", "backlash",
+)  # fmt: skip
 _MOTION = (
     "forward_angle",
     "return_angle",
@@ -42,7 +56,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     spec: SliderCrankSpec
     outlines = {
         "crank": Outline((*_SIZES, *FOUND)),
-        "analyze": Outline((*_SIZES, *FOUND, *_MOTION), ("transmission-angle",), ("motion",)),
+        "analyze": Outline((*_SIZES, *FOUND, *_MOTION, *RACKS), ("transmission-angle", *RACK_CHECKS), ("motion",)),
     }
     extra_tables = ("candidates",)
     requirements = Design.requirements | {"stroke", "quick_return_ratio"}
@@ -85,9 +99,42 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         """The offset [mm] that a time ratio needs; None where the file gives it."""
         return self.slider_crank.offset if self._found else None
 
+    @cached_property
+    def rack_drive(self) -> RackDrive | None:
+        """Pinion and racks at the rod end; None where the file has none."""
+        if self.spec.racks is None:
+            return None
+        from gearlink.core.machines.slider_crank.racks import RackDrive
+
+        return RackDrive(self.spec.racks, self.slider_crank.stroke)
+
+    def raw(self, name: str) -> Any:
+        """Quantities of the racks are theirs."""
+        if name in RACKS:
+            return None if self.rack_drive is None else self.rack_drive.quantity(name)
+        return super().raw(name)
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks are those of the racks."""
+        if name in RACK_CHECKS:
+            return [] if self.rack_drive is None else list(self.rack_drive.checks(name, self.spec.limits))
+        return super().check(name)
+
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """Without racks there are no teeth to judge."""
+        found = super().judged(command, spec)
+        return found if spec.racks is not None else tuple(name for name in found if name not in RACK_CHECKS)
+
     def outline(self, command: str) -> Outline:
         """Where the rod is found, the transmission angle that it is found for stands beside it."""
         found = self.outlines[command]
+        if self.spec.racks is None:
+            found = Outline(
+                tuple(name for name in found.quantities if name not in RACKS),
+                tuple(name for name in found.checks if name not in RACK_CHECKS),
+                found.tables,
+            )
         if command != "crank" or not self._found or self.spec.rod is not None:
             return found
         return found._replace(quantities=(*found.quantities, "min_transmission_angle"))
@@ -168,12 +215,23 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
         way = displacement(self)
+        of_rack = []
+        if self.rack_drive is not None:
+            from gearlink.core.machines.slider_crank.mechanism import rack_displacement
+
+            course = rack_displacement(self)
+            of_rack = [
+                Shown("output_displacement", course),
+                Shown("output_velocity", course, 1, "rack_velocity"),
+                Shown("output_acceleration", course, 2, "rack_acceleration"),
+            ]
         shown = [
             Shown("displacement", way),
             Shown("velocity", way, 1, "slider_velocity"),
             Shown("acceleration", way, 2, "slider_acceleration"),
             Shown("rod_angle", turned("rod", sense=-1.0).less(0.5 * math.pi)),
             Shown("transmission_angle", between("rod", "slider")),
+            *of_rack,
         ]
         return motion_table("motion", self, shown, samples)
 

@@ -18,15 +18,24 @@ class SliderCrankLoads(LoadsDesign):
 
     kind = "slider-crank"
     spec: SliderCrankSpec
-    links, sliding = ("crank", "rod", "slider"), ("slider",)
-    pins, meshes = ("D", "E", "F"), ()
-    output = "slider"
+    links, sliding = ("crank", "rod", "slider", "pinion", "rack"), ("slider", "rack")
+    pins, meshes = ("D", "E", "F", "pinion"), ("mesh_fixed", "mesh_moving")
     outlines = loads_outline(pins, meshes, BALANCE)
 
     @cached_property
     def design(self) -> SliderCrankDesign:
         """The geometry."""
         return SliderCrankDesign(self.spec)
+
+    @property
+    def own_links(self) -> tuple[str, ...]:
+        """Pinion and rack where the file has racks."""
+        return self.links if self.spec.racks is not None else self.links[:3]
+
+    @property
+    def output(self) -> str:  # type: ignore[override]
+        """The slider, or the moving rack."""
+        return "slider" if self.spec.racks is None else "rack"
 
     @property
     def transmission_angle(self) -> float:
@@ -48,7 +57,7 @@ class SliderCrankLoads(LoadsDesign):
     def _counterweight(self, share: float) -> complex:
         from gearlink.core.mechanism.dynamics import Mass
 
-        crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links)
+        crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links[:3])
         part = rod.center / self.design.slider_crank.rod
         reciprocating = slider.mass + rod.mass * part
         radius = self.design.slider_crank.crank_length

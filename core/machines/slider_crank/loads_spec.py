@@ -16,6 +16,8 @@ class SliderCrankMasses(Spec):
     crank: Body | None = Field(None, description="crank, from D to E")
     rod: Body | None = Field(None, description="connecting rod, from E to F")
     slider: Body | None = Field(None, description="slider at F")
+    pinion: Body | None = Field(None, description="pinion at F between the racks")
+    rack: Body | None = Field(None, description="moving rack with all that it moves")
 
 
 class SliderCrankBalance(Spec):

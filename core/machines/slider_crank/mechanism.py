@@ -20,7 +20,7 @@ DEPTH = coordinate("slider", along=-1j)
 
 def motion(design: SliderCrankDesign) -> Motion:
     """Links and joints over the direction of the crank from +x, D at 0; the slider lies below on x = -offset."""
-    part = design.slider_crank
+    part, racks = design.slider_crank, design.rack_drive
     crank_length, rod, offset = part.crank_length, part.rod, part.offset
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
@@ -37,11 +37,24 @@ def motion(design: SliderCrankDesign) -> Motion:
             Pin("F", "rod", "slider", end.value),
             Guide("guide", FRAME, "slider", end.value, -1j),
         ]
-        return Mechanism(links, connections, "crank", travel={"slider": -1j})
+        if racks is None:
+            return Mechanism(links, connections, "crank", travel={"slider": -1j})
+        links |= racks.links(links["slider"])
+        return Mechanism(links, [*connections, *racks.joints(links)], "crank", travel={"slider": -1j, "rack": -1j})
 
-    return Motion(make, Input(), (Output("Slider F", displacement(design)),))
+    outputs: tuple[Output, ...] = (Output("Slider F", displacement(design)),)
+    if racks is not None:
+        outputs = (Output("Rack", rack_displacement(design)), *outputs)
+    return Motion(make, Input(), outputs)
 
 
 def displacement(design: SliderCrankDesign) -> Course:
     """The way of the slider from the dead centre nearest to D [mm]."""
     return DEPTH.less(design.depth(design.dead_center_folded_at, 0))
+
+
+def rack_displacement(design: SliderCrankDesign) -> Course:
+    """The way of the moving rack from where the slider is nearest to D, positive as the slider's [mm]."""
+    assert design.rack_drive is not None
+    ratio = design.rack_drive.stroke_ratio
+    return coordinate("rack", along=-1j).less(ratio * design.depth(design.dead_center_folded_at, 0))

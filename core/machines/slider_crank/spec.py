@@ -11,7 +11,9 @@ from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import (
     AcuteAngle,
     Deferred,
+    DrawingLimits,
     DrivenSpec,
+    GearLimits,
     Length,
     LoadLimits,
     SignedLength,
@@ -20,7 +22,7 @@ from gearlink.core.base.spec import (
 from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 
 
-class SliderLimits(LoadLimits):
+class SliderLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, 90 deg less the rod's lean")
@@ -46,6 +48,9 @@ class SliderCrankSpec(DrivenSpec):
         None, validate_default=True, description="connecting rod"
     )
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
+    racks: Annotated[Any, Deferred("machines.slider_crank.racks:Racks")] | None = Field(
+        None, description="pinion at the rod end between a fixed and a moving rack, which is then the output"
+    )
     limits: SliderLimits = SliderLimits.model_construct()
 
     loads: Annotated[Any, Deferred("machines.slider_crank.loads_spec:SliderCrankLoads")] | None = Field(
@@ -107,6 +112,6 @@ class SliderCrankSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: the crank, the motion with a speed or a limit, the loads with theirs."""
-        moving = self.input_speed is not None or "limits" in self.model_fields_set
+        moving = self.input_speed is not None or self.racks is not None or "limits" in self.model_fields_set
         motion = ("analyze",) if moving else ()
         return ("crank", *motion, *(("loads",) if self.loads is not None else ()))

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.keys.material import MaterialSpec
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
+    from gearlink.core.parts.gears.rack.mesh import RackMesh
     from gearlink.core.parts.gears.rack.rating import RackData
     from gearlink.core.parts.gears.rating.conditions import Conditions
 
@@ -94,6 +95,38 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = No
     return pair if shift is None or distance is None else _without_difference(pair)
 
 
+def rack_at(given: PairKeys, teeth: int) -> RackMesh:
+    """A pinion of a section on a rack of the same reference profile.
+
+    Parameters
+        given : PairKeys, with module and pressure_angle
+        teeth : int - of the pinion
+    Raises
+        NoSolution - where pinion and rack cannot mesh
+    """
+    from gearlink.core.parts.gears.rack.mesh import RackMesh, beside_a_rack
+
+    first, second = given.profile_shift or (0.0, 0.0)
+    if second != 0.0:
+        raise NoSolution("a rack has no shift: give profile_shift: [x1, 0]", key="profile_shift[1]")
+    with at_key("tool"):
+        tools = tools_of(given)
+    pair = beside_a_rack(
+        {
+            "module": given.module,
+            "teeth": (teeth, teeth),
+            "pressure_angle": math.radians(given.pressure_angle),
+            "helix_angle": math.radians(given.helix_angle),
+            "addendum": given.addendum,
+            "clearance": given.clearance,
+            "tip": as_pair(given.tip_shortening),
+            "tools": tools,
+        },
+        first,
+    )
+    return RackMesh(data_of(given, pair, rack=True))  # type: ignore[arg-type]  # which makes it the data of a rack
+
+
 def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
     """The gear on a rack, as gear 1 of a pair; x_1 = (a - r_1)/m where the distance to the datum line is given."""
     from gearlink.core.parts.gears.rack.mesh import beside_a_rack
@@ -143,19 +176,19 @@ def _without_difference(pair: GearPair) -> GearPair:
     return alone if same else pair
 
 
-def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
-    """The pair of a design file with all that its drawing needs.
+def data_of(spec: GearPairSpec | PairKeys, pair: GearPair, *, rack: bool = False) -> GearData:
+    """The pair of a design file, or a pinion on a rack, with all that its drawing needs.
 
     Raises
         NoSolution - for allowances beyond the tables of their standards
     """
-    rack = getattr(spec, "rack", False)
+    rack = rack or getattr(spec, "rack", False)
     return (_rack_data() if rack else GearData)(
         pair=pair,
         face_width=both(spec.face_width),
         pins=both(spec.pin_diameter) or (None, None),
         allowances=allowances_of(spec.allowances, pair, rack=rack),
-        distance_allowance=_distance_allowance(spec, pair),
+        distance_allowance=_distance_allowance(spec, pair, rack=rack),
         load=load_of(spec.load),
         materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
         edition=spec.edition,
@@ -205,13 +238,13 @@ def allowances_of(given: AllowanceSpec | None, pair: GearPair, *, rack: bool = F
     return first, second
 
 
-def _distance_allowance(spec: GearPairSpec | PairKeys, pair: GearPair) -> float | None:
+def _distance_allowance(spec: GearPairSpec | PairKeys, pair: GearPair, *, rack: bool) -> float | None:
     given = spec.center_distance_allowance
     if not isinstance(given, str):
         return given
     with at_key("center_distance_allowance"):
         on_rack = pair.reference_radius[0] + pair.profile_shift[0] * pair.module
-        return js7(on_rack if getattr(spec, "rack", False) else abs(pair.center_distance))
+        return js7(on_rack if rack else abs(pair.center_distance))
 
 
 def load_of(given: LoadSpec | None) -> Load | None:
