@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
