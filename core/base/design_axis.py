@@ -8,7 +8,7 @@ the design class's, with which it must agree.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -147,9 +147,15 @@ def put_in(many: Evaluated, places: Any, few: Evaluated) -> Evaluated:
     refused[places] = [reasons.index(few.reasons[i - 1]) + 1 if i else 0 for i in few.refused]
     kept = np.ones(len(refused), dtype=bool)
     kept[places] = False
-    findings = [replace(each, fails=each.fails & kept, warns=each.warns & kept) for each in many.findings]
+    findings = [_only(each, kept) for each in many.findings]
     findings += [_widened(each, places, len(refused)) for each in few.findings]
     return Evaluated(quantities, findings, refused, reasons)
+
+
+def _only(each: Findings, kept: Mask) -> Findings:
+    """A finding of some of the designs; it says nothing of the others."""
+    value, limit = np.where(kept, each.value, np.nan), np.where(kept, each.limit, np.nan)
+    return Findings(each.code, value, limit, each.fails & kept, each.warns & kept, each.unit)
 
 
 def _widened(each: Findings, places: Any, count: int) -> Findings:

@@ -8,6 +8,7 @@ crank angle of a dwell hangs by the inverse square of that of its back-step.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import factory
@@ -94,18 +95,21 @@ def test_many_drives_at_once_are_those_computed_alone(name: str, count: int) -> 
                 near = max(NEAR, 4e-13 / alone.raw("back_step_crank_angle") ** 2)
             assert found.quantities[quantity][i] == pytest.approx(wanted, rel=near, abs=near, nan_ok=True), quantity
         checks = [check for each in alone.outlines["analyze"].checks for check in alone.check(each)]
-        wanted_findings = sorted(
-            (check.code, check.status, math.nan if check.value is None else check.value)
-            for check in checks
-            if check.code[:3] == "GL3"
+        wanted_findings = _said(
+            (check.code, check.status, math.nan if check.value is None else check.value) for check in checks
         )
         statuses = [("fail" if f.fails[i] else "warn" if f.warns[i] else "pass") for f in found.findings]
         pairs = zip(found.findings, statuses, strict=True)
-        got = sorted((f.code, status, float(f.value[i])) for f, status in pairs if f.code[:3] == "GL3")
+        got = _said((f.code, status, float(f.value[i])) for f, status in pairs)
         assert [row[:2] for row in got] == [row[:2] for row in wanted_findings]
         assert [row[2] for row in got] == pytest.approx(
             [row[2] for row in wanted_findings], rel=NEAR, abs=NEAR, nan_ok=True
         )
+
+
+def _said(findings: Iterable[tuple[str, str, float]]) -> list[tuple[str, str, float]]:
+    """The findings on the linkage; a sample that is computed alone has rows that say nothing of the others."""
+    return sorted(row for row in findings if row[0].startswith("GL3") and not (row[1] == "pass" and math.isnan(row[2])))
 
 
 def _with_window(nominal: Any) -> Any:
