@@ -40,9 +40,7 @@ from gearlink.core.parts.linkages.codes import (
     SHAFT_CLEARANCE,
     TRANSMISSION_ANGLE,
 )
-from gearlink.core.parts.linkages.fourbar.lengths import least_transmission_angle
-from gearlink.core.parts.linkages.fourbar.loop import make_reading
-from gearlink.core.parts.linkages.fourbar.sweep import dead_point_distance
+from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES
 from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 
@@ -131,11 +129,6 @@ class Batch:
         raise NotImplementedError
 
     @property
-    def mu(self) -> Reals:
-        """Least transmission angle."""
-        raise NotImplementedError
-
-    @property
     def standstills(self) -> tuple[Reals, Reals]:
         """Crank angles of the first and the second one."""
         raise NotImplementedError
@@ -213,6 +206,12 @@ class Batch:
         return self.module * (self.z3 + self.z5) / 2.0
 
     @cached_property
+    def mu(self) -> Reals:
+        """Least transmission angle: of the folded and the stretched place."""
+        crank, frame = self.links
+        return least_transmission_angle(crank, self.coupler, self.rocker, frame)
+
+    @cached_property
     def mean_ratio(self) -> Reals:
         """Net output turns per crank turn."""
         return np.where(self.links[0] > self.links[1], 1.0, self.z1 / self.z5)
@@ -270,14 +269,7 @@ class Batch:
         """The linkages with their gears."""
         crank, frame = self.links
         shares = (self.z1 / self.z5, -(self.z1 + self.z3) / self.z5, (self.z3 + self.z5) / self.z5)
-        loop: tuple[Any, Any, Any, Any, Any] = (
-            crank,
-            self.coupler,
-            self.rocker,
-            frame,
-            np.full(self.count, float(self.spec.assembly)),
-        )
-        return Drives(*make_reading(*loop, total=sum), *shares)
+        return sweep.drives_of((crank, self.coupler, self.rocker, frame), self.spec.assembly, *shares)
 
     @cached_property
     def seeks_band(self) -> bool:
@@ -453,13 +445,10 @@ class General(Batch):
         return 0.5 * self.module * self.z1, 0.5 * self.module * self.z3, 0.5 * self.module * self.z5
 
     @cached_property
-    def mu(self) -> Reals:
-        """Of the folded and the stretched place."""
-        return least_transmission_angle(*self.drives[:4])
-
-    @cached_property
     def _extremes(self) -> tuple[tuple[Reals, Reals, Mask], tuple[Reals, Reals, Mask]]:
-        return sweep.extreme(self.drives, 0.5 * math.pi, 1.0), sweep.extreme(self.drives, 1.5 * math.pi, -1.0)
+        starts = (self.drives.s * 0.5 * math.pi, 1.0), (self.drives.s * 1.5 * math.pi, -1.0)
+        greatest, least = (sweep.extreme(self.drives, *start) for start in starts)
+        return greatest, least
 
     @cached_property
     def speeds(self) -> tuple[Reals, Reals]:
@@ -671,13 +660,6 @@ class Symmetric(Batch):
         return quarter, quarter + math.pi
 
     @cached_property
-    def mu(self) -> Reals:
-        """The triangle BCD is isosceles: half of gamma has the sine of half of BD over b."""
-        (crank, frame), b = self.links, self.coupler
-        at = [2.0 * np.arctan2(x, np.sqrt((2.0 * b - x) * (2.0 * b + x))) for x in (frame - crank, frame + crank)]
-        return np.asarray(np.minimum(*map(dead_point_distance, at)))
-
-    @cached_property
     def _steps_back(self) -> Mask:
         return np.asarray(self.h > 0.0)
 
@@ -713,7 +695,25 @@ class Symmetric(Batch):
         return self.doubtful
 
 
-class Dwells(Symmetric):
+class OfDwell(Symmetric):
+    """A dwell: where no tolerance is given, that of the band which the back-step fills."""
+
+    @cached_property
+    def tolerance(self) -> Reals:
+        """As given, or half of the back-step."""
+        return np.where(np.isnan(self.given_tolerance), 0.5 * self.back_step[0], self.given_tolerance)
+
+    @cached_property
+    def band(self) -> tuple[Reals, Reals]:
+        """In closed form where the back-step fills the band."""
+        start, width = super().band
+        fills = np.isnan(self.given_tolerance)
+        before = self.standstills[0] - (self.dwell_angle - self.back_step[1])
+        length = 2.0 * self.dwell_angle - self.back_step[1]
+        return np.where(fills, wrapped(before), start), np.where(fills, length, width)
+
+
+class Dwells(OfDwell):
     """`synth dwell` with an angle."""
 
     keys = ("dwell.angle",)
@@ -740,20 +740,6 @@ class Dwells(Symmetric):
         """As asked for."""
         return np.where(self.exists, self._asked, np.nan)
 
-    @cached_property
-    def tolerance(self) -> Reals:
-        """As given, or half of the back-step."""
-        return np.where(np.isnan(self.given_tolerance), 0.5 * self.back_step[0], self.given_tolerance)
-
-    @cached_property
-    def band(self) -> tuple[Reals, Reals]:
-        """In closed form where the back-step fills the band."""
-        start, width = super().band
-        fills = np.isnan(self.given_tolerance)
-        before = self.standstills[0] - (self.dwell_angle - self.back_step[1])
-        length = 2.0 * self.dwell_angle - self.back_step[1]
-        return np.where(fills, wrapped(before), start), np.where(fills, length, width)
-
     def of_task(self) -> Iterator[Findings]:
         """GL315: half of the back-step."""
         half = np.degrees(0.5 * self.back_step[0])
@@ -761,7 +747,7 @@ class Dwells(Symmetric):
         yield back_step_judged(half, limit).of(self.count)
 
 
-class Windows(Symmetric):
+class Windows(OfDwell):
     """`synth dwell` with a window or a tolerance; what asks for both is the class's."""
 
     keys = ("dwell.window", "dwell.tolerance", "dwell.margin")
@@ -806,19 +792,6 @@ class Windows(Symmetric):
         found = symmetric_sweep.half_angle_for_window if self._by_window else symmetric_sweep.half_angle_for_back_step
         h[good] = found(self.n[good], (self._window if self._by_window else self._back_step_sought)[good])
         return h
-
-    @cached_property
-    def tolerance(self) -> Reals:
-        """As given, or half of the back-step."""
-        return np.where(np.isnan(self.given_tolerance), 0.5 * self.back_step[0], self.given_tolerance)
-
-    @cached_property
-    def band(self) -> tuple[Reals, Reals]:
-        """In closed form where the back-step fills the band."""
-        if not self._by_window:
-            return super().band
-        before = self.standstills[0] - (self.dwell_angle - self.back_step[1])
-        return wrapped(before), 2.0 * self.dwell_angle - self.back_step[1]
 
     @cached_property
     def _longest(self) -> Reals:

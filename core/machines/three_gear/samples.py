@@ -20,7 +20,6 @@ from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.linkages.checks import transmission_judged, window_judged
-from gearlink.core.parts.linkages.fourbar.lengths import Lengths
 from gearlink.core.studies.clearance.bodies import Clearance
 from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
@@ -92,24 +91,21 @@ class ThreeGearSamples:
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
         """The drives as made; one without a turning crank is refused."""
         samples = self._samples(columns)
-        lengths = [np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)]
-        exists = _turns(lengths, self._kind)
+        exists, other = samples.turning()
         with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
-            values = {name: self._quantity(name, samples, lengths) for name in names}
+            values = {name: self._quantity(name, samples) for name in names}
             findings = [*self._of_links(samples), *self._of_meshes(samples, exists)]
         for value in values.values():
             value[~exists] = np.nan
         found = Evaluated(values, findings, np.where(exists, 0, 1), ("links",))
-        other = _turns(lengths, "drag-link" if self._kind == "crank-rocker" else "crank-rocker")
         alone = np.flatnonzero((samples.unsettled & exists) | other)
         return put_in(found, alone, self._alone(alone, samples, names)) if alone.size else found
 
     def _alone(self, places: Any, samples: DriveSamples, names: Sequence[str]) -> Evaluated:
         """Some of the drives, each by its class."""
-        turned = np.broadcast_to(samples.frame_turn, samples.count)
         found = []
         for i in places.tolist():
-            made = self._made(self.nominal, samples.links.part(i), float(turned[i]), _SWING in names)
+            made = self._made(self.nominal, samples, i, _SWING in names)
             try:
                 values = {name: in_unit(made.raw(name), term(name).unit) for name in names}
                 checks = tuple(check for name in self._checks for check in made.check(name))
@@ -129,12 +125,11 @@ class ThreeGearSamples:
             coupler = coupler + np.real(columns.get(f"{group}.B", 0.0))
             rocker = rocker + np.real(columns.get(f"{group}.C", 0.0))
         one, two, three, four = np.broadcast_arrays(crank, coupler, rocker, np.abs(loop))
-        links = Lengths(one, two, three, four, self.nominal.spec.assembly)
-        return DriveSamples(self.nominal, links, np.angle(loop))
+        return DriveSamples(self.nominal, (one, two, three, four), np.angle(loop))
 
-    def _quantity(self, name: str, samples: DriveSamples, lengths: list[Reals]) -> Reals:
+    def _quantity(self, name: str, samples: DriveSamples) -> Reals:
         if name in _LENGTHS:
-            return lengths[_LENGTHS[name]].copy()
+            return samples.lengths[_LENGTHS[name]].copy()
         value: Reals = samples.swing(*self._window) if name == _SWING else getattr(samples, name)
         return np.array(np.degrees(value) if term(name).unit == "deg" else value)
 
@@ -150,11 +145,13 @@ class ThreeGearSamples:
             )
         return nominal.back_step.start, nominal.dwell_angle
 
-    def _made(self, cut: ThreeGearFourBar, links: Lengths, frame_turn: float, in_window: bool) -> TolerancedDrive:
-        """One drive of links as made, whose teeth are those of a drive as cut."""
-        a, b, c, d = (float(length) for length in _four(links))
+    def _made(self, cut: ThreeGearFourBar, samples: DriveSamples, i: int, in_window: bool) -> TolerancedDrive:
+        """One of the drives, whose teeth are those of a drive as cut: its gears may lie at other centre distances."""
+        a, b, c, d = (float(length[i]) for length in samples.lengths)
+        if cut is not self.nominal:
+            b, c = b + (cut.coupler_length - self._lengths[1]), c + (cut.rocker_length - self._lengths[2])
         start, length = self._window if in_window else (0.0, 0.0)
-        return TolerancedDrive(cut.spec, (a, b, c, d), (start - frame_turn, length), cut)
+        return TolerancedDrive(cut.spec, (a, b, c, d), (start - float(samples.frame_turn[i]), length), cut)
 
     def sets(self, key: str) -> bool:
         """Whether a source is a length of the loop."""
@@ -165,13 +162,7 @@ class ThreeGearSamples:
         cut = self.nominal if cut is None else cut
         crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
         samples = self._samples({key: np.array([value]) for key, value in (crank | dict(values)).items()})
-        turned = float(np.broadcast_to(samples.frame_turn, samples.count)[0])
-        links = samples.links.part(0)
-        if cut is not self.nominal:  # its gears may lie at other centre distances
-            _, b, c, _ = self._lengths
-            moved = links.coupler + (cut.coupler_length - b), links.rocker + (cut.rocker_length - c)
-            links = Lengths(links.crank, *moved, links.frame, links.assembly)
-        return self._made(cut, links, turned, self.has_window)
+        return self._made(cut, samples, 0, self.has_window)
 
     @property
     def has_window(self) -> bool:
@@ -188,7 +179,7 @@ class ThreeGearSamples:
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
         """By how much the outputs lie above that of the nominal drive [rad]."""
         samples = self._samples(columns)
-        exists = _turns([np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)], self._kind)
+        exists, _ = samples.turning()
         with np.errstate(invalid="ignore"):
             start = self._off(samples, self._window[0] if self.has_window else 0.0)
             off = np.array([self._off(samples, float(phi)) - start for phi in input_angle])
@@ -197,14 +188,9 @@ class ThreeGearSamples:
 
     def _off(self, samples: DriveSamples, phi: float) -> Reals:
         """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
-        here = np.broadcast_to(phi - samples.frame_turn, (samples.count,))
         nominal = motion.output_angle(self.nominal.linkage, samples.train, phi)
-        off: Reals = samples.counted * (samples.angle_at(here, phi) - nominal)
+        off: Reals = samples.counted * (samples.angle_at(phi - samples.frame_turn) - nominal)
         return off
-
-    @cached_property
-    def _kind(self) -> str:
-        return self.nominal.linkage.kind()
 
     # Findings
 
@@ -236,8 +222,7 @@ class ThreeGearSamples:
     def _of_meshes(self, samples: DriveSamples, exists: Mask) -> Iterator[Findings]:
         """What is judged of the teeth at the centre distances as made; a mesh that cannot be takes its drive away."""
         names = [name for name in self._checks if name in MESH_CHECKS]
-        (_, b, c, _), links = self._lengths, samples.links
-        made = [np.broadcast_to(length, (samples.count,)) for length in (links.coupler, links.rocker)]
+        (_, b, c, _), made = self._lengths, samples.lengths[1:3]
         if all((length == nominal).all() for length, nominal in zip(made, (b, c), strict=True)):
             yield from (_same(check, samples.count) for name in names for check in self.nominal.check(name))
             return
@@ -251,21 +236,6 @@ class ThreeGearSamples:
         gap = np.maximum(nearest - (one.outer + other.outer), within)
         limit = self.nominal.layout.least_shaft * len(pair.bare)
         return shaft_judged(gap, limit, bool(pair.bare)).of(samples.count)
-
-
-def _four(links: Lengths) -> tuple[Reals, Reals, Reals, Reals]:
-    return links.crank, links.coupler, links.rocker, links.frame
-
-
-def _turns(lengths: list[Reals], kind: str) -> Mask:
-    """Where the linkage is of the nominal kind: the crank (of a drag link the frame) shortest, by Grashof's rule."""
-    a, b, c, d = lengths
-    shortest, p, q, r = (a, b, c, d) if kind == "crank-rocker" else (d, a, b, c)
-    longest = np.maximum(np.maximum(p, q), r)
-    good: Mask = (
-        (shortest > 0.0) & (shortest < np.minimum(np.minimum(p, q), r)) & (shortest + 2.0 * longest < p + q + r)
-    )
-    return good
 
 
 def _same(check: Check, count: int) -> Findings:

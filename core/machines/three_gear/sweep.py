@@ -24,8 +24,8 @@ from gearlink.core.machines.three_gear.motion import blend
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_roots
-from gearlink.core.parts.linkages.fourbar.lengths import least_transmission_angle
-from gearlink.core.parts.linkages.fourbar.loop import rates, triangle
+from gearlink.core.parts.linkages.fourbar.loop import make_reading, rates, triangle
+from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
@@ -56,6 +56,13 @@ class Drives(NamedTuple):
         return Drives(*(row[places] for row in self))
 
 
+def drives_of(lengths: Any, assembly: int, *shares: Any) -> Drives:
+    """Drives of crank, coupler, rocker and frame [mm], of I and the shares of coupler and rocker: arrays or numbers."""
+    crank, coupler, rocker, frame = lengths
+    reading = make_reading(crank, coupler, rocker, frame, assembly, total=sum)
+    return Drives(*np.broadcast_arrays(*reading, *shares))
+
+
 def turns(links: Drives) -> tuple[Mask, Mask, Mask]:
     """Which are crank-rockers, which drag links, and which stand so near to a change point that sums of floats may err.
 
@@ -71,21 +78,43 @@ def turns(links: Drives) -> tuple[Mask, Mask, Mask]:
 
 def _triangle(phi: Reals, links: Drives) -> Any:
     """sin(phi), squares of the half angle's cosine and sine, n^2, R and (P - Q)/2 of `linkages.fourbar.loop`."""
-    *found, p, q = triangle(links, np.sin(0.5 * phi), np.cos(0.5 * phi))
+    half = np.tan(0.5 * phi)  # which numpy computes several times as fast as a sine
+    cosine = 1.0 / np.sqrt(1.0 + half * half)
+    *found, p, q = triangle(links, half * cosine, cosine)
     return *found, np.sqrt(p * q), 0.5 * (p - q)
 
 
-def speed(phi: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
-    """Speed ratio of the output and its first two derivatives with respect to the crank angle."""
-    b_1, c_1, b_2, c_2, b_3, c_3 = rates(links, _triangle(phi, links), 3)
-    return links.ratio + blend(links, b_1, c_1), blend(links, b_2, c_2), blend(links, b_3, c_3)
+def speed(phi: Reals, links: Drives, order: int = 3) -> tuple[Reals, ...]:
+    """Speed ratio of the output and its derivatives with respect to the crank angle, `order` of them in all."""
+    return _speeds(links, _triangle(phi, links), order)
+
+
+def _speeds(links: Drives, found: Any, order: int) -> tuple[Reals, ...]:
+    pairs = rates(links, found, order)
+    ratio, *more = (blend(links, *pairs[i : i + 2]) for i in range(0, 2 * order, 2))
+    return links.ratio + ratio, *more
+
+
+def terms(phi: Reals, links: Drives) -> Reals:
+    """The size of what the speed ratio is summed from."""
+    b_1, c_1 = rates(links, _triangle(phi, links), 1)
+    return np.asarray(np.abs(links.ratio) + np.abs(links.coupler_share * b_1) + np.abs(links.rocker_share * c_1))
 
 
 def output_angle(phi: Reals, links: Drives) -> Reals:
     """Angle of the output [rad], continuous in the crank angle; its zero is any."""
-    a, d, s = links.a, links.d, links.s
-    sin, cc, ss, n2, r, _ = _triangle(phi, links)
-    e = links.e
+    return _angle(phi, links, _triangle(phi, links))
+
+
+def angle_and_speed(phi: Reals, links: Drives, order: int = 1) -> tuple[Reals, ...]:
+    """`output_angle` and `speed` of one triangle."""
+    found = _triangle(phi, links)
+    return _angle(phi, links, found), *_speeds(links, found, order)
+
+
+def _angle(phi: Reals, links: Drives, found: Any) -> Reals:
+    a, d, s, e = links.a, links.d, links.s, links.e
+    sin, cc, ss, n2, r, _ = found
     drag = a > d
     nu = np.where(
         drag,
@@ -96,13 +125,13 @@ def output_angle(phi: Reals, links: Drives) -> Reals:
     return np.asarray(links.ratio * phi + links.coupler_share * coupler + links.rocker_share * rocker)
 
 
-def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Reals, Mask]:
+def extreme(links: Drives, start: Reals, sign: float) -> tuple[Reals, Reals, Mask]:
     """Greatest (sign 1) or least (-1) speed ratio, its crank angle, and where the search came to rest on one.
 
     Notes
-        Newton's method on the acceleration from s times the start, steps of 0.6 rad at most.
+        Newton's method on the acceleration from the start, steps of 0.6 rad at most.
     """
-    phi = links.s * start
+    phi = np.array(start)
     rests = np.zeros(phi.shape, dtype=bool)
     live = np.flatnonzero(np.isfinite(least_transmission_angle(*links[:4])))
     for _ in range(_MOST_STEPS):
@@ -144,6 +173,23 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
     return np.where(exists, np.minimum(*places), np.nan), np.where(exists, np.maximum(*places), np.nan), near
 
 
+def around(least: Reals, greatest: Reals, links: Drives) -> tuple[Reals, Reals]:
+    """Standstills before and after the least speed, of outputs that turn back there; of any links."""
+    value, _, bend = speed(least, links)
+    after = least + np.mod(greatest - least, _TURN)
+    spread = np.sqrt(-2.0 * value / bend)  # of the parabola
+    found = []
+    for low, high, sign in ((after - _TURN, least, -1.0), (least, after, 1.0)):
+
+        def rising(phi: Reals, *rows: Reals, sign: float = sign) -> tuple[Reals, Reals]:
+            ratio, slope = speed(phi, Drives(*rows), 2)
+            return sign * ratio, sign * slope
+
+        start = np.where(spread < high - low, least + sign * spread, 0.5 * (low + high))
+        found.append(newton_roots(rising, low, high, start, *links))
+    return found[0], found[1]
+
+
 def wrapped(angle: Any) -> Reals:
     """The angle within [0, 2 pi)."""
     turned = np.mod(angle, _TURN)
@@ -152,7 +198,7 @@ def wrapped(angle: Any) -> Reals:
 
 def back_step(low: Reals, high: Reals, links: Drives) -> tuple[Reals, Reals, Reals]:
     """Start, crank angle and size of the back-step between two standstills [rad], as `dwell.back_step`."""
-    falls = speed(low, links)[1] <= 0.0
+    falls = speed(low, links, 2)[1] <= 0.0
     start, end = np.where(falls, low, high), np.where(falls, high, low)
     width = wrapped(end - start)
     return start, width, output_angle(start, links) - output_angle(start + width, links)
@@ -163,8 +209,8 @@ def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
     level = output_angle(start, links)
 
     def gained(x: Reals, start: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
-        drives = Drives(*rows)
-        return output_angle(start + x, drives) - level, speed(start + x, drives)[0]
+        angle, ratio = angle_and_speed(start + x, Drives(*rows))
+        return angle - level, ratio
 
     high = np.full(width.shape, _TURN)
     return newton_roots(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)
@@ -215,7 +261,7 @@ def longest_in_band(valleys: Valleys) -> Dwells:
         if places.size:
             left[places], right[places], mark = ends(valleys.part(places))
             (doubtful if ends is _around_both else tied)[places] |= mark
-    slowest = np.minimum(np.abs(speed(left, valleys.drives)[0]), np.abs(speed(right, valleys.drives)[0]))
+    slowest = np.minimum(*(np.abs(speed(end, valleys.drives, 1)[0]) for end in (left, right)))
     return Dwells(wrapped(left), right - left, tied, doubtful | ~(slowest > _SLOW))
 
 
@@ -254,8 +300,8 @@ def _of_one_speed(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
     for _ in range(_MOST_STEPS):
         some, band = drives.part(live), 2.0 * tolerance[live]
         one, other = left[live], right[live]
-        (w1, s1, _), (w2, s2, _) = speed(one, some), speed(other, some)
-        missing, faster = output_angle(other, some) - output_angle(one, some) - band, w2 - w1
+        (a1, w1, s1), (a2, w2, s2) = angle_and_speed(one, some, 2), angle_and_speed(other, some, 2)
+        missing, faster = a2 - a1 - band, w2 - w1
         whole = w2 * s1 - w1 * s2
         back, on = (w2 * faster - s2 * missing) / whole, (w1 * faster - s1 * missing) / whole
         # The steps of the search are held, no result.
@@ -295,31 +341,39 @@ def _ends(rise: Reals, valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals
     start = output_angle(second, drives) - rise
     left = _reach(drives, start, low, first)
     right = _reach(drives, start + 2.0 * valleys.tolerance, second, high)
-    return left, right, speed(right, drives)[0] - speed(left, drives)[0]
+    return left, right, speed(right, drives, 1)[0] - speed(left, drives, 1)[0]
 
 
 def _around_one_extreme(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
     """The longer of the intervals around phi(1) and phi(2), of back-steps above 2 tol; and where both are as long."""
     drives, first, second = valleys.drives, valleys.first, valleys.second
-    floor = output_angle(first, drives) - 2.0 * valleys.tolerance
-    ceiling = output_angle(second, drives) + 2.0 * valleys.tolerance
-    before = _reach(drives, floor, second - _TURN, first), _reach(drives, floor, first, second, -1.0)
-    after = _reach(drives, ceiling, first, second, -1.0), _reach(drives, ceiling, second, first + _TURN)
+    found = []
+    for place, away, outside in ((first, -1.0, (second - _TURN, first)), (second, 1.0, (second, first + _TURN))):
+        angle, _, slope = angle_and_speed(place, drives, 2)
+        level = angle + away * 2.0 * valleys.tolerance
+        spread = away * np.sqrt(4.0 * valleys.tolerance / np.abs(slope))  # of the parabola
+        out = _reach(drives, level, *outside, start=place + spread)
+        found.append((out, _reach(drives, level, first, second, -1.0, start=place - spread))[:: -int(away)])
+    before, after = found
     gained = (before[1] - before[0]) - (after[1] - after[0])
     earlier = gained >= 0.0
     left, right = np.where(earlier, before[0], after[0]), np.where(earlier, before[1], after[1])
     return left, right, np.abs(gained) <= _NEAR
 
 
-def _reach(drives: Drives, level: Reals, left: Reals, right: Reals, sign: float = 1.0) -> Reals:
+def _reach(
+    drives: Drives, level: Reals, left: Reals, right: Reals, sign: float = 1.0, start: Reals | None = None
+) -> Reals:
     """Crank angles between two others at which rising (sign 1) or falling outputs pass a level; else the nearer end."""
 
     def above(x: Reals, level: Reals, *rows: Reals) -> tuple[Reals, Reals]:
-        some = Drives(*rows)
-        return sign * (output_angle(x, some) - level), sign * speed(x, some)[0]
+        angle, ratio = angle_and_speed(x, Drives(*rows))
+        return sign * (angle - level), sign * ratio
 
-    at_left, at_right = above(left, level, *drives)[0], above(right, level, *drives)[0]
-    found = newton_roots(above, left, right, 0.5 * (left + right), level, *drives)
+    at_left, at_right = (sign * (output_angle(end, drives) - level) for end in (left, right))
+    middle = 0.5 * (left + right)
+    begin = middle if start is None else np.where((left < start) & (start < right), start, middle)
+    found = newton_roots(above, left, right, begin, level, *drives)
     return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))
 
 

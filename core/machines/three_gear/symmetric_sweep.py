@@ -21,6 +21,7 @@ from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.dwell import tolerance_dwell
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import newton_roots
 
 _SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `symmetric`
@@ -46,8 +47,7 @@ def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) 
         thesis (4-18)
     """
     ratio, h = _ratios(i3), _half_angles(back_step_crank_angle)
-    sc = np.sqrt(ratio * (ratio - 2.0)) * np.cos(h)
-    return np.asarray(sc + np.hypot(sc, 1.0))
+    return np.asarray(symmetric.frame_ratio(ratio, h, ARRAYS))
 
 
 def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
@@ -234,60 +234,49 @@ def _each(function: Callable[[float], float], values: ArrayLike) -> Reals:
 _QUARTER = 0.5 * math.pi
 
 
-def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
-    """h = phi12/2 [rad] whose dwell angle is phi13.
+def _above(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals, Reals]:
+    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its derivatives by y and by h.
 
-    n [asin(k sin(y)) + asin(k sin(h))] = phi13,   y = phi13 - h
+    h + y - n [asin(k sin(y)) + asin(k sin(h))]
 
     Source
-        thesis (4-16), as `symmetric.crank_angle_for_dwell`
+        thesis (4-16), as `symmetric.dwell_angle`
     """
-    return newton_roots(_missing_dwell, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
-
-
-def _missing_dwell(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
-    """The equation of `half_angle_for_dwell`, and its derivative with respect to h."""
-    y = phi13 - h
     sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
-    rest = n * n - 1.0
-    square = rest * cos_h * cos_h + cos_y * cos_y
-    root = np.sqrt(square)
-    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - phi13
-    whole = square + sin_y * sin_y
-    slope = (n * sin_y * rest * cos_h * sin_h / whole - n * cos_y) / root + n * n / whole
-    return value, slope
+    rest = (n * n - 1.0) * cos_h
+    root, whole = np.sqrt(rest * cos_h + cos_y * cos_y), rest * cos_h + 1.0
+    value = h + y - n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h))
+    return value, 1.0 - n * cos_y / root, 1.0 - n * n / whole - n * sin_y * rest * sin_h / (root * whole)
+
+
+def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
+    """h = phi12/2 [rad] whose dwell angle is phi13: y = phi13 - h, as `symmetric.crank_angle_for_dwell`."""
+
+    def missing(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
+        value, by_y, by_h = _above(phi13 - h, n, h)
+        return -value, by_y - by_h
+
+    return newton_roots(missing, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
 
 
 def dwell_angle(n: Reals, h: Reals) -> Reals:
-    """phi13 [rad] of a back-step over 2 h: the same equation solved for y.
-
-    Source
-        as `symmetric.dwell_angle`
-    """
+    """phi13 [rad] of a back-step over 2 h: the equation solved for y, as `symmetric.dwell_angle`."""
     limit = 2.0 * math.pi * n / (n + 1.0)
     high = np.minimum(3.0 * h, limit - h)
     # At y = h the value is least: beyond it it rises, and the root lies at about 2 h.
-    return h + newton_roots(_regained, h, high, np.minimum(2.0 * h, high), n, h)
+    return h + newton_roots(lambda *given: _above(*given)[:2], h, high, np.minimum(2.0 * h, high), n, h)
 
 
 def half_angle_for_window(n: Reals, window: Reals) -> Reals:
-    """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given.
-
-    Source
-        as `symmetric.crank_angle_for_window`
-    """
+    """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given, as
+    `symmetric.crank_angle_for_window`."""
     y = 0.5 * window
-    return newton_roots(_missing_window, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
 
+    def missing(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
+        value, _, by_h = _above(y, n, h)
+        return -value, -by_h
 
-def _missing_window(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
-    """What `_regained` gives, of the other sign, and its derivative with respect to h."""
-    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
-    rest = n * n - 1.0
-    root = np.sqrt(rest * cos_h * cos_h + cos_y * cos_y)
-    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - h - y
-    whole = rest * cos_h * cos_h + 1.0
-    return value, n * sin_y * rest * cos_h * sin_h / (root * whole) + n * n / whole - 1.0
+    return newton_roots(missing, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
 
 
 def longest_window(n: Reals, h: Reals) -> Reals:
@@ -295,36 +284,20 @@ def longest_window(n: Reals, h: Reals) -> Reals:
     return 2.0 * (dwell_angle(n, h) - h)
 
 
-def _regained(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals]:
-    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its speed there."""
-    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
-    root = np.sqrt((n * n - 1.0) * cos_h * cos_h + cos_y * cos_y)
-    value = h + y - n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h))
-    return value, 1.0 - n * cos_y / root
-
-
-def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
-    """h [rad] whose back-step is `angle` [rad].
-
-    2 n atan(tan(h)/n) - 2 h = angle
-
-    Source
-        thesis (4-19), as `symmetric.crank_angle_for_back_step`
-    """
-    start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
-    return newton_roots(_missing_back_step, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
-
-
-def _missing_back_step(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
-    sin_h, cos_h = np.sin(h), np.cos(h)
-    value = 2.0 * (n * np.arctan2(sin_h, n * cos_h) - h) - angle
-    whole = n * n * cos_h * cos_h + sin_h * sin_h
-    return value, 2.0 * (n * n - 1.0) * sin_h * sin_h / whole
-
-
 def back_step(n: Reals, h: Reals) -> Reals:
     """The back-step [rad] over 2 h (thesis (4-19))."""
     return np.asarray(2.0 * (n * np.arctan2(np.sin(h), n * np.cos(h)) - h))
+
+
+def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
+    """h [rad] whose back-step is `angle` [rad], as `symmetric.crank_angle_for_back_step`."""
+    start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
+
+    def missing(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
+        whole = 1.0 + (n * n - 1.0) * np.cos(h) ** 2
+        return back_step(n, h) - angle, 2.0 * (n * n - 1.0) * np.sin(h) ** 2 / whole
+
+    return newton_roots(missing, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
 
 
 def in_range(value: Reals, low: Any, high: Any) -> Mask:

@@ -18,10 +18,9 @@ from sweeps import ALL
 
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
-from gearlink.core.machines.three_gear.as_made import TolerancedDrive
+from gearlink.core.machines.three_gear import motion, sweep
+from gearlink.core.machines.three_gear.as_made import DriveSamples, TolerancedDrive
 from gearlink.core.machines.three_gear.samples import ThreeGearSamples
-from gearlink.core.parts.linkages.fourbar import position as fourbar
-from gearlink.core.parts.linkages.fourbar.lengths import Lengths, solve
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 NEAR = 1e-11
@@ -112,6 +111,18 @@ def _said(findings: Iterable[tuple[str, str, float]]) -> list[tuple[str, str, fl
     return sorted(row for row in findings if row[0].startswith("GL3") and not (row[1] == "pass" and math.isnan(row[2])))
 
 
+@pytest.mark.parametrize("name", ["candy feed", "back-step as wide as the band", "ring output turning back far"])
+def test_no_bit_of_a_drive_hangs_by_the_others(name: str) -> None:
+    nominal = _with_window(DRIVES[name]())
+    axis, columns = ThreeGearSamples(nominal), _columns(nominal, 48)
+    names = [*NAMES, "dwell_swing"]
+    whole = axis.evaluate(columns, names).quantities
+    some = axis.evaluate({key: value[::5] for key, value in columns.items()}, names).quantities
+    assert {quantity: whole[quantity][::5].tobytes() for quantity in names} == {
+        quantity: some[quantity].tobytes() for quantity in names
+    }
+
+
 def _with_window(nominal: Any) -> Any:
     """The drive that asks for just the window that it has: some as made miss it."""
     given = nominal.spec.model_dump(mode="json", exclude_unset=True, by_alias=True)
@@ -148,15 +159,14 @@ def test_a_drive_that_does_not_turn_is_refused_not_computed() -> None:
 
 
 @pytest.mark.parametrize("assembly", [1, -1])
-def test_loops_of_many_lengths_are_the_four_bar_of_each(assembly: int) -> None:
+def test_motions_of_many_lengths_are_those_of_each(assembly: int) -> None:
     rng = np.random.default_rng(0)
-    lengths = np.array([[18.0], [50.0], [100.0], [121.0]]) + rng.random((4, 40))
-    angles = rng.random(40) * 2.0 * math.pi
-    found = solve(Lengths(*lengths, assembly), angles, 3)
-    for i, angle in enumerate(angles):
-        one = fourbar.solve(FourBar(*lengths[:, i], assembly), angle, 3)
-        rates = [one.coupler_velocity, one.rocker_velocity, one.coupler_acceleration, one.rocker_acceleration]
-        got = [found.coupler_velocity, found.rocker_velocity, found.coupler_acceleration, found.rocker_acceleration]
-        wanted = [*rates, one.coupler_jerk, one.rocker_jerk]
-        assert [x[i] for x in (*got, found.coupler_jerk, found.rocker_jerk)] == pytest.approx(wanted, abs=2e-14)
-        assert found.coupler[i] == pytest.approx(np.exp(1j * one.coupler_angle), abs=4e-15)
+    nominal = drive(18.0, 121.4, (20, 20, 60), 2.5, assembly=assembly)
+    a, b, c, d = np.array([[18.0], [50.0], [100.0], [121.0]]) + rng.random((4, 40))
+    angles, made = rng.random(40) * 2.0 * math.pi, DriveSamples(nominal, (a, b, c, d))
+    rates, turned = sweep.speed(angles, made.drives), made.angle_at(angles) - made.angle_at(np.zeros(40))
+    for i, phi in enumerate(angles):
+        one = FourBar(a[i], b[i], c[i], d[i], assembly), nominal.train, phi
+        wanted = [motion.output_speed(*one), motion.output_acceleration(*one), motion.output_jerk(*one)]
+        assert [rate[i] for rate in rates] == pytest.approx(wanted, abs=2e-14)
+        assert turned[i] == pytest.approx(motion.output_angle(*one), abs=4e-15)

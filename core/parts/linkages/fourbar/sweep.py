@@ -169,6 +169,24 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     return np.minimum(gamma, np.pi - gamma)
 
 
+def least_transmission_angle(crank: Reals, coupler: Reals, rocker: Reals, frame: Reals) -> Reals:
+    """Least transmission angle over the turn [rad], as `FourBar.min_transmission_angle`; NaN where the crank stops.
+
+    tan^2(gamma/2) = (x - (b - c))(x + (b - c))/((b + c - x)(b + c + x)),   x = |d - a| and d + a
+
+    Example
+        >>> lengths = (np.array([x]) for x in (18.0, 50.0, 100.0, 121.4))
+        >>> np.degrees(least_transmission_angle(*lengths)).round(6).tolist()
+        [46.113185]
+    """
+    found = []
+    for apart in (np.abs(frame - crank), frame + crank):
+        q = (apart - (coupler - rocker)) * (apart + (coupler - rocker))
+        p = (coupler + rocker - apart) * (coupler + rocker + apart)
+        found.append(dead_point_distance(2.0 * np.arctan2(np.sqrt(q), np.sqrt(p))))
+    return np.asarray(np.minimum(*found))
+
+
 def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
     """Rows whose derivatives with respect to the driving angle became time derivatives for the driver's motion."""
     motion = (velocity, acceleration, jerk)
