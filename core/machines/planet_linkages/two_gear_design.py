@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.base.design import Outline, placed
+from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
@@ -34,7 +34,9 @@ from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.planet_linkages.two_gear_frames import Family
     from gearlink.core.machines.planet_linkages.two_gear_spec import TwoGearFourBarSpec
+    from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 
 
@@ -128,10 +130,28 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         **train_ways(2, *_TEETH),
     }
 
+    seeks: ClassVar[bool] = False
+    """Whether the frame is sought: of a synthesis, to which gears, coupler and rocker are given."""
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        if self.seeks:
+            self.require_proportion()
+
     @property
     def cost(self) -> float:
-        """An analysis takes a tenth of a millisecond."""
-        return 0.3
+        """An analysis takes a tenth of a millisecond, a frame that is sought for a back-step some hundredths of a
+        second each time, a search over the whole range of frames three times as long."""
+        if not self.seeks:
+            return 0.3
+        return 40.0 if self.__dict__.get("always") else 13.5
+
+    def completion(self) -> Iterator[Found]:
+        """The frame in place of the task."""
+        if self.seeks:
+            synthesis = next(command for command in self.outlines if command.startswith("synth"))
+            yield Found("links.frame", self.frame_length, f"found by {synthesis}")
+            yield from (Found(section, None) for section in ("dwell", "back_step"))
 
     # Gears and links
 
@@ -173,11 +193,30 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     @cached_property
     def linkage(self) -> FourBar:
-        """The four-bar."""
+        """The four-bar, with the frame that meets the task of a synthesis."""
         frame = self.spec.links.frame
-        if frame is None:
-            raise MissingSection("this command needs links.frame; a synth command seeks it", key="links.frame")
-        return self.linkage_of(frame)
+        if self.seeks and frame is not None:
+            raise NoSolution("links.frame is what this command seeks: leave it out", key="links.frame")
+        return self.linkage_of(self.sought_frame() if frame is None else frame)
+
+    def sought_frame(self) -> float:
+        """The frame [mm] that meets the task of a synthesis."""
+        raise MissingSection("this command needs links.frame; a synth command seeks it", key="links.frame")
+
+    @cached_property
+    def family(self) -> Family:
+        """Gears and links without the frame."""
+        from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+
+        links = self.spec.links
+        return Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+
+    @cached_property
+    def always(self) -> AlwaysStepping | None:
+        """The frames, where the output steps back with each of them; else a search starts at a momentary dwell."""
+        from gearlink.core.machines.planet_linkages.two_gear_family import always_stepping
+
+        return always_stepping(self.family)
 
     def linkage_of(self, frame: float) -> FourBar:
         """The four-bar of a frame [mm]."""

@@ -11,10 +11,17 @@ from collections.abc import Callable
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
-from gearlink.core.machines.planet_linkages.two_gear_frames import Family, beyond_reach, frame_range, momentary_frame
+from gearlink.core.machines.planet_linkages.two_gear_frames import (
+    Family,
+    beyond_reach,
+    frame_range,
+    momentary_frame,
+    stationary_frames,
+)
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.parts.linkages import standstills
+from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
 from gearlink.core.parts.linkages.band_dwell import ToleranceDwell, Valley, least_band, longest_in_band
 from gearlink.core.parts.linkages.standstills import BackStep, Turning
 
@@ -236,3 +243,25 @@ def _better(
     if not any(probe - value > _PROBED * abs(value) for probe in probes):
         return None
     return maximum(measure, frame, quiet)
+
+
+# Of a ring gear whose output steps back with every frame: such drives have no momentary dwell
+
+
+def always_stepping(family: Family) -> AlwaysStepping | None:
+    """The frames of a family whose output steps back with each of them; None of one with a momentary dwell, or without
+    any standstill.
+
+    Raises
+        NoSolution - where no frame makes a linkage that turns
+    Example
+        >>> found = always_stepping(Family(25.0, 45.28, 72.727, 44 / 69))
+        >>> round(found.step(87.613), 6), round(found.window(87.613, 0.0035), 6)
+        (0.006966, 1.071927)
+    """
+    if not family.ring or stationary_frames(family):
+        return None
+    low, high = sorted((steep_end(family), quiet_end(family)))
+    if back_step(family.drive(0.5 * (low + high))) is None:  # as many standstills as with every other frame
+        return None
+    return AlwaysStepping(lambda frame: valley(family.drive(frame)), low, high)

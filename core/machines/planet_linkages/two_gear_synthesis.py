@@ -13,41 +13,17 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
 from gearlink.core.machines.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
 from gearlink.core.machines.planet_linkages.two_gear_frames import (
-    Family,
     beyond_reach,
     momentary_frame,
-    stationary_frames,
 )
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.always_stepping import AlwaysStepping, flattest_of, keeping
 from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check, target_check
-from gearlink.core.parts.linkages.fourbar.position import FourBar
-
-# Two-gear four-bars of a ring gear whose output steps back with every frame: they have no momentary dwell
-
-
-def always_stepping(family: Family) -> AlwaysStepping | None:
-    """The frames of a family whose output steps back with each of them; None of one with a momentary dwell, or without
-    any standstill.
-
-    Raises
-        NoSolution - where no frame makes a linkage that turns
-    Example
-        >>> found = always_stepping(Family(25.0, 45.28, 72.727, 44 / 69))
-        >>> round(found.step(87.613), 6), round(found.window(87.613, 0.0035), 6)
-        (0.006966, 1.071927)
-    """
-    if not family.ring or stationary_frames(family):
-        return None
-    low, high = sorted((kernel.steep_end(family), kernel.quiet_end(family)))
-    if kernel.back_step(family.drive(0.5 * (low + high))) is None:  # as many standstills as with every other frame
-        return None
-    return AlwaysStepping(lambda frame: kernel.valley(family.drive(frame)), low, high)
-
 
 _MARGIN = 0.01
 _FIT = 1e-6  # deg, what a back-step of the printed frame may miss
+_TABLES = (*TwoGearFourBar.extra_tables, "candidates")
 _DWELL = (
     "tolerance_dwell_angle",
     "tolerance_dwell_start",
@@ -63,81 +39,39 @@ def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
     return {synthesis: outline, "analyze": outline, "gear": TwoGearFourBar.outlines["gear"]}
 
 
-class Synthesis(TwoGearFourBar):
-    """What the syntheses share: gears, coupler and rocker are given, the frame is sought."""
+def candidates_table(design: TwoGearFourBar, _samples: int | None = None) -> Table:
+    """The task met with other planets and other output gears."""
+    from gearlink.core.base.candidates import Sought, around, pairs, table
 
-    def __init__(self, spec: Any) -> None:
-        super().__init__(spec)
-        self.require_proportion()
-
-    def sought_frame(self) -> float:
-        """The frame [mm] that meets the task."""
-        raise NotImplementedError
-
-    def completion(self) -> Iterator[Found]:
-        """The frame in place of the task."""
-        synthesis = next(command for command in self.outlines if command.startswith("synth"))
-        yield Found("links.frame", self.frame_length, f"found by {synthesis}")
-        yield from (Found(section, None) for section in ("dwell", "back_step"))
-
-    extra_tables = (*TwoGearFourBar.extra_tables, "candidates")
-
-    def table_candidates(self, _samples: int | None = None) -> Table:
-        """The task met with other planets and other output gears."""
-        from gearlink.core.base.candidates import Sought, around, pairs, table
-
-        gear = "gears.ring" if self.internal else "gears.sun"
-        planet, output = self.spec.gears.planet, self.output_teeth
-        command = next(command for command in self.outlines if command.startswith("synth"))
-        keys = {"gears.planet": ("planet_teeth", "1"), gear: ("output_teeth", "1")}
-        rows = pairs(sorted({round(0.9 * planet), planet, round(1.1 * planet)}), around(output)[:4])
-        shown = ("crank_length", "frame_length", "tolerance_dwell_angle", "back_step_angle", "speed_ratio_max")
-        found = (*shown, "acceleration_ratio_max", "min_transmission_angle")
-        known = tuple(name for name in found if name in self.quantity_names())
-        return table(self, Sought(command, keys, rows, known))
-
-    @property
-    def cost(self) -> float:
-        """A frame that is sought for a back-step takes some hundredths of a second each time, a search over the whole
-        range of frames three times as long."""
-        return 40.0 if self.__dict__.get("always") else 13.5
-
-    @cached_property
-    def family(self) -> Family:
-        """Gears and links without the frame."""
-        links = self.spec.links
-        return Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
-
-    @cached_property
-    def always(self) -> AlwaysStepping | None:
-        """The frames, where the output steps back with each of them; else the search starts at a momentary dwell."""
-        return always_stepping(self.family)
-
-    def _transmission_angle(self, frame: float) -> float:
-        return self.family.drive(frame).linkage.min_transmission_angle()
-
-    @cached_property
-    def linkage(self) -> FourBar:
-        """The four-bar with the frame that meets the task."""
-        if self.spec.links.frame is not None:
-            raise NoSolution("links.frame is what this command seeks: leave it out", key="links.frame")
-        return self.linkage_of(self.sought_frame())
+    gear = "gears.ring" if design.internal else "gears.sun"
+    planet, output = design.spec.gears.planet, design.output_teeth
+    command = next(command for command in design.outlines if command.startswith("synth"))
+    keys = {"gears.planet": ("planet_teeth", "1"), gear: ("output_teeth", "1")}
+    rows = pairs(sorted({round(0.9 * planet), planet, round(1.1 * planet)}), around(output)[:4])
+    shown = ("crank_length", "frame_length", "tolerance_dwell_angle", "back_step_angle", "speed_ratio_max")
+    found = (*shown, "acceleration_ratio_max", "min_transmission_angle")
+    known = tuple(name for name in found if name in design.quantity_names())
+    return table(design, Sought(command, keys, rows, known))
 
 
-class MomentaryDwellSynthesis(Synthesis):
+class MomentaryDwellSynthesis(TwoGearFourBar):
     """`synth momentary-dwell`: nothing else is given; the frame follows in closed form."""
 
     outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS, ("motion",)))
+    extra_tables, table_candidates = _TABLES, candidates_table
+    seeks = True
 
     def sought_frame(self) -> float:
         """The double root of the standstills' equation."""
         return momentary_frame(self.family)
 
 
-class BackStepSynthesis(Synthesis):
+class BackStepSynthesis(TwoGearFourBar):
     """`synth back-step`: the back-step of the output is given."""
 
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
+    extra_tables, table_candidates = _TABLES, candidates_table
+    seeks = True
 
     @property
     def _request(self) -> float:
@@ -163,7 +97,7 @@ class BackStepSynthesis(Synthesis):
         frames = always.with_step(angle)
         if not frames:
             raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
-        return max(frames, key=self._transmission_angle)
+        return max(frames, key=lambda frame: self.family.drive(frame).linkage.min_transmission_angle())
 
     def check_target(self) -> Check:
         """GL307: the back-step of the finished design, measured on its motion."""
@@ -171,12 +105,14 @@ class BackStepSynthesis(Synthesis):
         return target_check("the back-step", residual, _FIT, "deg")
 
 
-class DwellSynthesis(Synthesis):
+class DwellSynthesis(TwoGearFourBar):
     """`synth dwell`: a window, a tolerance, or both are given."""
 
     outlines = with_analysis(
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
     )
+    extra_tables, table_candidates = _TABLES, candidates_table
+    seeks = True
 
     def completion(self) -> Iterator[Found]:
         """The tolerance and the window besides the frame, so that an analysis measures the dwell by them."""
@@ -322,7 +258,8 @@ class DwellSynthesis(Synthesis):
     def _there(self) -> str:
         """With what transmission angle the longest window is had."""
         assert self._longest is not None
-        return f" (with a transmission angle of {math.degrees(self._transmission_angle(self._longest[0])):.3g} deg)"
+        angle = self.family.drive(self._longest[0]).linkage.min_transmission_angle()
+        return f" (with a transmission angle of {math.degrees(angle):.3g} deg)"
 
     # What is reached
 
