@@ -51,6 +51,16 @@ _NEAR, _POORLY_NEAR = 1e-9, 1e-5
 _JUDGED_HERE = {
     rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW, DWELL_EDGE)
 }
+_OF_STANDSTILLS = (
+    "motion",
+    "dwell_crank_angles[0]",
+    "dwell_crank_angles[1]",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+)
+_SMALL, _STEEP = 1e-3, 1e-4
 
 
 class Tried(NamedTuple):
@@ -425,17 +435,6 @@ def _without(each: Findings, gone: Mask) -> Findings:
     return Findings(each.code, each.value, each.limit, each.fails & ~gone, each.warns & ~gone, each.unit)
 
 
-_OF_STANDSTILLS = (
-    "motion",
-    "dwell_crank_angles[0]",
-    "dwell_crank_angles[1]",
-    "back_step_angle",
-    "back_step_crank_angle",
-    "dwell_angle",
-    "dwell_angle_approximate",
-)
-
-
 class General(Batch):
     """Designs whose links are known; their motion is found by Newton's method."""
 
@@ -591,9 +590,6 @@ class Analysis(General):
         """Until the output has regained its place."""
         start, width, _ = self._stepping
         return self._spread(sweep.dwell_angle(start, width, self.drives.part(self._places)))
-
-
-_SMALL, _STEEP = 1e-3, 1e-4
 
 
 class Symmetric(Batch):

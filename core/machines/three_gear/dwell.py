@@ -54,6 +54,7 @@ BACK_STEP = "back-step"
 # frames apart, so nearer to zero than this the output has one standstill, not two or none.
 STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
+_TURN = 2.0 * math.pi
 
 
 def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
@@ -259,9 +260,6 @@ def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     if not low < linkage.crank < high:
         return f"no frame does that; take a crank between {low:.9g} and {high:.9g} mm"
     return f"it does so with a frame longer than {tangency(r1, r3, r5, linkage.crank).frame:.9g} mm"
-
-
-_TURN = 2.0 * math.pi
 
 
 def tolerance_from_backlash(backlash: float, output_radius: float) -> float:

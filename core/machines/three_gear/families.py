@@ -46,6 +46,9 @@ if TYPE_CHECKING:
 
 
 _AFTER_LOW, _BEFORE_HIGH = 1e-12, 1e-6  # shares of a range left out: at its high end stands a change-point linkage
+_BESIDE = 1e-6
+"""Share of the family beside the length that fills the band: at that length itself rounding decides the window."""
+_STEPS = (0.1, 0.01, 0.001)
 
 
 @dataclass(frozen=True, slots=True)
@@ -324,11 +327,6 @@ def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
 
 def _deg(angle: float) -> str:
     return f"{math.degrees(angle):.9g}"
-
-
-_BESIDE = 1e-6
-"""Share of the family beside the length that fills the band: at that length itself rounding decides the window."""
-_STEPS = (0.1, 0.01, 0.001)
 
 
 class Room(NamedTuple):

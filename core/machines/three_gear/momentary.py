@@ -31,6 +31,10 @@ from gearlink.core.machines.three_gear.motion import GearTrain, output_accelerat
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
+_NEWTON_STEPS = 4
+_ZERO = 1e-11  # speed ratio at a standstill, of the terms that cancel there
+_APART = 1e-7  # crank angle [rad] below which two candidates are one standstill
+
 
 class Tangency(NamedTuple):
     """Where the output just stops: the frame length [mm] of that, cosine and sine of beta, and e_t [mm]."""
@@ -412,11 +416,6 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
             "a momentary dwell; give crank or frame"
         )
     return math.sqrt(square)
-
-
-_NEWTON_STEPS = 4
-_ZERO = 1e-11  # speed ratio at a standstill, of the terms that cancel there
-_APART = 1e-7  # crank angle [rad] below which two candidates are one standstill
 
 
 def is_internal(*radii: float) -> bool:

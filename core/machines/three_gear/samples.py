@@ -20,7 +20,7 @@ from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.linkages.checks import transmission_judged, window_judged
-from gearlink.core.studies.clearance.bodies import Clearance
+from gearlink.core.studies.clearance.bodies import Clearance, gaps
 from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 from gearlink.core.studies.tolerance.sources import GearOfSource, Parts
 
@@ -44,6 +44,9 @@ _LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_l
 _SWING = "dwell_swing"
 _OF_LINKS = {"gear-collision", "shaft-clearance", "transmission-angle", "dwell-window"}
 """Checks that the links as made decide; those of the meshes hang on the centre distances."""
+_NO_MESH = "no mesh"
+State = frozenset[str]
+"""Codes that fail at a centre distance; `_NO_MESH` where the teeth cannot mesh."""
 
 
 class ThreeGearSamples:
@@ -229,11 +232,9 @@ class ThreeGearSamples:
         yield from findings_of_meshes(self.nominal, self._lengths, names, made, exists)
 
     def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
-        """GL302 of two bodies, as `gearlink.core.studies.clearance.bodies.least_gap` has it."""
-        ends, one, other = "".join(sorted((pair.one.axis, pair.other.axis))), pair.one, pair.other
-        nearest, farthest = samples.distances()[ends]
-        within = np.maximum(one.inner - (farthest + other.outer), other.inner - (farthest + one.outer))
-        gap = np.maximum(nearest - (one.outer + other.outer), within)
+        """GL302 of two bodies."""
+        ends = "".join(sorted((pair.one.axis, pair.other.axis)))
+        gap = np.maximum.reduce(gaps(pair.one, pair.other, *samples.distances()[ends]))
         limit = self.nominal.layout.least_shaft * len(pair.bare)
         return shaft_judged(gap, limit, bool(pair.bare)).of(samples.count)
 
@@ -245,11 +246,6 @@ def _same(check: Check, count: int) -> Findings:
     return Findings(
         check.code, value, np.full(count, math.nan if check.limit is None else check.limit), fails, warns, check.unit
     )
-
-
-_NO_MESH = "no mesh"
-State = frozenset[str]
-"""Codes that fail at a centre distance; `_NO_MESH` where the teeth cannot mesh."""
 
 
 def findings_of_meshes(

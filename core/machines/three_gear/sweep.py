@@ -29,6 +29,10 @@ from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40  # of a search for an extreme [rad]
+_FIT = 1e-13
+_LONGEST_OF_ENDS = 0.4  # step of both ends of a band [rad]
+_NEAR, _SLOW = 1e-9, 1e-5
+_BLOCK = 8192
 
 
 class Drives(NamedTuple):
@@ -216,11 +220,6 @@ def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
     return newton_roots(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)
 
 
-_FIT = 1e-13
-_LONGEST_OF_ENDS = 0.4  # step of both ends of a band [rad]
-_NEAR, _SLOW = 1e-9, 1e-5
-
-
 class Valleys(NamedTuple):
     """Where outputs are slow, (N,) arrays [rad]: `Valley` of `linkages.band_dwell`, and where the speed is least."""
 
@@ -375,9 +374,6 @@ def _reach(
     begin = middle if start is None else np.where((left < start) & (start < right), start, middle)
     found = newton_roots(above, left, right, begin, level, *drives)
     return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))
-
-
-_BLOCK = 8192
 
 
 @dataclass(frozen=True, slots=True)

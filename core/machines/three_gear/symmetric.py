@@ -43,6 +43,17 @@ from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep
 
+# tan h: the closed form then loses no more than 12 ulp, and the 29th term is below 1e-17 of the first.
+_SERIES_BELOW = 0.5
+_INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
+_POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
+_POLISHED_I3 = -0.1
+_ROUNDING = 1e-9  # [rad]; at the limits 6e-13 of the wrong sign were seen, at i3 = -100
+_PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
+_NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
+_INSIDE = 1e-9
+_NEAREST, _FARTHEST = 0.1, 1e3  # -i3 between which the greatest idler is sought
+
 
 class SpeedLimits(NamedTuple):
     """Greatest and least output speed per input speed."""
@@ -207,16 +218,6 @@ def check_back_step_crank_angle(phi12: float) -> None:
 def _check_frame_ratio(d: float) -> None:
     if not 1.0 < d < math.inf:
         raise NoSolution(f"the frame ratio is {d:.9g}; frame/crank must be above 1 (at 1 the linkage folds flat)")
-
-
-# tan h: the closed form then loses no more than 12 ulp, and the 29th term is below 1e-17 of the first.
-_SERIES_BELOW = 0.5
-_INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
-_POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
-_POLISHED_I3 = -0.1
-_ROUNDING = 1e-9  # [rad]; at the limits 6e-13 of the wrong sign were seen, at i3 = -100
-_PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
-_NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -516,10 +517,6 @@ def _ratio_remedy(phi13: float) -> str:
         return ""
     least = 2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13)
     return f" or take -i3 above {safely_above(least, 9)} (an idler of more teeth)"
-
-
-_INSIDE = 1e-9
-_NEAREST, _FARTHEST = 0.1, 1e3  # -i3 between which the greatest idler is sought
 
 
 def longest_window(i3: float, tolerance: float) -> float:

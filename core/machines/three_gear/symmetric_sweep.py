@@ -25,6 +25,9 @@ from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import newton_roots
 
 _SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `symmetric`
+FRAME_TOLERANCE = math.radians(0.5)
+"""Tolerance of the chart over the frame."""
+_QUARTER = 0.5 * math.pi
 
 
 def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
@@ -164,10 +167,6 @@ def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
     return np.asarray(0.5 * phi12)
 
 
-FRAME_TOLERANCE = math.radians(0.5)
-"""Tolerance of the chart over the frame."""
-
-
 def window_over_ratio(i3: ArrayLike, tolerance: float) -> Reals:
     """Longest window over i3 at constant tolerance.
 
@@ -229,9 +228,6 @@ def _each(function: Callable[[float], float], values: ArrayLike) -> Reals:
             return math.nan
 
     return np.array([value(float(x)) for x in np.atleast_1d(np.asarray(values, dtype=float))])
-
-
-_QUARTER = 0.5 * math.pi
 
 
 def _above(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals, Reals]:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, combinations, product
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
@@ -120,11 +120,16 @@ def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance
     Source
         thesis 4.2.2, with the distance at the closest in place of the frame length
     """
-    beside = reach.nearest - (one.outer + other.outer)
-    within = max(one.inner - (reach.farthest + other.outer), other.inner - (reach.farthest + one.outer))
-    if beside >= within:
+    beside, *within = gaps(one, other, reach.nearest, reach.farthest)
+    if beside >= max(within):
         return Clearance(one, other, beside, reach.nearest, reach.nearest_at)
-    return Clearance(one, other, within, reach.farthest, reach.farthest_at)
+    return Clearance(one, other, max(within), reach.farthest, reach.farthest_at)
+
+
+def gaps(one: Gear | Shaft, other: Gear | Shaft, nearest: Any, farthest: Any) -> tuple[Any, Any, Any]:
+    """The three terms of `least_gap`, of numbers or of arrays: beside each other, and one within the other's ring."""
+    within = one.inner - (farthest + other.outer), other.inner - (farthest + one.outer)
+    return nearest - (one.outer + other.outer), *within
 
 
 @dataclass(frozen=True)
