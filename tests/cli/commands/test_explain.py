@@ -119,7 +119,7 @@ def test_code_says_what_why_formula_source_and_how_to_mend(gearlink: Any) -> Non
     topic = gearlink("explain", "GL301", "--format", "json").json["topics"][0]
     assert {"what", "why", "formula", "source", "how_to_mend", "checks", "kinds"} <= set(topic)
     assert topic["about"] == "code"
-    assert topic["kinds"] == "three-gear-four-bar, geared-five-bar, geared-six-bar, planar-mechanism"
+    assert topic["kinds"].startswith("three-gear-four-bar, geared-five-bar, geared-six-bar, planar-mechanism")
 
 
 @pytest.mark.parametrize("written", ["gl301", "GL301"])
