@@ -5,13 +5,15 @@ Run by `make docs`, checked by the tests.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from gearlink.cli import glossary
 from gearlink.cli.texts import indexing, known
+from gearlink.cli.texts.spec_keys import known_keys
 from gearlink.cli.verification import page
 from gearlink.core.base.kinds import FILES
-from gearlink.core.base.nomenclature import TERMS
+from gearlink.core.base.nomenclature import ALIASES, TERMS
 
 TARGET = Path(__file__).parent / "nomenclature.md"
 GLOSSARY = Path(__file__).parent / "glossary.md"
@@ -61,6 +63,16 @@ These are explained and not accepted as keys: an unknown key of this list gets t
 """
 
 
+_ALIASES_HEAD = """## Accepted aliases
+
+Where the field has another word for a key or a quantity, both are accepted: in files, by `--set`, `--quantity` and
+`explain`. Results have the fixed name; a key that is given under both names is an error.
+
+| alias | name | where |
+| --- | --- | --- |
+"""
+
+
 def glossary_text() -> str:
     """The page of the terms."""
     terms = sorted(glossary.glossary().values(), key=lambda term: term.name.casefold())
@@ -74,8 +86,21 @@ def glossary_text() -> str:
         f"| {_write(each)} |"
         for each in glossary.meanings()
     ]
-    parts = [_GLOSSARY_HEAD + "\n".join(map(_entry, terms)), _WORDS_HEAD + "\n".join(words)]
+    parts = [_GLOSSARY_HEAD + "\n".join(map(_entry, terms)), _ALIASES_HEAD + "\n".join(_aliases())]
+    parts += [_WORDS_HEAD + "\n".join(words)]
     return "\n\n".join([*parts, _PLACES_HEAD + "\n".join(places)]) + "\n"
+
+
+def _aliases() -> Iterator[str]:
+    """A row for every alias of a key or a quantity."""
+    keys: dict[tuple[str, str], list[str]] = {}
+    for key, kinds in known_keys():
+        section, dot, _ = key.path.rpartition(".")
+        for alias in key.also:
+            keys.setdefault((f"{section}{dot}{alias}", key.path), []).extend(kinds)
+    keys["distribution", "law"] = ["a source in `tolerance.sources`"]
+    yield from (f"| `{alias}` | `{name}` | key: {', '.join(kinds)} |" for (alias, name), kinds in sorted(keys.items()))
+    yield from (f"| `{alias}` | `{name}` | quantity |" for alias, name in sorted(ALIASES.items()))
 
 
 def _entry(term: glossary.Concept) -> str:
@@ -116,8 +141,8 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 
 
 if __name__ == "__main__":
+    known.SCHEMAS.write_text(indexing.schemas_text(), encoding="utf-8")  # the other pages read these two
+    known.INDEX.write_text(indexing.index_text(), encoding="utf-8")
     TARGET.write_text(text())
     GLOSSARY.write_text(glossary_text(), encoding="utf-8")
     VALIDATION.write_text(page.text(), encoding="utf-8")
-    known.SCHEMAS.write_text(indexing.schemas_text(), encoding="utf-8")
-    known.INDEX.write_text(indexing.index_text(), encoding="utf-8")

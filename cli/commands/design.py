@@ -20,6 +20,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.markdown_report import text_of
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.nomenclature import fixed_name
 from gearlink.core.base.report import Report
 
 if TYPE_CHECKING:
@@ -91,8 +92,8 @@ def written_beside(write: Callable[[], object], source: str, options: Options) -
 def _notes(design: Design, report: Report, options: Options) -> None:
     """Say of each quantity that was asked for by name what it rests on or, without a value, what the file must give."""
     known = {quantity.name for quantity in report.quantities}
-    for name in () if options.quiet else options.quantities:
-        if name not in known:
+    for given in () if options.quiet else options.quantities:
+        if (name := fixed_name(given, design.quantity_names())) not in known:
             needs = design.needs(name)
             print(f"{name}: not known of this design{f'; {needs}' if needs else ''}", file=sys.stderr)
         elif inputs := design.rests_on(name):

@@ -135,11 +135,11 @@ def _program_names(subject: str) -> list[Topic]:
 
 def _spelled(subject: str) -> list[Topic]:
     """Every topic of a name as it is written."""
-    exact = list(_topics(subject))
+    exact, keys = list(_topics(subject)), list(_keys(subject))
     # A key says more than a column; a path is a key's, or that of a quantity of one mesh.
     if "." in subject or all(topic.about == "column" for topic in exact):
-        exact = sorted([*_keys(subject), *exact], key=lambda topic: topic.name != subject)
-    return exact
+        return sorted([*keys, *exact], key=lambda topic: topic.name != subject)
+    return [*exact, *keys]
 
 
 def _told_of(point: str) -> Iterator[Topic]:
@@ -153,7 +153,7 @@ def _told_of(point: str) -> Iterator[Topic]:
 def _topics(name: str) -> Iterator[Topic]:
     from gearlink.cli.texts.codes import explanations
     from gearlink.core.base.kinds import FILES
-    from gearlink.core.base.nomenclature import TERMS
+    from gearlink.core.base.nomenclature import ALIASES, TERMS
 
     texts = explanations()
     if name in texts:
@@ -163,8 +163,8 @@ def _topics(name: str) -> Iterator[Topic]:
             yield _check(name, text)
     if name in FILES:
         yield _kind(FILES[name])
-    if name.rpartition(".")[2] in TERMS:
-        yield _quantity(name.rpartition(".")[2])
+    last = name.rpartition(".")[2]
+    yield from (_quantity(each) for each in dict.fromkeys((last, ALIASES.get(last, ""))) if each in TERMS)
     if name in index().laws:
         yield _law(name)
     yield from _symbols(name)
@@ -198,10 +198,12 @@ def _keys(name: str) -> Iterator[Topic]:
     from gearlink.cli.texts.written_design import choice, uncapitalised
 
     for key, kinds in known_keys():
-        if name not in (key.path, key.path.rpartition(".")[2]):
+        section, dot, last = key.path.rpartition(".")
+        if name not in (key.path, last, *key.also, *(f"{section}{dot}{term}" for term in key.also)):
             continue
         words = uncapitalised(key.words) if key.section else key.words
         told = {"Unit": key.unit if key.unit not in ("", "1") else "", "Range": key.range, "Choice": choice(key)}
+        told |= {"Alias": ", ".join(key.also)}
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in its place"}
         title = f"key of a design file: {words or 'a section'}"
         yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
@@ -299,12 +301,13 @@ def _kinds_with_checks(checks: tuple[str, ...]) -> str:
 
 
 def _quantity(name: str) -> Topic:
-    from gearlink.core.base.nomenclature import term
+    from gearlink.core.base.nomenclature import ALIASES, term
 
     entry = term(name)
     paragraphs = {
         "Meaning": entry.words,
         "Symbol": entry.symbol,
+        "Alias": ", ".join(alias for alias, fixed in ALIASES.items() if fixed == name),
         "Unit": entry.unit if entry.unit != "1" else "1 (no dimension)",
         "Formula": FORMULAS.get(name, ""),
         "Source": entry.source,

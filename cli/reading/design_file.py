@@ -180,9 +180,10 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     if section := getattr(model, "section_of_members", ""):
         found_there, faulty = _read_members(loaded, section)
         wrong += found_there
-    if _starts_with_a_number(loaded.data):
+    if textual := _starts_with_a_number(loaded.data):
         from gearlink.cli.reading.units import convert
 
+        wrong += _with_fixed_names(loaded, model, _ROOT)
         wrong += convert(loaded, model)
     odd = list(_odd_values(loaded.data, _ROOT))
     sizes = {path for path, value in odd if not isinstance(value, bool)}
@@ -192,6 +193,11 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     try:
         spec = model.model_validate_json(json.dumps(loaded.data))
     except ValidationError as error:
+        before = loaded.data
+        doubled = [] if textual else _with_fixed_names(loaded, model, _ROOT)
+        if loaded.data is not before:
+            loaded.problems += doubled
+            return validate(loaded, model)
         from gearlink.cli.reading.model_errors import diagnose
         from gearlink.cli.reading.model_shapes import takes_no_number
 
@@ -210,6 +216,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         wrong += [d for d in diagnose_truth_values(loaded, model, truths) if d.key not in seen]
     if wrong or spec is None:
         raise DesignFileError(wrong, omitted)
+    loaded.settle()
     return spec
 
 
@@ -301,6 +308,46 @@ def _over(data: dict[str, Any], put: dict[str, Any]) -> dict[str, Any]:
 
 def _below(wrong: Diagnostic, place: str) -> Diagnostic:
     return replace(wrong, key=f"{place}.{wrong.key}" if wrong.key else place)
+
+
+def _with_fixed_names(loaded: LoadedFile, model: type[BaseModel], section: KeyPath) -> list[Diagnostic]:
+    """Give the keys of a section and below that bear standard terms their fixed names; what is given under both.
+
+    What `--set` gives under one name is put over what the file has under the other.
+    """
+    from gearlink.cli.reading.model_shapes import aliases_at
+
+    wrong: list[Diagnostic] = []
+    node: Any = part_of(loaded.data, section)
+    aliases = aliases_at(model, section, loaded.data) if isinstance(node, dict) else {}
+    for alias, name in aliases.items():
+        if alias not in node:
+            continue
+        if name in node:
+            ranks = [loaded.rank((*section, key)) for key in (alias, name)]
+            if ranks[0] == ranks[1]:
+                message = f"'{alias}' is the standard term for '{name}': both are given"
+                wrong.append(loaded.report("GL111", message, (*section, alias), help=f"keep {name}"))
+            if ranks[0] <= ranks[1]:
+                loaded.drop(section, alias)
+                continue
+        loaded.rename(section, alias, name)
+    node = part_of(loaded.data, section)
+    for step, inner in node.items() if isinstance(node, dict) else enumerate(node):
+        if isinstance(inner, (dict, list)) and not (inner and isinstance(inner, list) and _plain(inner[0])):
+            wrong += _with_fixed_names(loaded, model, (*section, step))
+    return wrong
+
+
+def _plain(value: Any) -> bool:
+    return not isinstance(value, (dict, list))
+
+
+def part_of(data: Any, path: KeyPath) -> Any:
+    """What stands at a path that the data have."""
+    for step in path:
+        data = data[step]
+    return data
 
 
 def _starts_with_a_number(node: Any) -> bool:

@@ -20,12 +20,16 @@ _SET = "<--set>"
 
 
 class Override(NamedTuple):
-    """A value that `--set` put in, or an option of its own; its marks are positions in the argument."""
+    """A value that `--set` put in, or an option of its own; its marks are positions in the argument.
+
+    It is settled once a design was made with it: what is put in later goes over it under any name of the key.
+    """
 
     path: KeyPath
     value: Any
     marks: Marks | None
     source: Source
+    settled: bool = False
 
 
 @dataclass(slots=True)
@@ -77,6 +81,31 @@ class LoadedFile:
         inside = [each for each in self.overrides if each.path[:deep] == path and len(each.path) > deep]
         overrides = [each._replace(path=each.path[deep:]) for each in inside]
         return LoadedFile(self.file, data, Tree(self.tree.source, data, marks, at), overrides)
+
+    def rank(self, path: KeyPath) -> int:
+        """How late the value of a key came: 0 with the file, 1 by a settled `--set`, 2 by a new one."""
+        return max((2 - each.settled for each in self.overrides if each.path[: len(path)] == path), default=0)
+
+    def settle(self) -> None:
+        """Take what `--set` put in for given."""
+        self.overrides = [each._replace(settled=True) for each in self.overrides]
+
+    def rename(self, section: KeyPath, old: str, new: str) -> None:
+        """Give a key of a section another name, at its place; what stood under that name is dropped."""
+        self.data = _renamed(self.data, section, old, new)
+        _mark_as(self.tree.marks, section, old, new)
+        for override in self.overrides:
+            if override.path == section[: len(override.path)]:
+                _mark_as(override.marks, section[len(override.path) :], old, new)
+        depth, path = len(section) + 1, (*section, old)
+        self.overrides = [
+            each._replace(path=(*section, new, *each.path[depth:])) if each.path[:depth] == path else each
+            for each in self.overrides
+        ]
+
+    def drop(self, section: KeyPath, key: str) -> None:
+        """Leave a key out, as if the file did not have it."""
+        self.data = _renamed(self.data, section, key, None)
 
     def report(
         self,
@@ -152,6 +181,27 @@ def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) ->
         found += 1
         at = value_at if value and found == len(path) else key_at
     return at, found
+
+
+def _renamed(node: Any, section: KeyPath, old: str, new: str | None) -> Any:
+    """A copy of data with a key of a section renamed, or without it; what is beside the section is shared."""
+    if section:
+        step, inner = section[0], _renamed(node[section[0]], section[1:], old, new)
+        if isinstance(step, int):
+            return [*node[:step], inner, *node[step + 1 :]]
+        return {**node, step: inner}
+    kept = {key: value for key, value in node.items() if key != new}
+    return {(new if key == old else key): value for key, value in kept.items() if key != old or new is not None}
+
+
+def _mark_as(marks: Marks | None, section: KeyPath, old: str, new: str) -> None:
+    """Let a key be found under another name as well."""
+    for step in section:
+        if marks is None or step not in marks:
+            return
+        marks = marks[step][2]
+    if marks is not None and old in marks:
+        marks[new] = marks[old]
 
 
 def _names(message: str, value: Any) -> bool:

@@ -44,6 +44,17 @@ def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, Fie
     }
 
 
+def aliases_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, str]:
+    """The standard terms that a section takes in place of the names of its keys, each with the name."""
+    found = {}
+    for name, field in fields_at(model, path, data).items():
+        said = field.json_schema_extra
+        if isinstance(said, dict):
+            terms: Any = said.get("also", ())
+            found.update(dict.fromkeys(terms, name))
+    return found
+
+
 def allowed_range(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The range of a number that is bounded on both sides, or nothing."""
     low, high = _limits(model, path, data)

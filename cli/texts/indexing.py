@@ -45,12 +45,27 @@ def _converted(node: Node, sections: Node) -> Node:
         # Editors would offer a default of null as the value to write.
         if key not in (*_DROPPED, "$ref") and not (key == "default" and value is None):
             result |= _keyword(key, value, sections)
-    return result
+    return _with_either(result)
+
+
+def _alias(name: str, node: Node) -> Node:
+    """A key under its standard term."""
+    return {**node, "description": f"standard term for {name}", "aliasOf": name}
+
+
+def _with_either(node: Node) -> Node:
+    """A section that needs a key takes it under its standard term as well."""
+    terms = {name: node["properties"][name].get("also", []) for name in node.get("required", ())}
+    if not any(terms.values()):
+        return node
+    either = [{"anyOf": [{"required": [each]} for each in (name, *more)]} for name, more in terms.items() if more]
+    return {**node, "required": [name for name, more in terms.items() if not more], "allOf": either}
 
 
 def _keyword(key: str, value: Any, sections: Node) -> Node:
     if key == "properties":
-        return {key: {name: _converted(inner, sections) for name, inner in value.items()}}
+        keys = {name: _converted(inner, sections) for name, inner in value.items()}
+        return {key: keys | {term: _alias(name, keys[name]) for name in keys for term in keys[name].get("also", ())}}
     if key in _LISTS:
         return {key: [_reference(i) if [*i] == ["$ref"] else _converted(i, sections) for i in value]}
     if key == "prefixItems":

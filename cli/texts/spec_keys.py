@@ -34,6 +34,7 @@ class SpecKey:
         default : the value when the key is left out; None where there is none
         required : bool - its section needs it
         section : bool - it holds keys of its own
+        also : the standard terms that are accepted for its last word
     """
 
     path: str
@@ -43,6 +44,7 @@ class SpecKey:
     default: Any
     required: bool
     section: bool
+    also: tuple[str, ...] = ()
 
 
 def spec_keys(kind: Kind) -> list[SpecKey]:
@@ -58,8 +60,10 @@ def spec_keys(kind: Kind) -> list[SpecKey]:
 
 
 def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
-    required = section.get("required", ())
+    required = {*section.get("required", ()), *_either(section)}
     for name, node in section.get("properties", {}).items():
+        if "aliasOf" in node:
+            continue
         path = before + name
         inner = list(_sections(node, definitions))
         yield SpecKey(
@@ -70,9 +74,16 @@ def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
             node.get("default"),
             name in required,
             bool(inner),
+            tuple(node.get("also", ())),
         )
         for part in inner:
             yield from _keys(part, definitions, path + ".")
+
+
+def _either(section: Node) -> Iterator[str]:
+    """The keys that a section needs under one of their names, the fixed one."""
+    for part in section.get("allOf", ()):
+        yield from (choice["required"][0] for choice in part.get("anyOf", ())[:1] if "required" in choice)
 
 
 def _sections(node: Node, definitions: Node) -> Iterator[Node]:

@@ -15,7 +15,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 from gearlink.core.base.errors import GearlinkError, named
-from gearlink.core.base.nomenclature import term
+from gearlink.core.base.nomenclature import fixed_name, term
 from gearlink.core.base.remedies.bench import Bench, commands_of, with_remedies
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity, Remedy, Report, Table, TableInParts
@@ -192,6 +192,7 @@ class Design:
 
     def quantity(self, name: str) -> Quantity | None:
         """A quantity in the units of the design files; None where it does not apply to this design."""
+        name = fixed_name(name, self.quantity_names())
         if name not in self.quantity_names():
             raise UnknownName("quantity", name, self.quantity_names())
         value = self.raw(name)
@@ -357,7 +358,8 @@ class Design:
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
         """
-        quantities, tables = _several(quantities), _several(tables)
+        known = self.quantity_names()
+        quantities, tables = [fixed_name(name, known) for name in _several(quantities)], _several(tables)
         self._require_names(quantities, tables)
         if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
             raise UnknownName("command", command, tuple(self.outlines))

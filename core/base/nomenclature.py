@@ -6,6 +6,8 @@ VDI 2142/2143 (laws of motion, cams).
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.base.gear_terms import GEAR_PAIR
 from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
@@ -381,6 +383,53 @@ TERMS: dict[str, Term] = {
     **_REGISTER,
     **_LOADS,
 }
+
+
+ALIASES = {
+    "prime_radius": "cam_base_radius",
+    "dimension_over_balls": "measure_over_balls",
+    "dimension_over_pins": "measure_over_pins",
+    "dimension_limits": "measure_limits",
+    "base_tangent_length": "span_measurement",
+    "base_tangent_length_limits": "span_measurement_limits",
+    "dwell_half_range": "dwell_tolerance",
+    "middle_position": "middle_place",
+    "line_of_centers_position": "line_of_centers_place",
+    "contact_position_max": "contact_place_max",
+    "contact_position_min": "contact_place_min",
+    "output_speed_max": "output_velocity_max",
+    "output_speed_max_at": "output_velocity_max_at",
+    "output_speed_min": "output_velocity_min",
+    "output_speed_min_at": "output_velocity_min_at",
+    "input_speed_max": "input_velocity_max",
+    "input_speed_max_at": "input_velocity_max_at",
+    "input_speed_min": "input_velocity_min",
+    "input_speed_min_at": "input_velocity_min_at",
+    "register_worst_case": "worst",
+    "register_standard_deviation": "rss",
+    "register_band": "band",
+    "torque_reversal_angles": "flips",
+    "retained_designs": "kept",
+    "bearing_life": "life",
+    "equivalent_load": "equivalent",
+    "joint_force_max": "peak",
+    "joint_travel": "travel",
+}
+"""The standard terms that are accepted for names of quantities; some are quantities of other kinds by themselves."""
+
+
+def fixed_name(name: str, known: Collection[str]) -> str:
+    """The name of a quantity of which a standard term is given; what is no such term stays as it is.
+
+    Parameters
+        known : the quantities of a design; one of them that bears the term itself is meant by it
+    Example
+        >>> fixed_name("prime_radius", ("cam_base_radius",)), fixed_name("prime_radius", ("prime_radius",))
+        ('cam_base_radius', 'prime_radius')
+    """
+    head, dot, last = name.rpartition(".")
+    fixed = f"{head}{dot}{ALIASES.get(last, last)}"
+    return fixed if name not in known and fixed in known else name
 
 
 def term(name: str) -> Term:

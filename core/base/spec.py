@@ -19,6 +19,11 @@ class Spec(BaseModel):
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
+def also(*names: str) -> dict[str, Any]:
+    """For `json_schema_extra` of a key: the standard terms that files may write in place of its name."""
+    return {"also": list(names)}
+
+
 class Entries:
     """Annotates a list of fixed length: what each of its entries is, and a list to show for an example.
 

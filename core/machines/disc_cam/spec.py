@@ -19,6 +19,7 @@ from gearlink.core.base.spec import (
     Spec,
     Speed,
     TolerancedSpec,
+    also,
 )
 from gearlink.core.parts.cams.motion_spec import FollowerMotion, Lift, require_closed
 
@@ -148,7 +149,11 @@ class Errors(Spec):
     """Errors of the cam as made."""
 
     profile: Distance = Field(0.0, description="error of the profile along its normal")
-    run_out: Distance = Field(0.0, description="total indicator reading of the cam on its shaft")
+    run_out: Distance = Field(
+        0.0,
+        description="total indicator reading of the cam on its shaft",
+        json_schema_extra={"unit": "mm", **also("runout")},
+    )
     key: Annotated[float, Field(ge=0, json_schema_extra={"unit": "deg"})] = Field(
         0.0, description="angular error of the cam on its shaft"
     )

@@ -21,6 +21,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    also,
     require_offset_below_rod,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
@@ -83,7 +84,9 @@ class PressCam(Spec):
     """The compensation cam pair."""
 
     base_radius: Length | None = Field(
-        None, description="cam axis to roller centre at zero lift; left out: chosen by the section `size`"
+        None,
+        description="cam axis to roller centre at zero lift; left out: chosen by the section `size`",
+        json_schema_extra=also("prime_radius"),
     )
     roller_radius: Length = Field(description="radius of both rollers")
     transition: Literal["arc", "parabola", "quartic"] = Field(

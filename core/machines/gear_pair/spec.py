@@ -15,6 +15,7 @@ from gearlink.core.base.spec import (
     Length,
     LoadLimits,
     TolerancedSpec,
+    also,
 )
 from gearlink.core.parts.gears.keys.pair import PairKeys
 from gearlink.core.parts.gears.keys.types import Shift, SignedTeeth, TwoShifts
@@ -41,6 +42,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     tip_shortening: Annotated[Any, Deferred("parts.gears.keys.types:TipShortening")] | None = Field(
         None,
         description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
+        json_schema_extra=also("tip_alteration"),
     )
     tip_diameter: Annotated[Any, Deferred("parts.gears.keys.types:TwoLengths")] | None = Field(
         None, description="tip diameters, in place of tip_shortening"

@@ -19,6 +19,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    also,
 )
 from gearlink.core.parts.cams.spec import MotionLaw
 
@@ -191,7 +192,11 @@ class GripperLimits(LoadLimits):
     condition_number: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
         100.0, description="greatest condition number of the loop, 1/sin(mu); only warns"
     )
-    handover_place: Length = Field(0.01, description="gripper tip off the line of centres at the handover")
+    handover_place: Length = Field(
+        0.01,
+        description="gripper tip off the line of centres at the handover",
+        json_schema_extra={"unit": "mm", **also("handover_position")},
+    )
     least_shaft: Length | None = Field(
         None, description="radius of the thinnest shaft that would be built; left out: that of the roller"
     )

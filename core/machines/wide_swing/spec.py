@@ -21,6 +21,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     Spec,
     TolerancedSpec,
+    also,
 )
 
 
@@ -186,7 +187,11 @@ class WideSwingSpec(TolerancedSpec):
     inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
         description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
     )
-    unloader: Pneumatic | SpringDevice = Field(discriminator="type", description="device that bears the inertia")
+    unloader: Pneumatic | SpringDevice = Field(
+        discriminator="type",
+        description="device that bears the inertia",
+        json_schema_extra=also("balancing_device"),
+    )
     operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="least speed at which the machine works; then the device is checked for harm there"
     )

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec import Angle, Distance, Length, Spec
+from gearlink.core.base.spec import Angle, Distance, Length, Spec, also
 
 _SIZES = (
     "plus_minus",
@@ -63,7 +63,9 @@ class ToleranceSource(Spec):
         None, description="measured direction of the eccentricity at input angle 0; left out: any"
     )
     measured: Deviation | None = Field(None, description="absolute size of one part in hand: it does not scatter")
-    law: Literal["normal", "uniform", "triangular", "truncated"] = Field("normal", description="law of distribution")
+    law: Literal["normal", "uniform", "triangular", "truncated"] = Field(
+        "normal", description="law of distribution", json_schema_extra=also("distribution")
+    )
     mode: Deviation | None = Field(None, description="deviation where a triangular law peaks; default the middle")
     cp: Positive = Field(1.0, description="process capability C_p: limits lie at 3 C_p standard deviations")
     cpk: Positive | None = Field(None, description="capability C_pk of a process off the middle, at most C_p")

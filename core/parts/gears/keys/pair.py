@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from gearlink.core.base.spec import Deferred, Length, PressureAngle
+from gearlink.core.base.spec import Deferred, Length, PressureAngle, also
 from gearlink.core.parts.gears.keys.types import ToothKeys, TwoShifts
 
 
@@ -25,7 +25,9 @@ class PairKeys(ToothKeys):
         None, description="profile shift coefficients of gear 1 and 2; what the centre distance leaves is backlash"
     )
     tip_shortening: Annotated[Any, Deferred("parts.gears.keys.types:TipShortening")] | None = Field(
-        None, description="full (default), none, or tip alterations k of both gears"
+        None,
+        description="full (default), none, or tip alterations k of both gears",
+        json_schema_extra=also("tip_alteration"),
     )
     face_width: Annotated[Any, Deferred("parts.gears.keys.types:WidthOrTwo")] | None = Field(
         None, description="face width of both gears, or of each"

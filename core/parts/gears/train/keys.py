@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Deferred, Length
+from gearlink.core.base.spec import Deferred, Length, also
 from gearlink.core.parts.gears.keys.types import Hand, ToothKeys
 
 if TYPE_CHECKING:
@@ -43,7 +43,9 @@ class TrainKeys(ToothKeys):
         None, description="hands of helix, a list with one for each gear, for drawing and exports"
     )
     tip_shortening: Annotated[Any, Deferred("parts.gears.train.key_sections:TipShortenings")] | None = Field(
-        None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"
+        None,
+        description="full (default of external meshes), none (of rings), or tip alterations k of all gears",
+        json_schema_extra=also("tip_alteration"),
     )
     tool: Annotated[Any, Deferred("parts.gears.train.key_sections:Tools")] | None = Field(
         None, description="rack tool of all gears, or of each; left out: straight to the addendum"

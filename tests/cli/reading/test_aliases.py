@@ -1,0 +1,170 @@
+"""Standard terms are read in place of the names of keys and quantities. No tolerances: the specs are the same."""
+
+from __future__ import annotations
+
+import copy
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+
+from gearlink.cli.glossary import meaning_in
+from gearlink.cli.reading.design_file import parse, validate, with_overrides
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.texts.schema import kind_schema
+from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.worked_designs import worked_design
+from gearlink.core.base.kinds import FILES
+from gearlink.core.base.nomenclature import ALIASES, TERMS, fixed_name
+
+CASES = [(kind.name, key.path, term) for kind in FILES.values() for key in spec_keys(kind) for term in key.also]
+VALUES = {"tip_shortening": "none", "run_out": 0.01, "handover_place": 0.02}
+"""Of keys that the worked designs leave out."""
+
+
+@cache
+def worked(kind: str) -> dict[str, Any]:
+    found: dict[str, Any] = yaml.safe_load(worked_design(FILES[kind]))
+    return found
+
+
+def written(kind: str, path: str, *names: str) -> dict[str, Any]:
+    """The worked design with a key under other names; each gets its value."""
+    data = copy.deepcopy(worked(kind))
+    *sections, last = path.split(".")
+    inner = data
+    for step in sections:
+        inner = inner.setdefault(step, {})
+    value = inner.pop(last, VALUES.get(last))
+    inner.update(dict.fromkeys(names, value))
+    return data
+
+
+def read(data: dict[str, Any], *settings: str) -> Any:
+    loaded = parse(json.dumps(data).encode(), "a.yaml", overrides=settings)
+    return validate(loaded, FILES[data["kind"]].spec_model()), loaded
+
+
+def refused(data: dict[str, Any], *settings: str) -> list[tuple[str, str]]:
+    with pytest.raises(DesignFileError) as caught:
+        read(data, *settings)
+    return [(each.code, each.key) for each in caught.value.diagnostics]
+
+
+def test_the_keys_with_aliases() -> None:
+    assert {(path, term) for _, path, term in CASES} == {
+        ("cam.base_radius", "prime_radius"),
+        ("unloader", "balancing_device"),
+        ("tip_shortening", "tip_alteration"),
+        ("gears.tip_shortening", "tip_alteration"),
+        ("input_gears.tip_shortening", "tip_alteration"),
+        ("limits.handover_place", "handover_position"),
+        ("errors.run_out", "runout"),
+    }
+
+
+@pytest.mark.parametrize(("kind", "path", "term"), CASES)
+def test_a_file_is_read_with_a_standard_term(kind: str, path: str, term: str) -> None:
+    section, _, name = path.rpartition(".")
+    plain, _ = read(written(kind, path, name))
+    spec, loaded = read(written(kind, path, term))
+    assert spec == plain
+    assert term not in json.dumps(loaded.data)
+    schema = kind_schema(FILES[kind])
+    jsonschema.validate(written(kind, path, term), schema)
+    assert term not in {key.path.rpartition(".")[2] for key in spec_keys(FILES[kind]) if key.path != path}
+    assert meaning_in(term, kind, tuple(section.split("."))) is None
+
+
+@pytest.mark.parametrize(("kind", "path", "term"), CASES)
+def test_both_names_for_one_key_are_refused(kind: str, path: str, term: str) -> None:
+    section, dot, name = path.rpartition(".")
+    assert refused(written(kind, path, name, term)) == [("GL111", f"{section}{dot}{term}")]
+
+
+def test_set_takes_either_name_and_goes_over_the_file() -> None:
+    for name in ("base_radius", "prime_radius"):
+        data = written("flatbed-press", "cam.base_radius", name)
+        for given in ("base_radius", "prime_radius"):
+            spec, loaded = read(data, f"cam.{given}=81")
+            assert spec.cam.base_radius == 81.0
+            spec = validate(with_overrides(loaded, ["cam.prime_radius=82"]), type(spec))
+            assert spec.cam.base_radius == 82.0
+    both = ("cam.base_radius=80", "cam.prime_radius=81")
+    assert refused(worked("flatbed-press"), *both) == [("GL111", "cam.prime_radius")]
+    section = json.dumps(written("flatbed-press", "cam.base_radius", "prime_radius")["cam"] | {"prime_radius": 83})
+    assert read(worked("flatbed-press"), f"cam={section}")[0].cam.base_radius == 83.0
+
+
+def test_errors_stand_at_the_term_of_the_file() -> None:
+    data = written("flatbed-press", "cam.base_radius", "prime_radius")
+    data["cam"]["prime_radius"] = -1
+    with pytest.raises(DesignFileError) as caught:
+        read(data)
+    (wrong,) = caught.value.diagnostics
+    text = json.dumps(data)
+    assert wrong.code == "GL108"
+    assert wrong.column == text.index('"prime_radius"') + 1
+
+
+def test_units_are_read_under_either_name() -> None:
+    data = written("flatbed-press", "cam.base_radius", "prime_radius")
+    data["cam"]["prime_radius"] = "3 in"
+    assert read(data)[0].cam.base_radius == 76.2
+    data["cam"]["base_radius"] = 70
+    assert refused(data) == [("GL111", "cam.prime_radius")]
+
+
+def test_a_source_has_a_distribution() -> None:
+    data = copy.deepcopy(worked("slider-crank"))
+    data["tolerance"] = {"sources": {"rod": {"plus_minus": 0.05, "distribution": "uniform"}}}
+    assert read(data)[0].tolerance.sources["rod"].law == "uniform"
+    data["tolerance"]["sources"]["rod"]["law"] = "normal"
+    assert refused(data) == [("GL111", "tolerance.sources.rod.distribution")]
+
+
+# Quantities
+
+
+def test_aliases_of_quantities_name_quantities_and_hide_none() -> None:
+    assert set(ALIASES.values()) <= set(TERMS)
+    for kind in FILES.values():
+        for command in kind.commands:
+            names = {name.rpartition(".")[2] for name in kind.design_class(command).quantity_names()}
+            assert [alias for alias, name in ALIASES.items() if {alias, name} <= names] == []
+    assert fixed_name("crank_idler.dimension_over_balls", ("crank_idler.measure_over_balls",)) == (
+        "crank_idler.measure_over_balls"
+    )
+    assert fixed_name("no_such", ("crank_length",)) == "no_such"
+
+
+@pytest.mark.parametrize(
+    ("command", "name", "alias", "fixed"),
+    [
+        ("cam", "ty460", "prime_radius", "cam_base_radius"),
+        ("gear", "gear_pair", "dimension_over_balls", "measure_over_balls"),
+        ("gear", "candy_feed", "crank_idler.base_tangent_length", "crank_idler.span_measurement"),
+        ("gripper", "swing_gripper", "output_speed_max", "output_velocity_max"),
+    ],
+)
+def test_quantity_takes_either_name(
+    gearlink: Any, designs: Path, command: str, name: str, alias: str, fixed: str
+) -> None:
+    path = designs / f"{name}.yaml"
+    by_alias, by_name = (gearlink(command, path, "--quantity", each) for each in (alias, fixed))
+    assert (by_alias.status, by_alias.out, by_alias.err) == (0, by_name.out, by_name.err)
+    assert list(gearlink(command, path, "--quantity", alias, "-f", "json").json["quantities"]) == [fixed]
+
+
+def test_explain_lists_the_aliases(gearlink: Any) -> None:
+    topics = gearlink("explain", "prime_radius", "--format", "json").json["topics"]
+    assert {(topic["about"], topic["name"]) for topic in topics} == {
+        ("term", "prime circle"), ("quantity", "prime_radius"), ("quantity", "cam_base_radius"),
+        ("key", "cam.base_radius"), ("key", "cam.prime_radius"),
+    }  # fmt: skip
+    assert {topic["alias"] for topic in topics if "alias" in topic} == {"prime_radius"}
+    assert gearlink("explain", "tip_alteration").status == 0
