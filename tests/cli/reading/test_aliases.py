@@ -23,6 +23,7 @@ from gearlink.core.base.nomenclature import ALIASES, TERMS, fixed_name
 
 CASES = [(kind.name, key.path, term) for kind in FILES.values() for key in spec_keys(kind) for term in key.also]
 VALUES = {"tip_shortening": "none", "run_out": 0.01, "handover_place": 0.02}
+RACKS = {"module": 5, "fixed": 50, "moving": 50}
 """Of keys that the worked designs leave out."""
 
 
@@ -38,7 +39,7 @@ def written(kind: str, path: str, *names: str) -> dict[str, Any]:
     *sections, last = path.split(".")
     inner = data
     for step in sections:
-        inner = inner.setdefault(step, {})
+        inner = inner.setdefault(step, dict(RACKS) if step == "racks" else {})
     value = inner.pop(last, VALUES.get(last))
     inner.update(dict.fromkeys(names, value))
     return data
@@ -62,6 +63,7 @@ def test_the_keys_with_aliases() -> None:
         ("tip_shortening", "tip_alteration"),
         ("gears.tip_shortening", "tip_alteration"),
         ("input_gears.tip_shortening", "tip_alteration"),
+        ("racks.tip_shortening", "tip_alteration"),
         ("limits.handover_place", "handover_position"),
         ("errors.run_out", "runout"),
     }
