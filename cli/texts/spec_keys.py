@@ -53,9 +53,9 @@ def spec_keys(kind: Kind) -> list[SpecKey]:
     found: dict[str, SpecKey] = {}
     for key in _keys(schema, schema["definitions"], ""):
         before = found.setdefault(key.path, key)
-        if key.range not in before.range.split(" or "):  # `type` of a section that has several
-            either = f"{before.range} or {key.range}" if before.range and key.range else ""
-            found[key.path] = replace(before, range=either)
+        if key.range != before.range:  # `type` of a section that has several
+            either = [*before.range.split(" or "), *key.range.split(" or ")] if before.range and key.range else []
+            found[key.path] = replace(before, range=" or ".join(dict.fromkeys(either)))
     return list(found.values())
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from gearlink.core.base.term import Term
 
 GEAR_PAIR = {
-    "working_pressure_angle": Term("alpha_wt", "deg", "working pressure angle", "ISO 21771"),
-    "center_distance": Term("a_w", "mm", "centre distance", "ISO 21771"),
+    "working_pressure_angle": Term(
+        "alpha_wt", "deg", "angle between line of action and common tangent of the pitch circles", "ISO 21771"
+    ),
+    "center_distance": Term("a_w", "mm", "distance between the axes of both gears as they run", "ISO 21771"),
     "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
     "shift_sum": Term("x1+x2", "1", "sum of the profile shift coefficients", "ISO 21771"),
     "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
@@ -14,33 +16,43 @@ GEAR_PAIR = {
     "contact_ratio": Term("eps_alpha", "1", "transverse contact ratio (nominal)", "ISO 21771"),
     "profile_shift": Term("x", "1", "profile shift coefficient", "ISO 21771"),
     "reference_radius": Term("r", "mm", "reference radius m z/2", "ISO 21771"),
-    "base_radius": Term("r_b", "mm", "base radius", "ISO 21771"),
+    "base_radius": Term(
+        "r_b",
+        "mm",
+        "base circle of involutes or of a flat-faced cam",
+        "ISO 21771",
+    ),
     "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
-    "tip_radius": Term("r_a", "mm", "tip radius", "ISO 21771"),
-    "root_radius": Term("r_f", "mm", "root radius", "ISO 21771"),
+    "tip_radius": Term("r_a", "mm", "radius of the circle that bounds the teeth at their tips", "ISO 21771"),
+    "root_radius": Term("r_f", "mm", "radius of the circle through the bottoms of the tooth spaces", "ISO 21771"),
     "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle (normal section)", "ISO 21771"),
-    "tip_pressure_angle": Term("alpha_a", "deg", "pressure angle at the tip", "ISO 21771"),
+    "tip_pressure_angle": Term("alpha_a", "deg", "angle between flank and radius at the tip circle", "ISO 21771"),
     "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
     "min_shift_no_undercut": Term("x_min", "1", "least shift without undercut (rack tool)", "ISO 21771"),
     "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
     "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
     "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),
-    "transverse_pressure_angle": Term("alpha_t", "deg", "transverse pressure angle", "ISO 21771"),
+    "transverse_pressure_angle": Term(
+        "alpha_t",
+        "deg",
+        "angle between flank and radius on the reference circle, in the plane of rotation",
+        "ISO 21771",
+    ),
     "base_helix_angle": Term("beta_b", "deg", "helix angle on the base circle", "ISO 21771"),
-    "overlap_ratio": Term("eps_beta", "1", "overlap ratio", "ISO 21771"),
-    "total_contact_ratio": Term("eps_gamma", "1", "total contact ratio", "ISO 21771"),
+    "overlap_ratio": Term("eps_beta", "1", "face width over the axial pitch of helical teeth", "ISO 21771"),
+    "total_contact_ratio": Term("eps_gamma", "1", "transverse contact ratio plus overlap ratio", "ISO 21771"),
     "usable_contact_ratio": Term("eps_use", "1", "transverse contact ratio over what the tools leave of the involutes"),
     "path_of_contact": Term("g_alpha", "mm", "length of the path of contact", "ISO 21771"),
     "form_radius": Term("r_Ff", "mm", "root form radius, where the flank ends", "ISO 21771"),
     "used_root_radius": Term("r_Nf", "mm", "radius at which contact reaches the root (nominal)", "ISO 21771"),
     "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mate's root", "ISO 21771"),
-    "specific_sliding_tip": Term("zeta_a", "1", "specific sliding at the tip", "ISO 21771"),
+    "specific_sliding_tip": Term("zeta_a", "1", "sliding over rolling velocity of the flank at the tip", "ISO 21771"),
     "sliding_factor": Term("K_g", "1", "sliding over pitch line speed, at A and at E", "ISO 21771"),
     "pin_diameter": Term("D_M", "mm", "measuring ball or pin", "DIN 21773"),
     "measure_over_balls": Term("M_dK", "mm", "measure over two balls, of a ring between them", "DIN 21773"),
     "measure_over_pins": Term("M_dR", "mm", "measure over two pins, of a ring between them", "DIN 21773"),
     "chordal_thickness": Term("s_c", "mm", "chordal tooth thickness on the reference circle", "DIN 21773"),
-    "chordal_height": Term("h_c", "mm", "height of that chord below the tip", "DIN 21773"),
+    "chordal_height": Term("h_c", "mm", "height of the chord of the tooth thickness below the tip", "DIN 21773"),
     "generating_shift": Term("x_E", "1", "generating shift of each gear, least and greatest", "DIN 3960"),
     "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, least and greatest"),
     "measure_limits": Term("M_dK min, max", "mm", "measure over balls of each gear, least and greatest"),
@@ -51,9 +63,13 @@ GEAR_PAIR = {
         "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; least and greatest"
     ),
     "tangential_force": Term("F_t", "N", "force on the reference circle", "ISO 6336-1"),
-    "zone_factor": Term("Z_H", "1", "zone factor", "ISO 6336-2"),
+    "zone_factor": Term(
+        "Z_H", "1", "influence of the flanks' curvature at the pitch point on the contact stress", "ISO 6336-2"
+    ),
     "elasticity_factor": Term("Z_E", "1", "elasticity factor, in sqrt(N/mm^2)", "ISO 6336-2"),
-    "contact_ratio_factor": Term("Z_eps", "1", "contact ratio factor", "ISO 6336-2"),
+    "contact_ratio_factor": Term(
+        "Z_eps", "1", "influence of contact and overlap ratio on the contact stress", "ISO 6336-2"
+    ),
     "helix_angle_factor_contact": Term(
         "Z_beta", "1", "helix angle factor of the flank, 1/sqrt(cos beta)", "ISO 6336-2"
     ),
@@ -68,8 +84,10 @@ GEAR_PAIR = {
     "root_chord": Term("s_Fn", "mm", "thickness of the root section", "ISO 6336-3"),
     "bending_moment_arm": Term("h_Fe", "mm", "lever of the load above the root section", "ISO 6336-3"),
     "root_fillet_radius": Term("rho_F", "mm", "radius of the fillet at the root section", "ISO 6336-3"),
-    "form_factor": Term("Y_F", "1", "form factor", "ISO 6336-3"),
-    "stress_correction_factor": Term("Y_S", "1", "stress correction factor", "ISO 6336-3"),
+    "form_factor": Term("Y_F", "1", "influence of the tooth's shape on the nominal root stress", "ISO 6336-3"),
+    "stress_correction_factor": Term(
+        "Y_S", "1", "influence of the root fillet as a notch on the root stress", "ISO 6336-3"
+    ),
     "helix_angle_factor_bending": Term("Y_beta", "1", "helix angle factor of the root", "ISO 6336-3"),
     "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3, IACS UR M56"),
     "deep_tooth_factor": Term("Y_DT", "1", "deep tooth factor of accurate gears", "ISO 6336-3, IACS UR M56"),
@@ -81,7 +99,7 @@ GEAR_PAIR = {
     "contact_ratio_factor_bending": Term(
         "Y_eps", "1", "contact ratio factor of method C, with Y_Fa and Y_Sa alone", "ISO 6336-3:1996"
     ),
-    "nominal_root_stress": Term("sigma_F0", "N/mm^2", "nominal root stress", "ISO 6336-3"),
+    "nominal_root_stress": Term("sigma_F0", "N/mm^2", "root stress without K factors", "ISO 6336-3"),
     "root_stress": Term(
         "sigma_F", "N/mm^2", "root stress; K factors computed with rating, else 1 unless given", "ISO 6336-3"
     ),
@@ -113,10 +131,10 @@ GEAR_PAIR = {
     "bending_limit": Term(
         "sigma_Flim", "N/mm^2", "nominal bending stress number, given or of the material", "ISO 6336-5"
     ),
-    "lubricant_factor": Term("Z_L", "1", "lubricant factor", "ISO 6336-2"),
-    "velocity_factor": Term("Z_V", "1", "velocity factor", "ISO 6336-2"),
-    "roughness_factor": Term("Z_R", "1", "roughness factor", "ISO 6336-2"),
-    "work_hardening_factor": Term("Z_W", "1", "work hardening factor", "ISO 6336-2"),
+    "lubricant_factor": Term("Z_L", "1", "influence of the oil's viscosity on the pitting limit", "ISO 6336-2"),
+    "velocity_factor": Term("Z_V", "1", "influence of the pitch line speed on the pitting limit", "ISO 6336-2"),
+    "roughness_factor": Term("Z_R", "1", "influence of the flanks' roughness on the pitting limit", "ISO 6336-2"),
+    "work_hardening_factor": Term("Z_W", "1", "influence of a harder mating gear on the pitting limit", "ISO 6336-2"),
     "size_factor_contact": Term("Z_X", "1", "size factor of the flank", "ISO 6336-2"),
     "life_factor_contact": Term("Z_NT", "1", "life factor of the flank at N_L", "ISO 6336-2"),
     "pitting_limit_stress": Term("sigma_HG", "N/mm^2", "pitting stress limit at N_L", "ISO 6336-2"),
@@ -155,6 +173,6 @@ GEAR_PAIR = {
     ),
     "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
     "radial_assembly_margin": Term(
-        "s_rad", "mm", "room for a pinion that goes into its ring along the line of centres"
+        "s_rad", "mm", "clearance of a pinion on its way into the ring along the line of centres"
     ),
 }

@@ -70,5 +70,5 @@ SHAPED_LAWS = {
         "", "1", "no law of the degree that keeps the limits lies below: duals of the linear programme"
     ),
     "lower_bound_all_laws": Term("", "1", "no law of any form that keeps the limits lies below: closed form"),
-    "gap": Term("", "1", "what was minimized over its lower bound, less 1"),
+    "gap": Term("", "1", "relative excess of the minimized value over its lower bound"),
 }

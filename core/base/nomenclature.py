@@ -25,7 +25,12 @@ _SLIDER_CRANK = {
     "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
     "dead_center_extended_at": Term("270 deg - theta_e", "deg", "input angle of the stretched dead centre"),
     "dead_center_folded_at": Term("90 deg - theta_f", "deg", "input angle of the folded dead centre"),
-    "offset": Term("e", "mm", "offset of the line of travel", "VDI 2142"),
+    "offset": Term(
+        "e",
+        "mm",
+        "distance of the line of travel from the axis of crank or cam; of a cam positive where it passes on the right",
+        "VDI 2142",
+    ),
     "max_stroke": Term("S_max", "mm", "largest stroke of this rod and offset, 2 sqrt(L(L-|e|))", "own derivation"),
 }
 
@@ -41,7 +46,7 @@ _PRESS = {
     "cam_base_radius": Term("r_b", "mm", "cam axis to roller centre at zero lift, given or chosen by size"),
     "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, repaired"),
     "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),
-    "follower_stroke": Term("h", "mm", "stroke of the follower", "TY-460 report 3.3"),
+    "follower_stroke": Term("h", "mm", "largest less smallest lift over a turn", "TY-460 report 3.3"),
     "return_end": Term("theta_r", "deg", "cam angle at which the return ends"),
     "roller_center_distance": Term("L_s1s2", "mm", "distance of the two roller centres", "TY-460 report 3.6"),
 }
@@ -65,7 +70,11 @@ _CAM = {
 
 _DISC_CAM = {
     "prime_radius": Term("r_p", "mm", "cam axis to roller centre at lift 0, given or the least", "VDI 2142"),
-    "offset": Term("e", "mm", "how far the line of travel passes the cam axis on its right"),
+    "offset": Term(
+        "e",
+        "mm",
+        "distance of the line of travel from the axis of crank or cam; of a cam positive where it passes on the right",
+    ),
     "start_angle": Term("Psi_0", "deg", "angle of the follower from the line pivot to cam axis at lift 0"),
     "lift_max": Term("s_max", "mm", "greatest lift (oscillating: deg)", "VDI 2143"),
     "lift_max_at": Term("", "deg", "cam angle of the greatest lift"),
@@ -122,8 +131,8 @@ _SWING = {
     "phase_angle": Term("Phi", "deg", "phase angle of the run-up on the cam", "dissertation (21), (22), (25)"),
     "start_curvature_radius": Term("R0", "mm", "pitch curvature radius at the start", "dissertation (23), exact"),
     "iteration_energy_parameter": Term("N_it", "1", "N by the source's own iteration", "dissertation fig. 4"),
-    "iteration_passes": Term("", "1", "passes of that iteration"),
-    "iteration_error": Term("N_it/N - 1", "1", "relative error of that iteration"),
+    "iteration_passes": Term("", "1", "passes of the source's own iteration"),
+    "iteration_error": Term("N_it/N - 1", "1", "relative error of the energy parameter by the source's own iteration"),
     "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
     "largest_profile_correction": Term("xi_max", "deg", "largest angular correction of the stroke", "own derivation"),
     "start_radius_estimate": Term("R0*", "mm", "the source's estimate of R0", "dissertation (23)"),
@@ -131,7 +140,9 @@ _SWING = {
     "contact_end": Term("k_c", "1", "fraction of the stroke at which the roller leaves the profile", "own derivation"),
     "contact_force": Term("F", "N", "greatest force of a roller on its cam at the design speed", "own derivation"),
     "line_of_centers_place": Term("k*", "1", "fraction of the stroke at which the roller passes the line of centres"),
-    "roller_arm_offset": Term("phi*", "deg", "rocker angle from mid-swing at which it does so", "own derivation"),
+    "roller_arm_offset": Term(
+        "phi*", "deg", "rocker angle from mid-swing at which the roller passes the line of centres", "own derivation"
+    ),
     "dwell_force": Term("F_d", "N", "greatest force of a roller on its cam during the rests", "own derivation"),
     "sectors_external": Term(
         "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"
@@ -149,7 +160,9 @@ _SWING = {
     ),
     "structural_error": Term("", "deg", "greatest error of the function over its interval", "own derivation"),
     "structural_error_at": Term("", "deg", "input angles at which the error of the function is greatest"),
-    "error_extremes": Term("", "1", "alternating extremes of that size; the best five-bars have eight"),
+    "error_extremes": Term(
+        "", "1", "alternating extremes of the structural error, all of one size; the best five-bars have eight"
+    ),
     "function_start": Term("phi0", "deg", "input angle at which the function starts", "own derivation"),
     "output_zero": Term("psi0", "deg", "output angle at which the function starts", "own derivation"),
     "starts_tried": Term("", "1", "starts that the search went through in its budget"),
@@ -174,32 +187,32 @@ _MOBILITY = {
     "linkage_mobility": Term("F0", "1", "degrees of freedom of the linkage alone", "thesis 2.1"),
     "train_count": Term("", "1", "gear trains"),
     "fixed_ends": Term("R", "1", "end gears fixed to a link, per train", "thesis 2.1"),
-    "mobility_changes": Term("dF", "1", "what each train adds, 1 - R", "thesis 2.1"),
+    "mobility_changes": Term("dF", "1", "degrees of freedom added by each train, 1 - R", "thesis 2.1"),
     "mobility": Term("F", "1", "degrees of freedom of the whole", "thesis 2.1"),
 }
 
 _MUTILATED = {
     "reduction": Term("i_r", "1", "input turns per turn of the mutilated wheel"),
     "full_teeth": Term("Z_M", "1", "teeth for which the mutilated wheel has room"),
-    "group_teeth": Term("n", "1", "teeth in a group"),
+    "group_teeth": Term("n", "1", "neighbouring teeth of the mutilated wheel between two gaps"),
     "driven_teeth": Term("Z_F", "1", "teeth of the driven gear"),
     "stops": Term("", "1", "locking arcs round the driven gear"),
     "cycle_turns": Term("i_r/g", "1", "input turns per output cycle", "own derivation"),
     "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
-    "dwell_turns": Term("", "1", "input turns while it stands", "own derivation"),
+    "dwell_turns": Term("", "1", "input turns during which the driven gear stands", "own derivation"),
     "motion_share": Term("n g/Z_M", "1", "share of the cycle in motion", "own derivation"),
     "dwell_share": Term("1 - n g/Z_M", "1", "share of the cycle at rest", "own derivation"),
     "driven_turn": Term("n/Z_F", "1", "turns of the driven gear per group of teeth", "own derivation"),
     "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),
     "cycles_to_repeat": Term("", "1", "cycles until the driven gear stands at the same place again"),
     "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
-    "rocker_swing": Term("", "deg", "swing of the rocker"),
+    "rocker_swing": Term("", "deg", "angle between the limit positions of the rocker"),
     "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the hardest start"),
     "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
 }
 
 _PLANET_LINKAGE = {
-    "planet_teeth": Term("z2", "1", "teeth of the planet"),
+    "planet_teeth": Term("z2", "1", "teeth of the gear that rolls on the central one"),
     "coupler_gear_teeth": Term("z2", "1", "teeth of the gear fixed to the coupler"),
     "gear_ratio": Term("i", "1", "-z2/z5 for an external mesh, z2/z5 in a ring gear", "thesis 2.2.1"),
     "linkage_kind": Term("", "1", "class of the linkage by Grashof's rule"),
@@ -258,7 +271,7 @@ _FIVE_BAR = {
     "phase_step": Term("360/z4", "deg", "step in which the phase can be set a tooth on"),
     "path_deviation_rms": Term("", "mm", "root mean square of the distances of the table deviations"),
     "path_deviation_max": Term("", "mm", "greatest distance of the table deviations"),
-    "position_errors": Term("", "deg", "output angle reached less that asked for, at each position"),
+    "position_errors": Term("", "deg", "output angle reached less the one asked for, at each position"),
 }
 
 _STUDY = {
@@ -268,7 +281,7 @@ _STUDY = {
     "front_size": Term("", "1", "designs that no other one dominates, equal ones all counted"),
     "kept": Term("", "1", "boxes of the resolution that hold the front, one design each"),
     "shown": Term("", "1", "kept designs that a terminal shows, at most 50"),
-    "exhaustive": Term("", "1", "whether all designs were computed, so that the front is exact"),
+    "exhaustive": Term("", "1", "true where all designs were computed, so that the front is exact"),
     "knee": Term("", "1", "index of the kept design with the least sum of objectives, each scaled from 0 to 1"),
 }
 
@@ -290,7 +303,7 @@ _REGISTER = {
     ),
     "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
     "band": Term("", "mm", "register error to either side that 99.73 % keep, for torque sign +1 and -1"),
-    "dead_band": Term("", "mm", "how far the output jumps where its torque turns: backlash of the meshes"),
+    "dead_band": Term("", "mm", "jump of the output where its torque turns: backlash of the meshes"),
     "flips": Term("", "deg", "input angles at which the torque on the output turns"),
 }
 
@@ -301,7 +314,7 @@ _LOADS = {
     "input_torque_max_at": Term("phi_max", "deg", "input angle of the greatest input torque"),
     "input_torque_min": Term("M_min", "N m", "least input torque", "virtual power"),
     "input_torque_min_at": Term("phi_min", "deg", "input angle of the least input torque"),
-    "input_power_mean": Term("P_m", "W", "mean input power"),
+    "input_power_mean": Term("P_m", "W", "input power averaged over the period"),
     "input_power_peak": Term("P_max", "W", "greatest input power"),
     "reflected_inertia_min": Term("J_min", "kg m^2", "least inertia of all links as the input feels it"),
     "reflected_inertia_max": Term("J_max", "kg m^2", "greatest inertia of all links as the input feels it"),
@@ -313,7 +326,7 @@ _LOADS = {
     "flywheel_inertia": Term("J_F", "kg m^2", "flywheel at the input for the allowed fluctuation of its speed"),
     "speed_min": Term("n_min", "1/min", "least speed of the input with its flywheel or motor"),
     "speed_max": Term("n_max", "1/min", "greatest speed of the input with its flywheel or motor"),
-    "speed_fluctuation": Term("delta", "1", "(greatest - least)/mean speed of the input, the mean of these two"),
+    "speed_fluctuation": Term("delta", "1", "(maximum - minimum)/mean speed of the input, the mean half their sum"),
     "motor_torque_rms": Term("M_mot", "N m", "root mean square over the time of the motor's torque"),
     "motor_torque_peak": Term("M_mot,max", "N m", "greatest torque of the motor; negative where the load drives it"),
     "shaking_force_max": Term("F_s", "N", "greatest force of the moving masses on the frame"),
@@ -324,9 +337,13 @@ _LOADS = {
     "life": Term("L_10", "h", "basic rating life of a pin's bearing", "ISO 281"),
     "bearing_pressure": Term("p", "N/mm^2", "greatest pressure of a pin's plain bearing, F/(b d)"),
     "counterweight_crank": Term("U_1", "kg mm", "mass moment of the counterweight on the crank"),
-    "counterweight_crank_direction": Term("arg U_1", "deg", "its direction in the crank's coordinates"),
+    "counterweight_crank_direction": Term(
+        "arg U_1", "deg", "direction of the crank's counterweight in the crank's coordinates"
+    ),
     "counterweight_rocker": Term("U_3", "kg mm", "mass moment of the counterweight on the rocker"),
-    "counterweight_rocker_direction": Term("arg U_3", "deg", "its direction in the rocker's coordinates"),
+    "counterweight_rocker_direction": Term(
+        "arg U_3", "deg", "direction of the rocker's counterweight in the rocker's coordinates"
+    ),
     "balanced_force_max": Term("F_s,bal", "N", "greatest shaking force with the counterweights"),
     "contact_force_max": Term("N_max", "N", "greatest force between roller and cam, or pin and slot"),
     "contact_force_min": Term("N_min", "N", "least force between roller and cam"),
@@ -344,15 +361,15 @@ _LOADS = {
     "frequency_ratio": Term("f_n/f", "1", "natural frequency of the output over the frequency of the input"),
     "rise_periods": Term("n_T", "1", "natural periods in the shortest motion between two dwells", "T_1 f_n"),
     "residual_amplitude": Term("A", "deg", "vibration that a motion leaves in the dwell after it"),
-    "residual_speed_limit": Term("n_A", "1/min", "least speed at which that passes what is allowed"),
+    "residual_speed_limit": Term("n_A", "1/min", "lowest speed at which the residual vibration passes what is allowed"),
     "dwell_twist": Term("z_max", "deg", "greatest deflection of the output in its dwells, steady state"),
     "twisted_ripple": Term("D_z", "deg", "range of the output with its deflection in a dwell"),
     "tooth_force_max": Term("F_t", "N", "greatest tangential force of a mesh"),
     "reversals": Term("", "1", "changes of flank of a mesh over the period"),
     "axial_force_max": Term("F_a", "N", "greatest axial force of helical teeth, F_t tan(beta_w)"),
-    "tilting_moment_max": Term("M_t", "N m", "greatest moment F_a r_w of it on gear 1 and gear 2"),
+    "tilting_moment_max": Term("M_t", "N m", "greatest moment F_a r_w of the axial force on gear 1 and gear 2"),
     "engagement_energy": Term("E", "J", "energy that the hardest start of a mutilated gear's motion costs"),
-    "massless": Term("", "1", "links that count as without mass and inertia, since the file gives none"),
+    "massless": Term("", "1", "links without mass and inertia in the file, counted as having none"),
     "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
 }
 

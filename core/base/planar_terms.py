@@ -6,7 +6,7 @@ from gearlink.core.base.term import Term
 
 PLANAR: dict[str, Term] = {
     "degrees_of_freedom": Term("F", "1", "degrees of freedom, 3 n - 2 (pins + slides) - slots - meshes", "Gruebler"),
-    "grashof": Term("", "1", "what the four-bars of the driven link are by Grashof's rule", "VDI 2145"),
+    "grashof": Term("", "1", "class of the four-bars of the driven link by Grashof's rule", "VDI 2145"),
     "free_range": Term("", "deg", "inputs from dead centre to dead centre, between which the range lies"),
     "closure_error": Term("", "mm", "greatest gap of a joint over the rows"),
     "swing": Term("", "deg", "greatest less least direction of the link"),

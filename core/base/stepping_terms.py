@@ -12,11 +12,11 @@ GENEVA = {
     "motion_angle": Term("2 f_0", "deg", "input angle of a step", "own derivation: 180 deg - s 360 deg/n"),
     "locking_angle": Term("", "deg", "input angle between two steps, in which the wheel stands"),
     "entry_acceleration_ratio": Term("tan(pi/n)", "1", "jump of the acceleration ratio at entry and exit"),
-    "steps_per_minute": Term("", "1/min", "steps in a minute", "thesis 4.2.1"),
+    "steps_per_minute": Term("", "1/min", "steps of the wheel in a minute: input speed times pins", "thesis 4.2.1"),
     "contact_force_max_at": Term("", "deg", "input angle of the greatest contact force"),
 }
 REDUCER = {
-    "ratio": Term("i", "1", "speed of the input over that of the output, signed", "thesis 2.2.2 II"),
+    "ratio": Term("i", "1", "input speed over output speed, signed", "thesis 2.2.2 II"),
     "lobes": Term("z", "1", "lobes of the disc, one less than pins", "thesis 2.2.2 II"),
     "shortening": Term("K", "1", "shortening coefficient e Z/R", "own derivation"),
     "pressure_angle_min": Term("", "deg", "least pressure angle at the pins that push, eccentric at 0"),
@@ -32,8 +32,8 @@ RACKS = {
     "stroke_ratio": Term("1 +- z_m/z_f", "1", "stroke of the rack over the rod end's, signed", "thesis 2.2.2 III"),
     "output_stroke": Term("S_R", "mm", "stroke of the moving rack", "thesis 2.2.2 III"),
     "pinion_turns": Term("", "1", "turns of the pinion in a stroke"),
-    "fixed_rack_travel": Term("", "mm", "how far the pinion rolls on the fixed rack"),
-    "moving_rack_travel": Term("", "mm", "how far the pinion rolls on the moving rack"),
+    "fixed_rack_travel": Term("", "mm", "distance that the pinion rolls on the fixed rack"),
+    "moving_rack_travel": Term("", "mm", "distance that the pinion rolls on the moving rack"),
     "fixed_rack_length": Term("", "mm", "least length of the fixed rack: travel and path of contact"),
     "moving_rack_length": Term("", "mm", "least length of the moving rack: travel and path of contact"),
 }

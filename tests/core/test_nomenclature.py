@@ -225,3 +225,25 @@ def test_every_check_and_table_of_an_outline_exists(name):
 
 def test_every_kind_can_be_analysed():
     assert all("analyze" in kind.commands for kind in KINDS.values())
+
+
+# Words that say something of themselves
+
+_FILLERS = {"of", "the", "a", "an", "on", "in", "per", "and", "to", "at", "for", "by", "s", "with"}
+_POINTING = r"(it|its|that|this|these|those|they|their|which|what|how|where|when|whether|to)\b"
+_AS_ABOVE = r"\bthat (interval|iteration|size|chord|dyad|mesh|circle|passes)\b|\bat which (it|that)\b|does so|\bof it\b"
+
+
+def _parts(text: str) -> set[str]:
+    """The words of a text, plurals as one, spelled as names are."""
+    words = re.findall(r"[a-z]+", text.lower().replace("centre", "center"))
+    return {word.removesuffix("s") if len(word) > 3 else word for word in words} - _FILLERS
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_a_term_needs_neither_its_name_nor_its_neighbour(name: str) -> None:
+    """It says more than its name, and speaks of nothing that stands above it in a table."""
+    words = TERMS[name].words
+    assert not _parts(words) <= _parts(name)
+    assert re.match(_POINTING, words) is None
+    assert re.search(_AS_ABOVE, words) is None
