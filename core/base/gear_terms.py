@@ -19,7 +19,7 @@ GEAR_PAIR = {
     "base_radius": Term(
         "r_b",
         "mm",
-        "base circle of involutes or of a flat-faced cam",
+        "radius of the base circle, of involutes or of a flat-faced cam",
         "ISO 21771",
     ),
     "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),

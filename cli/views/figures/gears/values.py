@@ -36,6 +36,11 @@ _OF_GEAR = (
     "specific_sliding",
 )
 _WORDS = {
+    "center_distance": "centre distance",
+    "working_pressure_angle": "working pressure angle",
+    "base_radius": "base radius",
+    "tip_radius": "tip radius",
+    "root_radius": "root radius",
     "reference_radius": "reference radius",
     "tooth_thickness": "thickness, reference circle",
     "working_radius": "working pitch radius",
