@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from gearlink.cli.reading.design_file import load, read_kind, validate
+from gearlink.cli.reading.design_file import fixed_path, has_term, load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.reading.places import ENDINGS, base_path
@@ -49,7 +49,20 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
                 [loaded.report("GL156", message, ("design", "of"), key="design.of", help=remedy)]
             ) from None
         raise DesignFileError([_of_base(d, where, below) for d in error.diagnostics]) from None
-    return spec.model_copy(update={"design": base.data})
+    return spec.model_copy(update={"design": base.data, "variables": _variables(spec.variables, base)})
+
+
+def _variables(given: dict[str, Any], base: LoadedFile) -> dict[str, Any]:
+    """The variables of a study by the fixed names of the keys of its base design."""
+    model = KINDS[read_kind(base, tuple(KINDS))].spec_model()
+    found = {}
+    for path, each in given.items():
+        if each.times is not None and has_term(each.times):
+            each = each.model_copy(update={"times": fixed_path(each.times, model, base.data)})
+        if any(map(has_term, each.also)):
+            each = each.model_copy(update={"also": [fixed_path(name, model, base.data) for name in each.also]})
+        found[fixed_path(path, model, base.data)] = each
+    return found
 
 
 def _of_base(wrong: Diagnostic, where: str, below: str) -> Diagnostic:

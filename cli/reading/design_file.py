@@ -180,7 +180,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     if section := getattr(model, "section_of_members", ""):
         found_there, faulty = _read_members(loaded, section)
         wrong += found_there
-    if textual := _starts_with_a_number(loaded.data):
+    if renamed := _starts_with_a_number(loaded.data) or _scatters_by_terms(loaded.data):
         from gearlink.cli.reading.units import convert
 
         wrong += _with_fixed_names(loaded, model, _ROOT)
@@ -194,7 +194,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         spec = model.model_validate_json(json.dumps(loaded.data))
     except ValidationError as error:
         before = loaded.data
-        doubled = [] if textual else _with_fixed_names(loaded, model, _ROOT)
+        doubled = [] if renamed else _with_fixed_names(loaded, model, _ROOT)
         if loaded.data is not before:
             loaded.problems += doubled
             return validate(loaded, model)
@@ -332,11 +332,55 @@ def _with_fixed_names(loaded: LoadedFile, model: type[BaseModel], section: KeyPa
                 loaded.drop(section, alias)
                 continue
         loaded.rename(section, alias, name)
+    if section == _SOURCES and isinstance(node, dict):
+        _name_sources(loaded, model)
     node = part_of(loaded.data, section)
     for step, inner in node.items() if isinstance(node, dict) else enumerate(node):
         if isinstance(inner, (dict, list)) and not (inner and isinstance(inner, list) and _plain(inner[0])):
             wrong += _with_fixed_names(loaded, model, (*section, step))
     return wrong
+
+
+_SOURCES = ("tolerance", "sources")
+
+
+def _scatters_by_terms(data: dict[str, Any]) -> bool:
+    """Whether a source of the tolerances is named by the path of a key that has a standard term in it."""
+    try:
+        return any(has_term(path) for path in data["tolerance"]["sources"])
+    except (LookupError, TypeError):
+        return False
+
+
+def has_term(path: str) -> bool:
+    """Whether a path may name a key by its standard term."""
+    from gearlink.core.base.spec import STANDARD_TERMS
+
+    return not STANDARD_TERMS.isdisjoint(path.replace("[", ".").split("."))
+
+
+def _name_sources(loaded: LoadedFile, model: type[BaseModel]) -> None:
+    """Give the sources of the tolerances, which are paths, the fixed names of their keys."""
+    paths = {path: fixed_path(path, model, loaded.data) for path in part_of(loaded.data, _SOURCES)}
+    for path, fixed in paths.items():
+        if path != fixed and fixed not in paths:
+            loaded.rename(_SOURCES, path, fixed)
+    groups = loaded.data["tolerance"].get("correlated")
+    for i, group in enumerate(groups if isinstance(groups, list) else ()):
+        names = group.get("sources") if isinstance(group, dict) else None
+        if isinstance(names, list):
+            fixed_names = [paths.get(name, name) if isinstance(name, str) else name for name in names]
+            loaded.data = _with(loaded.data, ("tolerance", "correlated", i, "sources"), fixed_names, "")
+
+
+def fixed_path(path: str, model: type[BaseModel], data: Any) -> str:
+    """The path of a key by its fixed names, of one that has standard terms in it."""
+    from gearlink.cli.reading.model_shapes import aliases_at
+
+    steps = list(parse_path(path) or ()) if has_term(path) else []
+    for i, step in enumerate(steps):
+        steps[i] = aliases_at(model, tuple(steps[:i]), data).get(str(step), step)
+    return format_path(tuple(steps)) if steps else path
 
 
 def _plain(value: Any) -> bool:

@@ -19,8 +19,13 @@ class Spec(BaseModel):
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
+STANDARD_TERMS: set[str] = set()
+"""Every term that `also` names, of the models that are imported."""
+
+
 def also(*names: str) -> dict[str, Any]:
     """For `json_schema_extra` of a key: the standard terms that files may write in place of its name."""
+    STANDARD_TERMS.update(names)
     return {"also": list(names)}
 
 

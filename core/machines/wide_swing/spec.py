@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, Literal, LiteralString, NoReturn, TypeAlias
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
@@ -145,6 +145,10 @@ class SwingSlider(Spec):
     mass: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})] = Field(description="mass of the slider")
 
 
+def _fixed_stroke(stroke: str) -> str:
+    return "homeward" if stroke == "return" else stroke
+
+
 class SwingDrive(Spec):
     """A crank-rocker whose rocker carries the cam."""
 
@@ -153,8 +157,8 @@ class SwingDrive(Spec):
     rocker: Length = Field(description="rocker that carries the cam")
     frame: Length = Field(description="distance of the two pivots")
     assembly: Assembly = Field(1, description="+1: the coupler's end left of the vector from crank pin to rocker pivot")
-    stroke: Literal["outward", "homeward"] = Field(
-        "outward", description="outward: from the extended to the folded dead centre; homeward: back"
+    stroke: Annotated[Literal["outward", "homeward", "return"], AfterValidator(_fixed_stroke)] = Field(
+        "outward", description="outward: from the extended to the folded dead centre; homeward, or return: back"
     )
 
 

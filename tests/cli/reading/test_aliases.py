@@ -11,14 +11,16 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
+from factory import DESIGNS
 
+from gearlink.cli.evaluate import read_spec
 from gearlink.cli.glossary import meaning_in
 from gearlink.cli.reading.design_file import parse, validate, with_overrides
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.cli.texts.worked_designs import worked_design
-from gearlink.core.base.kinds import FILES
+from gearlink.core.base.kinds import FILES, STUDY
 from gearlink.core.base.nomenclature import ALIASES, TERMS, fixed_name
 
 CASES = [(kind.name, key.path, term) for kind in FILES.values() for key in spec_keys(kind) for term in key.also]
@@ -127,6 +129,32 @@ def test_a_source_has_a_distribution() -> None:
     assert read(data)[0].tolerance.sources["rod"].law == "uniform"
     data["tolerance"]["sources"]["rod"]["law"] = "normal"
     assert refused(data) == [("GL111", "tolerance.sources.rod.distribution")]
+
+
+def test_sources_and_variables_are_paths_of_keys() -> None:
+    """A source of the tolerances, what is correlated with it, and a variable of a study."""
+    data = copy.deepcopy(worked("flatbed-press"))
+    names = ["cam.prime_radius", "cam.roller_radius"]
+    data["tolerance"] = {
+        "sources": {name: {"plus_minus": 0.05} for name in names},
+        "correlated": [{"sources": names, "rho": 0.5}],
+    }
+    read_tolerance = read(data)[0].tolerance
+    assert list(read_tolerance.sources) == ["cam.base_radius", "cam.roller_radius"]
+    assert read_tolerance.correlated[0].sources == ["cam.base_radius", "cam.roller_radius"]
+    variables = {"cam.prime_radius": {"values": [65, 70]}, "cam.roller_radius": {"values": [20]}}
+    study = {"kind": "study", "design": worked("flatbed-press"), "variables": variables}
+    loaded = parse(json.dumps(study | {"minimize": {"max_radius": 1}}).encode(), "a.yaml")
+    assert list(read_spec(loaded, STUDY, "a.yaml").variables) == ["cam.base_radius", "cam.roller_radius"]
+
+
+def test_a_drive_may_return() -> None:
+    data = yaml.safe_load((DESIGNS / "wide_swing_oscillating_cam.yaml").read_text())
+    found = {}
+    for stroke in ("homeward", "return"):
+        data["drive"]["stroke"] = stroke
+        found[stroke] = read(data)[0]
+    assert found["return"] == found["homeward"]
 
 
 # Quantities
