@@ -236,8 +236,10 @@ class GearPairDesign(GearQuantities, Design):
 
     def table_root(self, _samples: int | None = None) -> Table:
         """Stress along the generated fillets."""
+        from gearlink.core.parts.gears.rating.true_root import root_table
+
         with at_key("rating"):
-            return self.data.root_table
+            return root_table(self.data)
 
     def table_path(self, samples: int | None = None) -> Table:
         """Sliding, pressure and root stress along the path of contact."""

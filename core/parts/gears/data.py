@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
     from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated
+    from gearlink.core.parts.gears.rating.true_root import TrueRoot
 
 Both = tuple[float | None, float | None]
 _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
@@ -293,6 +294,41 @@ class GearData:
         """S_F of gear 1 and 2."""
         return self.root.safety if self.rated is None else self.rated.safety_bending
 
+    @cached_property
+    def true_roots(self) -> tuple[TrueRoot | None, TrueRoot | None]:
+        """The roots as they are generated, for the boundary integral; None of one that is not known."""
+        from gearlink.core.parts.gears.rating.true_root import true_root
+
+        return true_root(self, 0), true_root(self, 1)
+
+    @property
+    def generated_root_factor(self) -> Both:
+        """Greatest tension on the generated fillet over F_t/(b m)."""
+        one, other = (None if root is None else root.tension.factor for root in self.true_roots)
+        return one, other
+
+    @property
+    def root_stress_scale(self) -> Pair:
+        """F_t/(b m) Y_beta K_A K_gamma K_v K_Fbeta K_Falpha of each gear [N/mm^2]; 0 without load or width."""
+        widths, turned = self.root.bearing_width, self.root.helix_angle_factor
+        if self.load is None or widths is None or turned is None:
+            return 0.0, 0.0
+        line = self.load.tangential_force(self.pair.reference_radius[0]) / self.pair.module * turned
+        line *= self.factors.bending
+        return line / widths[0], line / widths[1]
+
+    @property
+    def generated_root_stress(self) -> Both | None:
+        """The same with the load and all its factors [N/mm^2]; None without load or width."""
+        scale = self.root_stress_scale
+        if not any(scale):
+            return None
+        one, other = (
+            None if factor is None else factor * each
+            for factor, each in zip(self.generated_root_factor, scale, strict=True)
+        )
+        return one, other
+
     @property
     def measured(self) -> tuple[int, ...]:
         """The gears that balls measure."""
@@ -313,7 +349,7 @@ class GearData:
         if name in _LIVES and self.rated is not None:
             return getattr(self.rated, name)
         value: Any = self
-        for step in (PLACES.get(name) or name).split("."):
+        for step in PLACES.get(name, name).split("."):
             if value is None:
                 return None
             value = getattr(value, step)

@@ -20,6 +20,7 @@ from gearlink.core.parts.gears.codes import (
     INSPECTION,
     INTERFERENCE,
     TIP_FOULING,
+    TRUE_FILLET,
 )
 from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.distance_checks import distance_limits
@@ -137,7 +138,7 @@ def pair_check(
     Source
         ISO 21771 for the quantities
     """
-    if name in DRAWING_CHECKS:
+    if name in DRAWING_CHECKS or name == TRUE_FILLET.name:
         before = before_mesh(mesh)
         found = drawing_check(name, data, limits, radial=radial)
         return [replace(check, message=before + check.message) if before else check for check in found]

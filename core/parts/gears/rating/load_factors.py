@@ -343,7 +343,7 @@ class LoadFactors:
         if "face_bending" in self.given:
             return self.load.factors.face_bending
         height = self.bodies.height_ratio
-        return self.face_contact ** (1.0 / (1.0 + height + height * height))
+        return float(self.face_contact ** (1.0 / (1.0 + height + height * height)))
 
     # Transverse load factor
 

@@ -494,7 +494,7 @@ def static_notch(steel: GearSteel, stress_correction: float) -> float:
     if form == "none":
         return 1.0
     share = 0.82 * (300.0 / steel.yield_strength) ** 0.25
-    return (1.0 + share * (stress_correction - 1.0)) / (1.0 + share)
+    return float((1.0 + share * (stress_correction - 1.0)) / (1.0 + share))
 
 
 def surface_factor(form: str, roughness: float) -> float:

@@ -67,7 +67,7 @@ class Scuffing:
         slope = (doubled(given.viscosity_40) - doubled(given.viscosity_100)) / (hot - cold)
         at = doubled(given.viscosity_40) - slope * (math.log10(_KELVIN + given.oil_temperature) - cold)
         density = 0.89 - 0.0007 * (given.oil_temperature - 15.0)
-        return (10.0 ** (10.0**at) - 0.7) * density
+        return float((10.0 ** (10.0**at) - 0.7) * density)
 
     @cached_property
     def line_load(self) -> float:
@@ -124,7 +124,8 @@ class Scuffing:
         """X_BE at the pinion's tip."""
         one, other = self.tip_curvatures
         u = self._ratio
-        return 0.51 * math.sqrt(u + 1.0) * abs(math.sqrt(one) - math.sqrt(other / u)) / (one * other) ** 0.25
+        met = abs(math.sqrt(one) - math.sqrt(other / u)) / (one * other) ** 0.25
+        return float(0.51 * math.sqrt(u + 1.0) * met)
 
     @cached_property
     def addendum_contact_ratios(self) -> Pair:
@@ -159,7 +160,8 @@ class Scuffing:
         """theta_flaint, the mean flash temperature [K]."""
         hot = self.friction * self.thermal_flash_factor * self.geometry_factor
         hot *= (self.helical_factor * self.line_load) ** 0.75 * math.sqrt(self.speed)
-        return hot / abs(self._path.pair.center_distance) ** 0.25 * self.contact_ratio_factor / self.relief_factor
+        spread = abs(self._path.pair.center_distance) ** 0.25
+        return float(hot / spread * self.contact_ratio_factor / self.relief_factor)
 
     @cached_property
     def mass_temperature(self) -> float:

@@ -191,7 +191,9 @@ def _face(rated: Rated) -> Iterator[Line]:
         plain = given.shaft is None
         if given.misalignment is None:
             inputs = _said(
-                F_m_b=at.dynamic_load, b=rated.bodies.width, position=None if plain else given.shaft.position
+                F_m_b=at.dynamic_load,
+                b=rated.bodies.width,
+                position=None if given.shaft is None else given.shaft.position,
             )
             yield Line(
                 "f_sh",
