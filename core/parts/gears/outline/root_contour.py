@@ -1,8 +1,8 @@
 """The contour of one tooth with its rim, for the stress on its generated fillet.
 
-The virtual spur gear of module 1 in the normal section, its centre at the origin, the middle of the tooth on the y axis,
-tip up; a ring is mirrored so that its rim lies below the tooth as well. Neighbouring teeth are left out: the root circle
-goes on to 1.5 pitches beside the middle.
+The virtual spur gear of module 1 in the normal section, its centre at the origin, the middle of the tooth on the y
+axis, tip up; a ring is mirrored so that its rim lies below the tooth as well. Neighbouring teeth are left out: the root
+circle goes on to 1.5 pitches beside the middle.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ RIM = 5.0
 BESIDE = 1.5
 """Pitches from the middle of the tooth to where the root circle ends."""
 TIP_ROUNDING = 0.12
+_LEAST_ROUNDING = 0.005
 _MOST_OF_GEAR = 0.8
 """Of the root circle that a rim takes at most."""
 _FILLET = (0.0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 1.0)
@@ -78,9 +79,10 @@ class RootContour:
             rim : float or None [module] - thickness below the root circle
         """
         try:
-            return cls._ring(pair, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim)
+            found = cls._ring(pair, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim)
         except NoSolution:
             return None
+        return None if found is None or found.is_pointed else found
 
     @classmethod
     def _gear(cls, pair: GearPair, gear: int, shift: float, rim: float | None) -> RootContour:
@@ -154,15 +156,23 @@ class RootContour:
         found = points * np.exp(1j * (0.5 * math.pi - math.pi / self.teeth))
         return np.conj(found) if self.ring else found
 
+    @property
+    def is_pointed(self) -> bool:
+        """Whether the tip has no room for the least rounding, or lies too near to the base circle."""
+        radius = _LEAST_ROUNDING
+        inside = not self.ring and self.tip - TIP_ROUNDING <= self.base
+        return inside or bool(np.angle(self._tip_corner(radius)[1]) > math.pi / self.teeth)
+
     @cached_property
     def tip_corner(self) -> tuple[float, float, complex]:
         """Radius of the rounding of the tip, the roll angle where the flank ends in it, and its centre."""
         radius = TIP_ROUNDING
-        while True:
+        while radius > _LEAST_ROUNDING:
             roll, center = self._tip_corner(radius)
             if np.angle(center) <= math.pi / self.teeth:
                 return radius, roll, center
             radius *= 0.5
+        return _LEAST_ROUNDING, *self._tip_corner(_LEAST_ROUNDING)
 
     def _tip_corner(self, radius: float) -> tuple[float, complex]:
         """Roll angle at the end of the flank, and centre: on the parallel of the involute and of the tip circle."""

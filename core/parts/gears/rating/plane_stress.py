@@ -82,8 +82,8 @@ class HalfContour:
         left = -own.conj()[None, :] - own[:, None]
         beside = (steps.conj()[None, :] / left).imag  # the left half runs the other way: d tau is conj(d tau)
         crossed = left / left.conj() * beside
-        direct: Points = np.stack((turned, beside)) / np.pi + 0j
-        return direct, np.stack((-double * turned, -crossed)) / np.pi
+        direct, conjugate = np.stack((turned, beside)) / np.pi, np.stack((-double * turned, -crossed)) / np.pi
+        return direct.astype(complex), conjugate.astype(complex)
 
     def solved(self, mirrored: Points, other: Points) -> tuple[Points, Points]:
         """omega of the right half under loads that mirror, f(-conj z) = -conj f(z), and under those of the other sign.

@@ -1,8 +1,8 @@
 """Root stress on the generated fillet of one tooth with its rim, the second way beside the section of ISO 6336-3.
 
 The load acts at the outer point of single contact, normal to the flank, as cos^2 over 0.24 modules to either side; a
-traction linear over the far side of the rim balances it. Within 4 %: a rim of 3 modules in place of 5 changes the stress
-by 3.5 %, root circles of 2.5 pitches in place of 1 by 1 %.
+traction linear over the far side of the rim balances it. Within 4 %: a rim of 3 modules in place of 5 changes the
+stress by 3.5 %, root circles of 2.5 pitches in place of 1 by 1 %.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ def root_table(data: GearData) -> Table:
         pulled, pressed = found.stresses
         places = found.fillet.ravel() * data.pair.module
         values = zip(places.real, abs(places.imag), scale * pulled.ravel(), scale * pressed.ravel(), strict=True)
-        rows += [(data.called(gear), *map(float, row)) for row in values]
+        rows += [(data.called(gear), float(x), float(y), float(one), float(two)) for x, y, one, two in values]
     names, units = ("gear", "x", "y", "loaded_side", "other_side"), ("", "mm", "mm", "N/mm^2", "N/mm^2")
     columns = zip(*rows, strict=True) if rows else ([] for _ in names)
     return Table("root", names, units, tuple(list(column) for column in columns))
