@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,7 +12,20 @@ from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
+    from gearlink.core.base.report import Table
+    from gearlink.core.parts.gears.shifts.carrying import Carried
     from gearlink.core.parts.gears.shifts.search import PairTask
+
+
+Torque = Annotated[float | None, typer.Option("--torque", min=1e-6, max=1e9, help="of gear 1, N m: rated for it")]
+Speed = Annotated[float | None, typer.Option("--speed", min=1e-3, max=1e6, help="of gear 1, 1/min")]
+Life = Annotated[float, typer.Option("--life", min=1e-3, max=1e9, help="required life under the torque, h")]
+Material = Annotated[str, typer.Option("--material", metavar="A,B", help="steel of both gears, or of each")]
+Application = Annotated[float, typer.Option("--application", min=0.1, max=10.0, help="application factor K_A")]
+Grade = Annotated[int, typer.Option("--grade", min=1, max=11, help="accuracy grade of ISO 1328-1")]
+Oil = Annotated[float, typer.Option("--vg", min=1.0, max=1e4, help="viscosity of the oil at 40 deg C, mm^2/s")]
+Crowned = Annotated[bool, typer.Option("--crowned", help="the helix is crowned")]
+WidthRatio = Annotated[float, typer.Option("--width-ratio", min=0.05, max=3.0, help="greatest face width over d1")]
 
 
 @takes("format", "color", "quiet")
@@ -20,8 +33,9 @@ def gears(
     options: Options,
     ratio: Annotated[float, typer.Option("--ratio", metavar="I", min=1e-3, max=1e3, help="teeth 2 over teeth 1")],
     center_distance: Annotated[
-        float, typer.Option("--center-distance", metavar="A", min=1e-3, max=1e6, help="centre distance, mm")
-    ],
+        float | None,
+        typer.Option("--center-distance", metavar="A", min=1e-3, max=1e6, help="mm; with --torque the least is sought"),
+    ] = None,
     modules: Annotated[
         str, typer.Option("--modules", metavar="M,M", help="normal modules, mm; default: ISO 54 series I from 1 to 20")
     ] = "",
@@ -34,20 +48,42 @@ def gears(
     helix: Annotated[float, typer.Option("--helix", min=0.0, max=45.0, help="helix angle, deg")] = 0.0,
     internal: Annotated[bool, typer.Option("--internal", help="gear 2 is a ring")] = False,
     least_teeth: Annotated[int, typer.Option("--least-teeth", min=3, max=1000, help="of gear 1")] = 17,
+    torque: Torque = None,
+    speed: Speed = None,
+    life: Life = 20000.0,
+    material: Material = "16MnCr5",
+    application: Application = 1.0,
+    grade: Grade = 6,
+    vg: Oil = 220.0,
+    crowned: Crowned = False,
+    width_ratio: WidthRatio = 1.0,
 ) -> None:
     """Find whole teeth and modules for a ratio at a centre distance, the best first.
 
     x1 is shared for equal sliding; margin is how far it may move until undercut, a thin tip, a root fillet or a small
     contact ratio is met, negative where one is met already. Of more than 1000 pairs the nearest to the ratio are shown.
-    Exit status 1: no pair meets the conditions.
+    With --torque and --speed each pair is rated by ISO 6336: the least face width that carries the load for the life
+    with S_H 1 and S_F 1.4, the narrowest first. Exit status 1: no pair meets the conditions.
 
-    Example: gearlink gears --ratio 3.2 --center-distance 120
+    Examples: gearlink gears --ratio 3.2 --center-distance 120
+
+    gearlink gears --ratio 3 --torque 200 --speed 480 --life 20000 --material 16MnCr5
     """
     from gearlink.core.parts.gears.shifts.search import MODULES, PairTask
 
+    carried = None
+    if torque is not None or speed is not None:
+        if torque is None or speed is None:
+            raise typer.BadParameter(
+                "a load needs both torque and speed", param_hint="--speed" if torque else "--torque"
+            )
+        carried = _carried(torque, speed, life, material, application, grade, vg, crowned, width_ratio)
+    if center_distance is None and carried is None:
+        raise typer.BadParameter("give it, or --torque and --speed for the least one", param_hint="--center-distance")
+
     task = PairTask(
         ratio=ratio,
-        distance=center_distance,
+        distance=0.0 if center_distance is None else center_distance,
         modules=_numbers(modules, ",", "--modules") or MODULES,
         shift_sum=_window(shift_sum, internal),
         tolerance=ratio_tolerance,
@@ -57,10 +93,42 @@ def gears(
     )
     if internal and ratio <= 1.0:
         raise typer.BadParameter("a ring has more teeth than its pinion: give a ratio above 1", param_hint="--ratio")
-    raise typer.Exit(run_gears(task, options))
+    raise typer.Exit(run_gears(task, options, carried, sought=center_distance is None))
 
 
-def run_gears(task: PairTask, options: Options) -> int:
+def _carried(torque: float, speed: float, life: float, material: str, *rest: Any) -> Carried:
+    """What the pairs carry; a material by its name, or one for each gear."""
+    from gearlink.core.parts.gears.rating.materials import CLASSES, MATERIALS, STEELS
+    from gearlink.core.parts.gears.shifts.carrying import Carried
+
+    names = [name.strip() for name in material.split(",")]
+    for name in names:
+        if name not in MATERIALS:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, MATERIALS, 1, 0.6)
+            text = f"did you mean {near[0]}?" if near else f"known are {', '.join(STEELS)}"
+            raise typer.BadParameter(f"no material is called {name}: {text}", param_hint="--material")
+        if name in CLASSES and CLASSES[name].needs_hardness:
+            text = f"the strength of {name} depends on its hardness: name a steel ({', '.join(STEELS)})"
+            raise typer.BadParameter(text, param_hint="--material")
+    if len(names) > 2:
+        raise typer.BadParameter("give one steel, or one for each of the two gears", param_hint="--material")
+    application, grade, vg, crowned, width_ratio = rest
+    return Carried(
+        torque=torque,
+        speed=speed,
+        life=life,
+        materials=(names[0], names[-1]),
+        application=application,
+        grade=grade,
+        viscosity=vg,
+        crowned=crowned,
+        width_ratio=width_ratio,
+    )
+
+
+def run_gears(task: PairTask, options: Options, carried: Carried | None = None, *, sought: bool = False) -> int:
     """Print the candidates and give the exit status."""
     import sys
 
@@ -70,13 +138,23 @@ def run_gears(task: PairTask, options: Options) -> int:
     from gearlink.core.parts.gears.shifts.search import candidates, table_of
 
     with patience("searching for gears", quiet=options.quiet):
-        found = candidates(task)
-    print_report(Report(kind="gear-search", name="gears", command="gears", tables=(table_of(found),)), options)
-    if found:
+        table = table_of(candidates(task)) if carried is None else _rated(task, carried, sought)
+    print_report(Report(kind="gear-search", name="gears", command="gears", tables=(table,)), options)
+    if table.length:
         return ExitCode.OK
     if not options.quiet:
-        print(f"no pair meets these conditions: {_remedy(task)}", file=sys.stderr)
+        remedy = (
+            _remedy(task) if carried is None else "raise --center-distance or --width-ratio, or a better --material"
+        )
+        print(f"no pair meets these conditions: {remedy}", file=sys.stderr)
     return ExitCode.FINDING
+
+
+def _rated(task: PairTask, carried: Carried, sought: bool) -> Table:
+    """The table of the pairs that carry the load, at the given centre distance or the least one."""
+    from gearlink.core.parts.gears.shifts.carrying import carrying, rated_table, smallest
+
+    return rated_table(smallest(task, carried)[1] if sought else carrying(task, carried))
 
 
 def _remedy(task: PairTask) -> str:

@@ -61,6 +61,8 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         **dict.fromkeys(AT_LIMITS, (down("center_distance_allowance", step=0.001), *_SHIFTS)),
         "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),
         "pitting": (*_WIDER, modules("module")[0], *_SHIFTS, *teeth),
+        "damage": (*_WIDER, modules("module")[0], *_SHIFTS, *teeth),
+        "scuffing": (up("rating.lubricant.scuffing_stage", step=1), up("rating.tip_relief", step=1.0), *_WIDER),
         "bending": (*_WIDER, up("tool.rounding", step=0.01), modules("module")[0], *_SHIFTS, *teeth),
     }
 
