@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.export.parts import pair_hands, train_hands
@@ -20,6 +20,9 @@ from gearlink.core.base.kinds import KINDS
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.meshed import Meshed
 from gearlink.core.version import VERSION
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.gears.rating.rated import Rated
 
 _VERSION = "1.7"
 
@@ -75,12 +78,16 @@ def as_rexs(design: Any) -> bytes:
     for mesh in meshes:
         names, pair, widths = mesh.names, mesh.pair, mesh.widths
         hands = [1 if hand == "right" else -1 for hand in mesh.hands]  # right-hand helices count positive
-        stage = model.component("cylindrical_stage", f"{names[0]} - {names[1]}", _stage(pair, widths))
-        gears = [_gear(model, unit, known, name, pair, i, widths, hands[i]) for i, name in enumerate(names)]
+        factors = () if mesh.rated is None else _factors(mesh.rated)
+        attributes = iter((*_stage(pair, widths), *factors))
+        stage = model.component("cylindrical_stage", f"{names[0]} - {names[1]}", attributes)
+        gears = [_gear(model, unit, known, mesh, i, hands[i]) for i in (0, 1)]
         model.relation("assembly", assembly=unit, part=stage)
         model.relation("stage", stage=stage, gear_1=gears[0], gear_2=gears[1])
         for i, gear in enumerate(gears):
-            data = model.component("cylindrical_stage_gear_data", names[i], _stage_data(pair, i))
+            strength = () if mesh.rated is None else _safeties(mesh.rated, i)
+            attributes = iter((*_stage_data(pair, i), *strength))
+            data = model.component("cylindrical_stage_gear_data", names[i], attributes)
             model.relation("stage_gear_data", stage=stage, gear=gear, stage_gear_data=data)
     return _document(model).encode()
 
@@ -98,13 +105,12 @@ def _gear(
     model: Model,
     unit: int,
     known: dict[str, int],
-    name: str,
-    pair: GearPair,
+    mesh: _Mesh,
     i: int,
-    widths: tuple[float, float] | None,
     hand: int,
 ) -> int:
-    """A gear on its shaft, with both flanks and the tool that cuts them; once, though it may mesh twice."""
+    """A gear on its shaft, with material, both flanks and the tool that cuts them; once, though it may mesh twice."""
+    name, pair, widths, rated = mesh.names[i], mesh.pair, mesh.widths, mesh.rated
     if name in known:
         return known[name]
     shaft = model.component("shaft", f"shaft of {name}", iter(()))
@@ -112,7 +118,14 @@ def _gear(
     ring = i == 1 and pair.internal
     gear = model.component("ring_gear" if ring else "cylindrical_gear", name, _gear_data(pair, i, widths, hand))
     model.relation("assembly", assembly=shaft, part=gear)
-    sides = [model.component("cylindrical_gear_flank", f"{name}, {side} flank", _flank(pair, i)) for side in _SIDES]
+    if rated is not None:
+        material = model.component("material", rated.steels[i].name, _material(rated, i))
+        model.relation("reference", origin=gear, referenced=material)
+    accuracy = () if rated is None else _accuracy(rated, i)
+    sides = [
+        model.component("cylindrical_gear_flank", f"{name}, {side} flank", iter((*_flank(pair, i), *accuracy)))
+        for side in _SIDES
+    ]
     model.relation("flank", gear=gear, left=sides[0], right=sides[1])
     if pair.tools[i] is not None and not ring:
         tool = model.component("rack_shaped_tool", f"tool of {name}", _tool(pair, i))
@@ -179,14 +192,46 @@ def _stage_data(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
     yield "tip_clearance", "mm", pair.tip_clearance[i]
 
 
+def _material(rated: Rated, i: int) -> Iterator[tuple[str, str, Any]]:
+    steel = rated.steels[i]
+    yield "material_designation", "none", steel.name
+    hardness, unit = ("surface_hardness_brinell", "HB") if steel.kind.brinell else ("surface_hardness_vickers", "HV")
+    yield hardness, unit, steel.hardness
+    yield "allowable_stress_number_contact_iso_6336_2003", "MPa", steel.contact_limit
+    yield "nominal_stress_number_tooth_root_iso_6336_2003", "MPa", steel.bending_limit
+
+
+def _accuracy(rated: Rated, i: int) -> Iterator[tuple[str, str, Any]]:
+    """The grade of edition 2013, the only one that the data model has."""
+    if rated.conditions.edition == 2013:
+        yield "tolerance_class_according_to_iso_1328_2013", "none", rated.conditions.grades[i]
+
+
+def _factors(rated: Rated) -> Iterator[tuple[str, str, Any]]:
+    factors = rated.factors
+    yield "application_factor_iso_6336_2006", "none", factors.application
+    yield "mesh_load_factor_iso_6336_2006", "none", factors.distribution
+    yield "dynamic_factor_iso_6336_2006", "none", factors.dynamic
+    yield "face_load_factor_contact_stress_iso_6336_2006", "none", factors.face_contact
+    yield "face_load_factor_root_stress_iso_6336_2006", "none", factors.face_bending
+    yield "transverse_load_factor_contact_stress_iso_6336_2006", "none", factors.transverse_contact
+    yield "transverse_load_factor_root_stress_iso_6336_2006", "none", factors.transverse_bending
+
+
+def _safeties(rated: Rated, i: int) -> Iterator[tuple[str, str, Any]]:
+    yield "safety_factor_pitting_iso_6336_2006", "none", rated.safety_pitting[i]
+    yield "safety_factor_tooth_root_iso_6336_2006", "none", rated.safety_bending[i]
+
+
 @dataclass(frozen=True)
 class _Mesh:
-    """A mesh of a design, a ring second: names, pair, face widths [mm] and hands of helix of both gears."""
+    """A mesh of a design, a ring second: names, pair, face widths [mm], hands of helix, and its rating."""
 
     names: tuple[str, str]
     pair: GearPair
     widths: tuple[float, float] | None
     hands: tuple[str, str]
+    rated: Rated | None = None
 
 
 def _meshes(design: Any) -> Iterator[_Mesh]:
@@ -200,13 +245,14 @@ def _meshes(design: Any) -> Iterator[_Mesh]:
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return
         data = design.data if design.kind == "gear-pair" else design.gear_data
-        yield _Mesh((names[0], names[1]), data.pair, data.face_width, pair_hands(design))
+        yield _Mesh((names[0], names[1]), data.pair, data.face_width, pair_hands(design), data.rated)
     else:
         names = names or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
         for label, place in zip(design.mesh_names, design.teeth_train.places, strict=True):
             one, other = place.gears
             pair = design.meshes[label]
-            yield _Mesh((names[one], names[other]), pair, design.widths_of(label), train_hands(design, label))
+            rated = None if design.spec.gears.rating is None else design.mesh_data[label].rated
+            yield _Mesh((names[one], names[other]), pair, design.widths_of(label), train_hands(design, label), rated)
 
 
 def _text(value: Any) -> str:

@@ -76,7 +76,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     }
 
     requirements = Meshed.requirements | {"dwell.tolerance", "dwell.angle"}
-    extra_tables = ("drawing", "candidates")
+    extra_tables = ("drawing", "factors", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The rods of every rule side by side."""

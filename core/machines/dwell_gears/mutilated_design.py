@@ -118,7 +118,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         **train_ways(2, *_TEETH),
     }
 
-    extra_tables = ("drawing", "candidates")
+    extra_tables = ("drawing", "factors", "candidates")
 
     def __init__(self, spec: Any) -> None:
         self.asked = spec

@@ -956,7 +956,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     # Tables
 
-    extra_tables = ("drawing", "candidates")
+    extra_tables = ("drawing", "factors", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The target met with other gears side by side."""

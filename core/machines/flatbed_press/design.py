@@ -667,7 +667,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     derived = DERIVED
     extreme_names = _EXTREMES
     motion_extremes: dict[str, float] = placed("motion.extremes")
-    extra_tables = ("chains", "drawing", "candidates", LAW_TABLE)
+    extra_tables = ("chains", "drawing", "factors", "candidates", LAW_TABLE)
     requirements = Design.requirements | {"sync.print_length"}
     cost = 5.0
     candidates, ways_of = checks.candidates, checks.ways_of
@@ -827,6 +827,21 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
         with at_key("input_gears"):
             return drawing_table(self.gear_data)
+
+    def table_factors(self, _samples: int | None = None) -> Table:
+        """The calculation sheet of the rating of the input gears."""
+        from gearlink.core.parts.gears.rating.sheet import factors_table
+
+        with at_key("input_gears"):
+            rated = self.gear_data.rated
+            if rated is None:
+                raise MissingSection("the table factors needs input_gears.rating", key="input_gears.rating")
+            return factors_table(rated)
+
+    def tables_of_data(self, command: str, /) -> tuple[str, ...]:
+        """The calculation sheet of the input gears, where the file rates them."""
+        given = self.spec.input_gears
+        return ("factors",) if command == "gear" and given is not None and given.rating is not None else ()
 
     table_positions, table_follower, table_chains = positions_table, follower_table, chains_table
     table_main_cam, table_return_cam = main_cam_table, return_cam_table

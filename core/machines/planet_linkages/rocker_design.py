@@ -207,7 +207,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         "gear": Outline((*OF_MESH, "output_play"), (*GEAR_CHECKS, *TRAIN_CHECKS)),
     }
 
-    extra_tables = ("links", "drawing", "candidates")
+    extra_tables = ("links", "drawing", "factors", "candidates")
     ways = {
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),

@@ -121,7 +121,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
 
-    extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing")
+    extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing", "factors")
     ways = {
         "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
         "dwell-window": (*_LINKS, up("dwell_tolerance", step=0.01), down("dwell_window", step=0.1)),

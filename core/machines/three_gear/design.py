@@ -136,7 +136,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline((*MESH_QUANTITIES, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
-    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing")
+    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing", "factors")
     ways = WAYS
 
     def __init__(self, spec: Any) -> None:

@@ -90,6 +90,34 @@ def _rows(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:
     yield from _circles(data)
     yield from _thickness(data)
     yield from _mesh(data)
+    yield from _strength(data)
+
+
+def _strength(data: GearData) -> Iterator[Row]:
+    """Grade and tolerances, material, and the safeties; where the file has `rating`."""
+    rated = data.rated
+    if rated is None:
+        if data.accuracy_grade is not None:
+            yield "accuracy grade, ISO 1328-1", "", data.accuracy_grade, data.accuracy_grade, ""
+        return
+    one, other = rated.bodies.tolerances
+    yield f"accuracy grade, ISO 1328-1:{rated.conditions.edition}", "", *rated.conditions.grades, ""
+    for words, symbol, values in (
+        ("single pitch deviation", "f_pt", (one.single_pitch, other.single_pitch)),
+        ("cumulative pitch deviation", "F_p", (one.cumulative_pitch, other.cumulative_pitch)),
+        ("total profile deviation", "F_alpha", (one.profile_total, other.profile_total)),
+        ("total helix deviation", "F_beta", (one.helix_total, other.helix_total)),
+        ("runout", "F_r", (one.runout, other.runout)),
+    ):
+        yield words, symbol, *values, "um"
+    steels = rated.steels
+    yield "material", "", steels[0].name, steels[1].name, ""
+    for words, symbol, hardness in (("hardness", "HV", False), ("hardness", "HBW", True)):
+        first, second = (None if steel.kind.brinell != hardness else steel.hardness for steel in steels)
+        yield words, symbol, first, second, ""
+    yield "roughness of the flanks", "Rz", *rated.conditions.flank_roughness, "um"
+    yield "safety against pitting", "S_H", *(rated.safety_pitting), ""
+    yield "safety against breaking at the root", "S_F", *(rated.safety_bending), ""
 
 
 def _teeth(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:

@@ -95,7 +95,7 @@ def strength(lines: tuple[Line, Line, Line], quality: Quality, hardness: float) 
     Source
         ISO 6336-5, from memory; a printed report meets case-hardened MQ 1500 alone
     """
-    return lines[_PLACE[quality]].at(hardness)
+    return float(lines[_PLACE[quality]].at(hardness))
 
 
 def _lines(*pairs: tuple[float, float]) -> tuple[Line, Line, Line]:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Design, Outline
-from gearlink.core.base.errors import NoSolution, at_key, in_section
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity
@@ -85,8 +85,20 @@ class Meshed(GearQuantities, Design):
 
     @classmethod
     def tables_of_page(cls, command: str, spec: Any) -> tuple[str, ...]:
-        """The gear tables, where the file has keys of a drawing."""
-        return ("drawing",) if command == "gear" and spec.gears.drawing else ()
+        """The gear tables, where the file has keys of a drawing, and the calculation sheet of a rating."""
+        found = ("drawing",) if command == "gear" and spec.gears.drawing else ()
+        return (*found, "factors") if command == "gear" and spec.gears.rating is not None else found
+
+    def tables_of_data(self, command: str, /) -> tuple[str, ...]:
+        """The calculation sheet, where the file has `rating`."""
+        return ("factors",) if command == "gear" and self.spec.gears.rating is not None else ()
+
+    def require_table(self, name: str, /) -> None:
+        """The calculation sheet needs `rating`."""
+        if name == "factors" and self.spec.gears.rating is None:
+            text = "the table factors needs gears.rating: {life: 20000, material: 16MnCr5, ...}"
+            raise MissingSection(text, key="gears.rating")
+        super().require_table(name)
 
     # The meshes
 
@@ -267,6 +279,16 @@ class Meshed(GearQuantities, Design):
         with at_key("gears"):
             return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
 
+    def table_factors(self, _samples: int | None = None) -> Table:
+        """The calculation sheets of the meshes, one below the other; a ring is gear 2 of its pair."""
+        from gearlink.core.parts.gears.rating.sheet import factors_table
+
+        with in_section("gears"), at_key("rating"):
+            tables = {
+                mesh: factors_table(each.rated) for mesh, each in self.mesh_data.items() if each.rated is not None
+            }
+        return _below_each_other("factors", tables)
+
     # Checks
 
     def check(self, name: str) -> list[Check]:
@@ -322,12 +344,17 @@ def drawings(found: Mapping[str, GearData], hands: Sequence[str] | None, places:
         )
         for (mesh, data), place in zip(found.items(), places, strict=True)
     }
+    return _below_each_other("drawing", tables)
+
+
+def _below_each_other(name: str, tables: Mapping[str, Table]) -> Table:
+    """The tables of several meshes as one, whose first column names the mesh; a single one as it is."""
     one, *_ = tables.values()
     if len(tables) == 1:
         return one
     names = [mesh for mesh, table in tables.items() for _ in range(table.length)]
     columns = [[value for table in tables.values() for value in table.data[i]] for i in range(len(one.columns))]
-    return Table("drawing", ("mesh", *one.columns), ("", *one.units), (names, *columns))
+    return Table(name, ("mesh", *one.columns), ("", *one.units), (names, *columns))
 
 
 def _in_order(table: Table, place: Place) -> Table:
