@@ -194,8 +194,8 @@ def contact_ratio_factor(one: float, other: float) -> float:
     """X_eps of the addendum contact ratios of pinion and wheel.
 
     Example
-        >>> round(contact_ratio_factor(0.9, 0.7), 6), round(contact_ratio_factor(1.0, 0.7) , 6)
-        (0.249306, 0.226765)
+        >>> round(contact_ratio_factor(0.9, 0.7), 6), round(contact_ratio_factor(1.0, 0.7), 6)
+        (0.243056, 0.226176)
 
     Source
         ISO/TR 13989-2; where one of them is 1 or more, or both together 2 or more, from memory
