@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 _SOUGHT = (0.1, 0.9)
 """Of the fillet's parameter: at its joints the integral is off."""
+_EACH = 4
+"""Every fourth node stands in the table, and those of the greatest stresses."""
 
 
 class Peak(NamedTuple):
@@ -158,9 +160,10 @@ def root_table(data: GearData) -> Table:
     for gear, (found, scale) in enumerate(zip(data.true_roots, data.root_stress_scale, strict=True)):
         if found is None:
             continue
-        pulled, pressed = found.stresses
-        places = found.fillet.ravel() * data.pair.module
-        values = zip(places.real, abs(places.imag), scale * pulled.ravel(), scale * pressed.ravel(), strict=True)
+        pulled, pressed = (side.ravel() for side in found.stresses)
+        shown = sorted({*range(0, pulled.size, _EACH), int(np.argmax(pulled)), int(np.argmin(pressed))})
+        places = found.fillet.ravel()[shown] * data.pair.module
+        values = zip(places.real, abs(places.imag), scale * pulled[shown], scale * pressed[shown], strict=True)
         rows += [(data.called(gear), float(x), float(y), float(one), float(two)) for x, y, one, two in values]
     names, units = ("gear", "x", "y", "loaded_side", "other_side"), ("", "mm", "mm", "N/mm^2", "N/mm^2")
     columns = zip(*rows, strict=True) if rows else ([] for _ in names)

@@ -149,7 +149,7 @@ def carrying(task: PairTask, carried: Carried) -> list[Carrying]:
         >>> load = Carried(torque=200.0, speed=480.0, life=20000.0, materials=("16MnCr5", "16MnCr5"))
         >>> best = carrying(task, load)[0]
         >>> best.candidate.pair.teeth, best.width, round(best.pitting, 3), round(best.bending, 3)
-        ((20, 60), 24.0, 1.004, 1.992)
+        ((20, 60), 21.0, 1.006, 2.028)
     """
     found = []
     for each in candidates(task):
