@@ -66,7 +66,7 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
         remedy = _of_command(message.split("'")[1], command, tree)
         wrong.message = f"{message.rstrip('.')}; {remedy}" if remedy else message
     elif message.startswith("Got unexpected extra") and command.name == "laws":
-        wrong.message = f"{message}; {_of_law(message)}"
+        wrong.message = f"{message}; {of_law(message.rpartition('(')[2].rstrip(').').split(' ')[0])}"
     elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
         wrong.message = f"{message}; {command.name} takes one file, `gearlink batch` and `gearlink check` several"
 
@@ -199,11 +199,10 @@ def _value_after(arguments: Sequence[str], names: Sequence[str]) -> str:
 # Commands
 
 
-def _of_law(message: str) -> str:
+def of_law(name: str) -> str:
     """The option that takes the name of a law, and the laws where it is none."""
     from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
 
-    name = message.rpartition("(")[2].rstrip(").").split(" ")[0]
     known = (*REST_TO_REST, *REST_TO_SPEED)
     return f"give --law {name}" if name in known else f"give --law NAME; the laws are {', '.join(known)}"
 

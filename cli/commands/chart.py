@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 
 _LINK_TOLERANCE = 1e-3
+_SMOOTH = 601
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +96,8 @@ def _residual(asked: Asked, options: Options) -> int:
     def draw() -> None:
         from gearlink.cli.views.figures.motion_laws import write_residuals
 
-        path = write_residuals(name, found, options)
+        finer = replace(asked, samples=max(asked.samples, _SMOOTH))
+        path = write_residuals(name, _vibrations(finer, options)[1], options)
         if not options.quiet:
             print(wrote(path), file=sys.stderr)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import OPTIONS, Options
+from gearlink.cli.options import OPTIONS, STREAM, Options
 from gearlink.cli.typer_options import offers, option, takes
 
 if TYPE_CHECKING:
@@ -44,6 +45,10 @@ def laws(
     Example: gearlink laws --law modified-sine --law polynomial-345 --plot
     """
     options = options._replace(samples=samples)
+    if spec and spec != STREAM.name and not Path(spec).suffix and not Path(spec).exists():
+        from gearlink.cli.usage_errors import of_law
+
+        raise typer.BadParameter(f"no such file: {of_law(spec)}", param_hint=spec)
     if spec and law:
         raise typer.BadParameter("a design file names its law: leave out --law, or the file", param_hint="--law")
     if not spec:

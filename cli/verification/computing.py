@@ -107,7 +107,7 @@ def flywheel(given: Given) -> Results:
 
 KERNELS: dict[str, Callable[[Given], Results]] = {
     "four-bar": four_bar,
-    "motion-law": motion_law,
+    "law-constants": motion_law,
     "iso-286": iso_limits,
     "iso-1328": cumulative_pitch,
     "din-3967": thickness_allowances,

@@ -172,7 +172,7 @@ def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_commands_and_forms_are_those_of_the_program() -> None:
-    own_options = {"tolerance", "register"}  # which Typer alone reads
+    own_options = {"tolerance", "register", "laws"}  # which Typer alone reads
     assert set(COMMANDS) | own_options == {command for kind in KINDS.values() for command in kind.commands}
     assert [form.value for form in Format] == ["table", "json", "csv", "md"]
     assert [form.value for form in PlotFormat] == ["png", "svg", "pdf"]

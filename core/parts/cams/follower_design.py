@@ -53,9 +53,9 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     @property
     def law_definitions(self) -> Mapping[str, Any]:
-        """The laws of the segments."""
-        motion = self.spec.motion
-        return {f"motion[{k}].law": one.law for k, one in enumerate(motion)} if isinstance(motion, list) else {}
+        """The laws of the segments that have one of their own."""
+        motion = self.spec.motion if isinstance(self.spec.motion, list) else []
+        return {f"motion[{k}].law": one.law for k, one in enumerate(motion) if one.return_ is None}
 
     def law_at(self, path: str, /) -> Law | None:
         """The law of a segment."""

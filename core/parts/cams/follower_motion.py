@@ -268,6 +268,8 @@ def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any
             one = law(definition, phase)
         joints, name = one.joints, one.name
         blank = replace(blank, law=one)
+        if not one.kappa:
+            raise NoSolution(f"the {one.name} law ends where it starts: between two lifts its s runs from 0 to 1")
         if one.kind == "rest-to-speed":
             shape, speed = _to_speed(one), (slope / one.kappa, 0.0)
             if segment.mirrored:
@@ -321,14 +323,30 @@ def _awaited(pieces: list[Piece], unit: float) -> list[Piece]:
                 if (given := getattr(definition, key)) != "join":
                     values[key] = given
                     continue
-                if beside.waits is not None or beside.coefficients:
-                    message = f"{key}: join takes the values of a neighbour with a law of its own: give it one"
-                    raise NoSolution(message, key=key)
-                v, a = beside.ends[side]
+                v, a = _facing(beside, ("start", "end")[side], key, unit)
                 values[key] = [float(key == "end"), v * piece.width / rise, a * piece.width**2 / rise]
             one = shaped_law(definition.model_copy(update=values), Phase(piece.width, rise / unit))  # type: ignore[union-attr]
         made[k] = replace(piece, shape=_normalised(one), joints=one.joints, law=one, waits=None)
     return made
+
+
+def _facing(beside: Piece, end: str, key: str, unit: float) -> tuple[float, float]:
+    """Velocity and acceleration of a neighbour at the end that faces a law that joins it, by the cam angle."""
+    given = None if beside.waits is None else getattr(beside.waits.law, end)
+    if beside.coefficients or given == "join":
+        raise NoSolution(
+            f"{key}: join takes the values of a neighbour that has its own: give it a law, or them", key=key
+        )
+    if given is None:
+        return beside.ends[("start", "end").index(end)]
+    if not isinstance(given, list):
+        return unit * given.speed, unit * given.acceleration
+    # its other end joins, so that its s runs from 0, or to 1
+    own = given[0] if end == "end" else 1.0 - given[0]
+    if not own:
+        raise NoSolution(f"segment {beside.number} ends where it starts: its s runs from 0 to 1", key=key)
+    rise = (beside.high - beside.low) / own
+    return given[1] * rise / beside.width, given[2] * rise / beside.width**2
 
 
 def _to_speed(one: Law) -> Shape:

@@ -5,14 +5,17 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.first_half import FirstHalf, Piece
+from gearlink.core.parts.cams.law import Law as Law
 from gearlink.core.parts.cams.scca import scca
+
+if TYPE_CHECKING:
+    from gearlink.core.parts.cams.shaped import Phase
 
 # First halves of the polynomial laws, with closed forms of their peaks
 
@@ -74,73 +77,6 @@ POLYNOMIAL_4567 = _polynomial_half(
     jerk=52.5,
     power=58800.0 / 1024.0 * (10.0 / 11.0) ** 5 / math.sqrt(11.0),
 )
-
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from gearlink.core.parts.cams.shaped import Phase, Shaping
-
-    X = TypeVar("X", float, NDArray[np.float64])
-else:
-    X = TypeVar("X")
-
-# Callers divide an angle by a phase length; the quotient may pass the end by a few ulp, never by more.
-_REACH = 1e-12
-
-
-@dataclass(frozen=True, slots=True)
-class Law:
-    """A motion law over x in [0, 1], normalised to rise 1 (rest-to-rest) or to end velocity 1 (rest-to-speed).
-
-    Attributes
-        name : str - as the design file writes it
-        kind : 'rest-to-rest', 'rest-to-speed', or 'given-ends' where it begins or ends otherwise
-        derivatives : (x, low, high) -> derivatives low to high, without a check of the range
-        kappa : float - s(1): 1 for rest-to-rest, the share of (end speed) x (time) for rest-to-speed
-        peak_velocity, peak_acceleration, peak_power : float - largest v, |a| and v a (Cv, Ca, Cm)
-        interior_jerk : float - largest |j| beside the jumps of the acceleration
-        peak_jerk : float - the same (Cj), or inf where the acceleration jumps inside or at an end
-        end_jumps : bool - the acceleration is not zero at an end, so the law must not join a dwell
-        joints : floats in (0, 1) - where the acceleration or a derivative of it may jump
-        shaping : Shaping or None - how a law that numbers shape came to be
-    """
-
-    name: str
-    kind: Literal["rest-to-rest", "rest-to-speed", "given-ends"]
-    derivatives: Callable[[Any, int, int], tuple[Any, ...]]
-    kappa: float
-    peak_velocity: float
-    peak_acceleration: float
-    interior_jerk: float
-    peak_jerk: float
-    peak_power: float
-    end_jumps: bool = False
-    joints: tuple[float, ...] = ()
-    shaping: Shaping | None = None
-
-    def evaluate(self, x: X, order: int = 3) -> tuple[X, ...]:
-        """Rise and its derivatives with respect to x.
-
-        Parameters
-            x : float or float64 array - in [0, 1]
-            order : int - 0 to 3, the number of derivatives wanted; the rest is not computed
-        Returns
-            s[, v[, a[, j]]] : floats or arrays like x
-        Raises
-            NoSolution - x outside [0, 1] by more than 1e-12, or not a number
-        Notes
-            Errors stay within 8 ulp of the peak; near x = 0 the rise keeps its relative accuracy, and
-            s(1 - x) = 1 - s(x) holds exactly for a rest-to-rest law. At a jump inside the first half the value
-            is the one on the right, its mirror image in the second.
-        Example
-            >>> law("polynomial-345").evaluate(0.5, 2)
-            (0.5, 1.875, 0.0)
-        """
-        inside: Any = float(x) if isinstance(x, int | float) else x
-        _check_range(self.name, inside)
-        return self.derivatives(inside, 0, order)
 
 
 def _rest_to_rest(name: str, half: FirstHalf) -> Law:
@@ -255,17 +191,6 @@ def _largest(f: Callable[[float], float], slope: Callable[[float], float]) -> fl
     """Largest |f| on [0, 1]: the ends and the roots of the slope, sought between 32 places."""
     places = [i / 32.0 for i in range(33)]
     return max(abs(f(u)) for u in (0.0, 1.0, *roots_on(slope, places)))
-
-
-def _check_range(name: str, x: Any) -> None:
-    if isinstance(x, float):
-        low = high = x
-    elif x.size == 0:
-        return
-    else:
-        low, high = float(x.min()), float(x.max())
-    if not (low >= -_REACH and high <= 1.0 + _REACH):
-        raise NoSolution(f"motion law {name}: x from {low:.9g} to {high:.9g} is outside 0 to 1: reduce it to the phase")
 
 
 _SCCA = {

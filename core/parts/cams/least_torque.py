@@ -7,6 +7,7 @@ within a trust region, and what is found is least of its neighbours alone.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,7 @@ _STEPS, _SETTLED = 40, 3e-6
 _INTERVALS, _CUTS = 200, 6
 
 
+@lru_cache(maxsize=64)
 def least_torque(wish: Wish) -> Optimum:
     """A law whose |s' s''| is less than that of its neighbours.
 
@@ -32,6 +34,7 @@ def least_torque(wish: Wish) -> Optimum:
     Notes
         `lower_bound` holds for every law with the same greatest acceleration, whatever its form and jerk.
     """
+    optimal.require_possible(wish)
     search = _Search(wish)
     coefficients = search.shipped()[0]
     value = _torque(coefficients)

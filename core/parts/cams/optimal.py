@@ -77,20 +77,16 @@ class Optimum(NamedTuple):
 
 @lru_cache(maxsize=64)
 def optimum(wish: Wish) -> Optimum:
-    """The law of a wish.
+    """The law of a wish, but for that of least torque.
 
     Raises
         NoSolution - where no law, or none of the degree, keeps the limits; at the key within the law
     Example
         >>> found = optimum(Wish("jerk", acceleration=6.0))
         >>> round(found.value, 3), found.gap < 1e-4
-        (39.227, True)
+        (39.228, True)
     """
-    _require_possible(wish)
-    if wish.minimize == "torque":
-        from gearlink.core.parts.cams.least_torque import least_torque
-
-        return least_torque(wish)
+    require_possible(wish)
     programme = Programme(wish)
     coefficients, solved = programme.shipped()
     value = programme.proved_value(coefficients)
@@ -98,7 +94,7 @@ def optimum(wish: Wish) -> Optimum:
     return Optimum(tuple(coefficients.tolist()), value, bound, bound_of_all_laws(wish))
 
 
-def _require_possible(wish: Wish) -> None:
+def require_possible(wish: Wish) -> None:
     """Refuse limits that no law can keep, whatever its form."""
     least = {"jerk": 4.0, "acceleration": 1.0, "velocity": 1.0} if wish.to_speed else _LEAST
     for key, low in least.items():

@@ -15,9 +15,9 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import roots_on
+from gearlink.core.parts.cams.law import Law
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.optimal import Optimum, Wish
     from gearlink.core.parts.cams.shaped_spec import OptimalLaw, Polydyne
 
@@ -115,7 +115,7 @@ def shaped_law(definition: Any, phase: Phase | None = None) -> Law:
     Example
         >>> law = shaped_law({"type": "polydyne", "periods": 1.5})
         >>> round(law.peak_acceleration, 9), law.evaluate(1.0, 1)
-        (6.017812472, (1.0, 0.0))
+        (6.017812473, (1.0, 0.0))
     """
     from pydantic import ValidationError
 
@@ -297,8 +297,6 @@ def _of_orders(name: str, orders: Sequence[Reals], shaping: Shaping) -> Law:
 def _law(
     name: str, derivatives: Callable[[Any, int, int], tuple[Any, ...]], peaks: Sequence[float], shaping: Shaping
 ) -> Law:
-    from gearlink.core.parts.cams.laws import Law
-
     (s0, v0, a0), (s1, v1, a1) = derivatives(0.0, 0, 2), derivatives(1.0, 0, 2)
     small = [_SAME * (1.0 + peak) for peak in peaks]
     jumps = abs(a0) > small[1] or abs(a1) > small[1]
@@ -382,6 +380,7 @@ def _frequency(given: float | None, phase: Phase) -> float:
 
 
 def _optimal(model: OptimalLaw, phase: Phase) -> Law:
+    from gearlink.core.parts.cams.least_torque import least_torque
     from gearlink.core.parts.cams.optimal import Wish, optimum
 
     bounds = {key: _bound(model, key, phase) for key in model.KEYS}
@@ -399,7 +398,7 @@ def _optimal(model: OptimalLaw, phase: Phase) -> Law:
         **bounds,
     )
     try:
-        found = optimum(wish)
+        found = least_torque(wish) if wish.minimize == "torque" else optimum(wish)
     except NoSolution as error:
         real = getattr(model.limit, error.key, None) if error.key in model.KEYS else None
         if real is None:

@@ -7,6 +7,8 @@ import csv
 import io
 import json
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -134,3 +136,108 @@ def test_an_unwritable_folder_is_told(gearlink: Any, tmp_path: Path) -> None:
     ended = gearlink("laws", "--plot", "--out", tmp_path / "file")
     assert ended.status == ExitCode.WRONG_INPUT
     assert "cannot write" in ended.err
+
+
+# A design file
+
+QUIET = """kind: motion-law
+law: {type: optimal, minimize: residual, band: [2, 3], degree: 11, acceleration: 7, jerk: 120}
+stroke: 20
+time: 12
+frequency: 220
+"""
+
+
+def test_a_law_of_a_file_with_its_proof(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "quiet.yaml"
+    path.write_text(QUIET)
+    found = gearlink("laws", str(path), "--format", "json").json
+    quantities = {name: each["value"] for name, each in found["quantities"].items()}
+    assert quantities["periods"] == pytest.approx(2.64, rel=1e-12)
+    assert quantities["lower_bound"] < quantities["residual"] < quantities["lower_bound"] * (1.0 + 1e-3)
+    assert quantities["residual_at_design"] <= quantities["residual"]
+    assert quantities["follower_velocity_max"] == pytest.approx(quantities["peak_velocity"] * 20.0 / 0.012, rel=1e-12)
+    assert quantities["degree"] == 11
+    assert [check["code"] for check in found["checks"]] == ["GL517"]
+    assert [len(found["tables"][name]["rows"]) for name in ("law", "residual", "coefficients")] == [101, 101, 12]
+    assert gearlink("analyze", str(path), "--format", "json").json["quantities"] == found["quantities"]
+
+
+def test_a_solved_law_is_saved_and_read_without_a_solver(gearlink: Any, tmp_path: Path) -> None:
+    path, saved = tmp_path / "quiet.yaml", tmp_path / "solved.yaml"
+    path.write_text(QUIET)
+    first = gearlink("laws", str(path), "--save", str(saved), "--format", "json").json
+    again = gearlink("laws", str(saved), "--format", "json").json
+    for name in ("peak_velocity", "peak_acceleration", "peak_jerk", "kappa", "residual_at_design"):
+        assert again["quantities"][name]["value"] == first["quantities"][name]["value"], name
+    assert "gap" not in again["quantities"]
+    code = f"import sys; from gearlink.cli.main import main; sys.argv[1:] = ['laws', {str(saved)!r}]; main()"
+    watch = "import atexit, sys; atexit.register(lambda: print(*({'scipy', 'highspy'} & {*sys.modules})))"
+    done = subprocess.run([sys.executable, "-c", f"{watch}; {code}"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == ""
+
+
+@pytest.mark.parametrize(
+    ("law_", "key"),
+    [
+        ("{type: polydyne, periods: 0.4}", "law.periods"),
+        ("{type: optimal, minimize: acceleration, jerk: 30}", "law.jerk"),
+        ("{type: optimal, minimize: jerk, acceleration: 4}", "law.acceleration"),
+        ("{type: optimal, minimize: jerk, velocity: 1}", "law.velocity"),
+        ("{type: optimal, minimize: jerk, acceleration: 4.1}", "law"),
+        ("{type: optimal, minimize: residual, band: [2, 4]}", "law.acceleration"),
+        ("{type: optimal, minimize: jerk, degree: 8}", "law.degree"),
+        ("{type: optimal, minimise: jerk}", "law.minimize"),
+        ("{type: bernstein, acceleration: [0, 1, 0]}", "law.acceleration"),
+    ],
+)
+def test_wrong_laws_of_files_are_located(gearlink: Any, tmp_path: Path, law_: str, key: str) -> None:
+    path = tmp_path / "law.yaml"
+    path.write_text(f"kind: motion-law\nlaw: {law_}\n")
+    ended = gearlink("laws", str(path), "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    errors = {error["key"]: error for error in ended.json["errors"]}
+    assert key in errors
+    assert errors[key]["line"] == 2
+
+
+def test_polydyne_of_few_periods_is_warned_of(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "law.yaml"
+    path.write_text("kind: motion-law\nlaw: {type: polydyne, periods: 0.8}\n")
+    (check,) = gearlink("laws", str(path), "--format", "json").json["checks"]
+    assert (check["code"], check["status"]) == ("GL518", "warn")
+
+
+def test_chart_of_what_laws_leave(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "quiet.yaml"
+    path.write_text(QUIET)
+    table = gearlink("chart", "residual", str(path), "--format", "json").json["tables"]["law"]
+    assert table["columns"] == [
+        "speed",
+        "periods",
+        "optimal residual 11",
+        "cycloidal",
+        "modified-sine",
+        "polynomial-4567",
+    ]
+    assert [table["rows"][k][0] for k in (0, -1)] == pytest.approx([0.5, 1.3], rel=1e-12)
+    ended = gearlink("chart", "residual", str(path), "--plot", "--plot-format", "svg", "--out", str(tmp_path))
+    assert "quiet-residual-chart.svg" in ended.err
+    for line, words in (
+        (("chart", "residual"), "gearlink chart residual SPEC"),
+        (("chart", "residual", "designs/gear_pair.yaml"), "has no motion laws"),
+        (("chart", "residual", "designs/lift_cam.yaml"), "natural periods"),
+    ):
+        ended = gearlink(*line)
+        assert ended.status == ExitCode.WRONG_INPUT
+        assert words in " ".join(ended.err.split())
+
+
+def test_options_of_files_go_with_files(gearlink: Any) -> None:
+    for arguments in (
+        ("--save", "x.yaml"),
+        ("--set", "law.degree=9"),
+        ("designs/quiet_law.yaml", "--law", "cycloidal"),
+    ):
+        assert gearlink("laws", *arguments).status == ExitCode.WRONG_INPUT

@@ -20,6 +20,9 @@ LAWS: list[Any] = [
     {"scca": [0.25, 0, 0.75, 0]},
     {"type": "blend", "laws": ["cycloidal", "polynomial-345"], "share": 0.3},
     {"type": "shifted", "law": "modified-sine", "inflection": 0.4},
+    {"type": "harmonic"},
+    {"type": "polydyne", "periods": 2.5, "damping": 0.05},
+    {"type": "optimal", "minimize": "jerk", "degree": 9},
 ]
 
 
@@ -142,3 +145,64 @@ def test_a_servo_table_errs_as_much_between_its_rows_as_close_places_show() -> N
     assert greatest_error(motion, rows) <= 1e-3
     with pytest.raises(NoSolution, match="tolerance"):
         rows_for(motion, 1e-18)
+
+
+# Laws with given ends
+
+
+def test_ends_that_join_and_ends_in_the_units_of_the_file() -> None:
+    motion = made(
+        {"to": 60, "lift": 10, "law": "half-cycloidal"},
+        {
+            "to": 100,
+            "lift": 25,
+            "law": {"type": "polynomial", "start": "join", "end": {"speed": 30.0, "acceleration": -8.0}},
+        },
+        {"to": 150, "lift": 40, "law": {"type": "harmonic", "start": "join"}},
+        {"to": 200},
+        {"to": 280, "lift": 15, "law": {"type": "polynomial", "end": [1, 0.4, 0]}},
+        {"to": 360, "lift": 0, "law": {"type": "polynomial", "start": "join", "end": "join"}},
+    )
+    holds_derivatives(motion)
+    for order in (0, 1, 2):
+        steps = [jump for _, jump in motion.steps(order)]
+        assert steps == pytest.approx([0.0] * len(steps), abs=1e-11 * 10.0**order)
+    at = motion.evaluate(np.radians([100.0]), 2, side=-1)
+    assert [float(each[0]) for each in at] == pytest.approx([25.0, 30.0, -8.0], rel=1e-12)
+    assert float(motion.evaluate(np.radians([280.0]), 1)[1][0]) == pytest.approx(
+        -0.4 * 25.0 / math.radians(80.0), rel=1e-12
+    )
+
+
+def test_a_law_that_turns_round_is_divided_there() -> None:
+    steep = {"type": "polynomial", "start": [0, -1.5, 0], "end": [1, 0, 0]}
+    motion = made({"to": 90}, {"to": 180, "lift": 10, "law": steep}, {"to": 360, "lift": 0})
+    senses = [stroke.sense for stroke in motion.strokes]
+    assert senses == [0, -1, 1, -1]
+    turn = motion.strokes[1].end
+    assert float(motion.evaluate(np.array([turn]), 1)[1][0]) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("segments", "key"),
+    [
+        (
+            [
+                {"to": 90, "lift": 9, "law": {"type": "polynomial", "start": "join"}},
+                {"to": 360, "lift": 0, "law": {"type": "polynomial", "end": "join"}},
+            ],
+            "motion[0].law.start",
+        ),
+        (
+            [{"to": 90, "lift": 9, "law": {"type": "optimal", "minimize": "jerk", "acceleration": 3.0}}],
+            "motion[0].law.acceleration",
+        ),
+        ([{"to": 90, "lift": 9, "law": {"type": "polydyne", "frequency": 20}}], "motion[0].law.frequency"),
+        ([{"to": 90, "lift": 9, "law": {"type": "polynomial", "end": [0, 1, 0]}}], "motion[0].law"),
+    ],
+    ids=["join", "limit", "frequency", "no rise"],
+)
+def test_a_law_that_cannot_be_is_refused_at_its_key(segments: list[dict[str, Any]], key: str) -> None:
+    with pytest.raises(NoSolution) as caught:
+        made(*segments, *([{"to": 360, "lift": 0}] if segments[-1]["to"] != 360 else []))
+    assert caught.value.key == key

@@ -206,7 +206,8 @@ def test_ty460_with_quartic_and_lead_in_passes_all():
     design = press(lead_in=12.0)
     for name in design.outline("cam").checks:
         assert set(status(design, name)) <= {"pass"}, name
-        assert status(design, name) or name == "shaft-clearance"  # no shaft is given
+        # no shaft is given, and no numbers shape the law of the return
+        assert status(design, name) or name in ("shaft-clearance", "law-gap", "polydyne-range")
 
 
 @pytest.mark.quick(3)
