@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Assembly, Distance, Length, Spec, Speed, TolerancedSpec
-from gearlink.core.parts.cams.motion_spec import FollowerMotion, Lift, require_closed
+from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
+from gearlink.core.parts.cams.motion_spec import OfFollowerKeys
 
 SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 
@@ -35,25 +35,17 @@ class DrumLimits(Spec):
     jerk_step: Distance | None = Field(None, description="greatest jump of the jerk, mm per rad^3")
 
 
-class CylindricalCamSpec(TolerancedSpec):
+class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):
     """A cylindrical cam with its follower."""
 
     kind: Literal["cylindrical-cam"]
-    speed: Speed | None = Field(None, description="speed of the cam")
-    motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
-    initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
     follower: DrumFollower = Field(description="the roller")
     cam: DrumBody = Field(description="the drum")
     limits: DrumLimits = DrumLimits.model_construct()
 
     @model_validator(mode="after")
-    def _runs(self) -> CylindricalCamSpec:
-        require_closed(self.motion, self.initial_lift)
+    def _has_a_track(self) -> CylindricalCamSpec:
         if self.cam.depth >= self.cam.radius:
             words = {"key": "cam.depth", "depth": f"{self.cam.depth:g}", "radius": f"{self.cam.radius:g}"}
             raise PydanticCustomError("GL111", "depth {depth} mm is not below radius {radius} mm", words)
         return self
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("cam",)

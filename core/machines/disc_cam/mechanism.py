@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
-from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, fixed, standing, steady
 from gearlink.core.studies.loads.cams.contact import RollerOnCam
@@ -31,11 +31,13 @@ def motion(design: DiscCamDesign) -> Motion:
         axis = fixed(0j, phi, order=order)
         follower = _rocker(cams, phi, order, side) if design.spec.oscillates else _slide(cams, phi, order, side)
         links = {"cam": Link(axis, steady(phi, sense, order=order)), "follower": follower}
-        joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value), _guided(cams, follower)]
-        made = Mechanism(
-            links, joints, "cam", sense, travel={} if design.spec.oscillates else {"follower": cams.direction}
-        )
-        joints += _contacts(cams, phi, made)
+
+        def joints() -> list[Connection]:
+            fixed_ones = [Pin("O", FRAME, "cam", axis.value), _guided(cams, follower)]
+            return [*fixed_ones, *_contacts(cams, phi, made)]
+
+        travel = {} if design.spec.oscillates else {"follower": cams.direction}
+        made = Mechanism(links, Later(joints), "cam", sense, travel=travel)
         return made
 
     return Motion(

@@ -17,11 +17,10 @@ from gearlink.core.base.spec import (
     LoadLimits,
     SignedLength,
     Spec,
-    Speed,
     TolerancedSpec,
     also,
 )
-from gearlink.core.parts.cams.motion_spec import FollowerMotion, Lift, require_closed
+from gearlink.core.parts.cams.motion_spec import OfFollowerKeys
 
 SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 Strokes = Annotated[list[SteepAngle], Field(min_length=2, max_length=2), Entries("[rise, return]")]
@@ -188,13 +187,10 @@ class DiscCamLimits(LoadLimits):
     jerk_step: Distance | None = Field(None, description="greatest jump of the jerk, lift per rad^3")
 
 
-class DiscCamSpec(TolerancedSpec):
+class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     """A disc cam with its follower."""
 
     kind: Literal["disc-cam"]
-    speed: Speed | None = Field(None, description="speed of the cam")
-    motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
-    initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
     follower: Follower = Field(description="what the cam moves: roller or flat face, sliding or rocking")
     cam: CamBody = Field(description="sense and size of the cam")
     closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
@@ -216,11 +212,6 @@ class DiscCamSpec(TolerancedSpec):
     def oscillates(self) -> bool:
         """Whether the follower rocks."""
         return self.follower.type.startswith("oscillating")
-
-    @model_validator(mode="after")
-    def _runs(self) -> DiscCamSpec:
-        require_closed(self.motion, self.initial_lift)
-        return self
 
     @model_validator(mode="after")
     def _one_radius(self) -> DiscCamSpec:
@@ -282,7 +273,3 @@ class DiscCamSpec(TolerancedSpec):
         given = self.limits.pressure_angle or size or (45.0 if self.oscillates else 30.0)
         rise, back = given if isinstance(given, list) else (given, given)
         return rise, back
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("cam", *(("loads",) if self.loads is not None else ()))

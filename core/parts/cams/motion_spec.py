@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.spec import Entries, Spec, Speed
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
@@ -54,6 +54,23 @@ class MotionTable(Spec):
 
 
 FollowerMotion = Annotated[list[Segment], Field(min_length=1, max_length=200)] | MotionTable
+
+
+class OfFollowerKeys(Spec):
+    """The keys of every cam that turns evenly and moves one follower."""
+
+    speed: Speed | None = Field(None, description="speed of the cam")
+    motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
+    initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
+
+    @model_validator(mode="after")
+    def _runs(self) -> Self:
+        require_closed(self.motion, self.initial_lift)
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("cam", *(("loads",) if getattr(self, "loads", None) is not None else ()))
 
 
 def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> None:
