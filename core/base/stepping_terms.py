@@ -37,4 +37,5 @@ RACKS = {
     "fixed_rack_length": Term("", "mm", "least length of the fixed rack: travel and path of contact"),
     "moving_rack_length": Term("", "mm", "least length of the moving rack: travel and path of contact"),
 }
-STEPPING = {**GENEVA, **REDUCER, **RACKS}
+STEP_TRAIN = {"steps": Term("", "1", "steps of the output per turn of the carrier", "thesis 2.2.2")}
+STEPPING = {**GENEVA, **REDUCER, **RACKS, **STEP_TRAIN}

@@ -33,6 +33,10 @@ def draw(command: str, design: HypocycloidDwell) -> Figure:
         from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.mesh, "", ("2", "ring"))])
+    if design.spec.is_arm:
+        from gearlink.cli.views.figures import of_motion
+
+        return of_motion.draw(command, design)
     return linkage.sheet(
         f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified, _transmission]
     )

@@ -32,6 +32,8 @@ def mutilated(design: MutilatedGearDwell) -> Table:
 
 def hypocycloid(design: HypocycloidDwell) -> Table:
     """The rods of every rule, and those that are found for a quality."""
+    if design.spec.is_arm or design.spec.point.ratio != 1.0:
+        raise nothing_sought("rods are sought of a slider whose point lies on the pitch circle")
     rules = ["tangent-circle", "osculating", "minimax"]
     qualities = ["least-ripple", *(["widest-dwell"] if design.spec.dwell.tolerance is not None else [])]
     rows = [({"rule": rule}, None) for rule in rules] + [(None, {"quality": quality}) for quality in qualities]

@@ -3,11 +3,11 @@
 A planet of pitch radius r rolls in a ring of n r; a point of its pitch circle draws a hypocycloid of n arcs. Frame:
 ring centre at 0, the slide line the x axis, the middle of one arc on it at carrier angle t = 0:
 
-    x = r [(n - 1) cos t - cos((n - 1) t)],   y = r [(n - 1) sin t + sin((n - 1) t)]
+    x = r [(n - 1) cos t - l cos((n - 1) t)],   y = r [(n - 1) sin t + l sin((n - 1) t)]
 
-A rod of length L leads from that point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation counts from the
-slider's place at t = 0, positive towards the ring's centre. The kernel's t is the carrier angle from the middle of the
-arc.
+with l the distance of the point from the planet's axis over r, 1 on the pitch circle. A rod of length L leads from that
+point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation counts from the slider's place at t = 0, positive
+towards the ring's centre. The kernel's t is the carrier angle from the middle of the arc.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ class HypocycloidSlider:
         planet_radius : float [mm] - r, pitch radius of the planet
         cusps : int - n >= 3, ring radius over planet radius
         rod : float [mm] - L
+        ratio : float - l, the point's distance from the planet's axis over r
     Raises
         NoSolution - for lengths that are not positive, fewer than three cusps, or a rod too short for the turn
     Example
@@ -46,25 +47,40 @@ class HypocycloidSlider:
     planet_radius: float
     cusps: int
     rod: float
+    ratio: float = 1.0
 
     def __post_init__(self) -> None:
         require_cusps(self.planet_radius, self.cusps)
-        least = widest_offset(self.planet_radius, self.cusps)
+        least = self.widest_offset
         if not least < self.rod < math.inf:
+            usual = (
+                f" (tangent-circle {tangent_circle(self.planet_radius, self.cusps):.6g}, "
+                f"osculating {osculating(self.planet_radius, self.cusps):.6g} mm)"
+                if self.ratio == 1.0
+                else ""
+            )
             raise NoSolution(
                 f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.9g} mm away from the slide "
-                f"line: make it longer than that (tangent-circle {tangent_circle(self.planet_radius, self.cusps):.6g}, "
-                f"osculating {osculating(self.planet_radius, self.cusps):.6g} mm)"
+                f"line: make it longer than that{usual}"
             )
+
+    @cached_property
+    def widest_offset(self) -> float:
+        """Greatest distance of the point from the slide line [mm]."""
+        if self.ratio == 1.0:
+            return widest_offset(self.planet_radius, self.cusps)
+        count = _STEPS_PER_ARC * self.cusps
+        grid = [math.pi * (i + 0.5) / count for i in range(count)]
+        return max(abs(self.point(t).imag) for t in roots_on(lambda t: self._rates(t)[1], grid))
 
     def point(self, t: float) -> complex:
         """The point on the planet [mm]."""
-        return _point(self.planet_radius, self.cusps, t)
+        return _point(self.planet_radius, self.cusps, t, self.ratio)
 
     def deviation(self, t: float) -> float:
         """Slider's place at t = 0 less that at t [mm], positive towards the ring's centre.
 
-        s(0) - s(t) = y^2/(L + sqrt(L^2 - y^2)) - (x - x_0),  x - x_0 = 2 r [sin^2((n-1) t/2) - (n-1) sin^2(t/2)]
+        s(0) - s(t) = y^2/(L + sqrt(L^2 - y^2)) - (x - x_0),  x - x_0 = 2 r [l sin^2((n-1) t/2) - (n-1) sin^2(t/2)]
 
         Parameters
             t : float [rad] - carrier angle from the middle of the arc
@@ -74,7 +90,8 @@ class HypocycloidSlider:
             No difference of large lengths is taken.
         """
         y = self.point(t).imag
-        return y * y / (self.rod + math.sqrt(self.rod**2 - y * y)) - _advance(self.planet_radius, self.cusps, t)
+        advance = _advance(self.planet_radius, self.cusps, t, self.ratio)
+        return y * y / (self.rod + math.sqrt(self.rod**2 - y * y)) - advance
 
     def speed(self, t: float) -> float:
         """Slider's speed outwards per carrier speed, ds/dt [mm/rad]."""
@@ -94,8 +111,8 @@ class HypocycloidSlider:
         """
         k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
         (_, y_1), (_, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
-        x_3 = scale * (math.sin(t) - k * k * math.sin(k * t))
-        y_3 = -scale * (k * k * math.cos(k * t) + math.cos(t))
+        x_3 = scale * (math.sin(t) - self.ratio * k * k * math.sin(k * t))
+        y_3 = -scale * (self.ratio * k * k * math.cos(k * t) + math.cos(t))
         w = math.sqrt(self.rod**2 - y * y)
         w_1 = -y * y_1 / w
         w_2 = -(y_1 * y_1 + y * y_2 + w_1 * w_1) / w
@@ -103,12 +120,14 @@ class HypocycloidSlider:
 
     def _second_rates(self, t: float) -> tuple[float, float]:
         k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
-        return scale * (k * math.cos(k * t) - math.cos(t)), -scale * (k * math.sin(k * t) + math.sin(t))
+        bent = self.ratio * k
+        return scale * (bent * math.cos(k * t) - math.cos(t)), -scale * (bent * math.sin(k * t) + math.sin(t))
 
     def _rates(self, t: float) -> tuple[float, float]:
         k = self.cusps - 1
         scale = self.planet_radius * k
-        return scale * (math.sin(k * t) - math.sin(t)), scale * (math.cos(k * t) + math.cos(t))
+        far = self.ratio
+        return scale * (far * math.sin(k * t) - math.sin(t)), scale * (far * math.cos(k * t) + math.cos(t))
 
     def rod_angle(self, t: float) -> float:
         """Angle of the rod to the slide line [rad]."""
@@ -117,7 +136,7 @@ class HypocycloidSlider:
     @property
     def max_rod_angle(self) -> float:
         """Greatest angle of the rod to the slide line over the turn [rad]."""
-        return math.asin(widest_offset(self.planet_radius, self.cusps) / self.rod)
+        return math.asin(self.widest_offset / self.rod)
 
     @cached_property
     def extremes(self) -> list[tuple[float, float]]:
@@ -281,15 +300,15 @@ def osculating(planet_radius: float, cusps: int) -> float:
     return 4.0 * planet_radius * (cusps - 1) / (cusps - 2)
 
 
-def _point(radius: float, cusps: int, t: float) -> complex:
+def _point(radius: float, cusps: int, t: float, ratio: float = 1.0) -> complex:
     k = cusps - 1
     return complex(
-        radius * (k * math.cos(t) - math.cos(k * t)),
-        radius * (k * math.sin(t) + math.sin(k * t)),
+        radius * (k * math.cos(t) - ratio * math.cos(k * t)),
+        radius * (k * math.sin(t) + ratio * math.sin(k * t)),
     )
 
 
-def _advance(radius: float, cusps: int, t: float) -> float:
+def _advance(radius: float, cusps: int, t: float, ratio: float = 1.0) -> float:
     """x - x_0 without a difference of cosines."""
     k = cusps - 1
-    return 2.0 * radius * (math.sin(0.5 * k * t) ** 2 - k * math.sin(0.5 * t) ** 2)
+    return 2.0 * radius * (ratio * math.sin(0.5 * k * t) ** 2 - k * math.sin(0.5 * t) ** 2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
@@ -17,6 +17,7 @@ from gearlink.core.machines.dwell_gears import hypocycloid, hypocycloid_rod
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider
+from gearlink.core.machines.dwell_gears.hypocycloid_arm import SlottedArm
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed
@@ -31,8 +32,24 @@ if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
 
 
+_ARM = (
+    "steps",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "back_step_angle",
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "output_speed_max",
+    "output_speed_min",
+)
+_SHARED = (
+    *("planet_teeth", "ring_teeth", "carrier_length", "point_radius", "contact_ratio", "input_speed", "turn_time"),
+    "dwell_time",
+)
+
+
 class HypocycloidDwell(SliderSpeed, Meshed):
-    """Slider that dwells while a point of the planet runs along an arc about its centre."""
+    """Slider that dwells while a point of the planet runs along an arc about its centre, or an arm that steps."""
 
     kind = "hypocycloid-dwell"
     spec: HypocycloidDwellSpec
@@ -61,6 +78,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
                 "turn_time",
                 *SLIDER_SPEEDS,
                 "dwell_time",
+                *_ARM,
             ),
             ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),
@@ -78,6 +96,27 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     requirements = Meshed.requirements | {"dwell.tolerance", "dwell.angle"}
     extra_tables = ("drawing", "factors", "candidates")
 
+    def outline(self, command: str) -> Outline:
+        """Slider and arm have quantities of their own."""
+        found = super().outline(command)
+        if command != "analyze":
+            return found
+        arm = self.spec.is_arm
+        shown = tuple(name for name in found.quantities if name in _SHARED or (name in _ARM) is arm)
+        checks = tuple(name for name in found.checks if not arm or name != "transmission-angle")
+        return found._replace(quantities=shown, checks=checks)
+
+    @property
+    def output_columns(self) -> dict[str, tuple[str, ...]]:
+        """The slider's place, or the arm's angle."""
+        return {"motion": ("output_angle",)} if self.spec.is_arm else {"motion": ("deviation",)}
+
+    def raw(self, name: str) -> Any:
+        """What the other output has is None."""
+        if name in _ALL and name not in _SHARED and (name in _ARM) is not self.spec.is_arm:
+            return None
+        return super().raw(name)
+
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The rods of every rule side by side."""
         from gearlink.core.machines.dwell_gears.candidates import hypocycloid
@@ -88,6 +127,8 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """A rod of another rule, or what the slider does over the dwell that is wanted; a curve with a cusp less."""
+        if self.spec.is_arm:
+            return
         if check == "dwell-quality" and self.tolerance_carrier_angle is not None:
             yield from self._better_rods()
             yield (("dwell.tolerance", math.ceil(501.0 * self.dwell_ripple) / 1000.0),)
@@ -98,6 +139,8 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     def _better_rods(self) -> Iterator[Remedy]:
         """The rod of the least ripple over the dwell, to tenths and hundredths; or what is sought of it."""
         rod = self.spec.rod
+        if self.spec.point.ratio != 1.0:
+            return
         if rod is None:
             yield (("target.quality", "widest-dwell"),)
             return
@@ -118,6 +161,10 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     def cusps(self) -> int:
         """Cusps of the curve, ring teeth over planet teeth."""
         planet, ring = self.planet_teeth, self.ring_teeth
+        if (far := self.spec.point.ratio) >= ring / planet - 1.0:
+            most = ring / planet - 1.0
+            message = f"point.ratio must lie between 0 and ring/planet - 1 = {most:.6g}, not at {far:g}"
+            raise NoSolution(message, key="point.ratio")
         if ring % planet:
             near = max(3, round(ring / planet))
             raise NoSolution(
@@ -147,14 +194,22 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         return self.planet_teeth, -self.ring_teeth
 
     @property
-    def tangent_circle_length(self) -> float:
-        """Rod of the circle through the ends and the middle of the dwell [mm]."""
+    def tangent_circle_length(self) -> float | None:
+        """Rod of the circle through the ends and the middle of the dwell [mm]; None beside the pitch circle."""
+        return self._tangent_circle if self.spec.point.ratio == 1.0 else None
+
+    @property
+    def _tangent_circle(self) -> float:
         with at_key("dwell.angle"):
             return hypocycloid.tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     @property
-    def osculating_length(self) -> float:
-        """Rod of the circle of curvature [mm]."""
+    def osculating_length(self) -> float | None:
+        """Rod of the circle of curvature [mm]; None beside the pitch circle."""
+        return self._osculating if self.spec.point.ratio == 1.0 else None
+
+    @property
+    def _osculating(self) -> float:
         return hypocycloid.osculating(self.point_radius, self.cusps)
 
     @property
@@ -173,9 +228,9 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             return rod.length
         rule = None if rod is None else rod.rule
         if rule == "osculating":
-            return self.osculating_length
+            return self._osculating
         if rule == "tangent-circle":
-            return self.tangent_circle_length
+            return self._tangent_circle
         with at_key("dwell.angle"):
             return hypocycloid_rod.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
@@ -189,10 +244,40 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     def completion(self) -> Iterator[Found]:
         """The rod in place of the target or the rule."""
-        if self.spec.rod is None or self.spec.rod.rule is not None:
+        if not self.spec.is_arm and (self.spec.rod is None or self.spec.rod.rule is not None):
             yield Found("rod.length", self.rod_length, "found for target" if self.spec.target else "found by rod.rule")
             yield Found("rod.rule", None)
             yield Found("target", None)
+
+    # A slotted arm
+
+    @cached_property
+    def arm(self) -> SlottedArm:
+        """The kernel's view of gears and arm."""
+        with at_key("point.ratio"):
+            return SlottedArm(self.ring_teeth / self.planet_teeth, self.spec.point.ratio)
+
+    @property
+    def steps(self) -> int | None:
+        """Steps of the arm per turn of the carrier; None where teeth make no whole number."""
+        planet, ring = self.planet_teeth, self.ring_teeth
+        return None if ring % planet else ring // planet
+
+    speed_ratio_max: float = placed("arm.speed_max")
+    speed_ratio_min: float = placed("arm.speed_min")
+    back_step_angle: float | None = placed("arm.back_step")
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+
+    @cached_property
+    def _arm_dwell(self) -> tuple[float, float] | None:
+        if self.spec.dwell.tolerance is None:
+            return None
+        with at_key("dwell.tolerance"):
+            return self.arm.dwell(math.radians(self.spec.dwell.tolerance))
+
+    tolerance_dwell_angle: float | None = placed("_arm_dwell.0")
+    tolerance_dwell_start: float | None = placed("_arm_dwell.1")
 
     # Motion
 
@@ -200,7 +285,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     def slider(self) -> HypocycloidSlider:
         """The kernel's view of gears and rod."""
         with at_key("rod" if self.spec.target is None else "target"):
-            return HypocycloidSlider(self.point_radius, self.cusps, self.rod_length)
+            return HypocycloidSlider(self.point_radius, self.cusps, self.rod_length, self.spec.point.ratio)
 
     stroke: float = placed("slider.stroke")
 
@@ -252,8 +337,10 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     dwell_time: float | None = per_time("_dwell_reached", -1)
 
     @property
-    def _dwell_reached(self) -> float:
+    def _dwell_reached(self) -> float | None:
         """Carrier angle of the dwell within the tolerance, else of the one that is wanted [rad]."""
+        if self.spec.is_arm:
+            return self.tolerance_dwell_angle
         return self.tolerance_carrier_angle or self.dwell_carrier_angle
 
     @property
@@ -271,7 +358,17 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         from gearlink.core.machines.dwell_gears.hypocycloid_mechanism import outwards
         from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, turned
 
-        way, point = outwards(self), -self.slider.planet_radius
+        if self.spec.is_arm:
+            course, place = turned("arm"), -self.arm.ratio * self.point_radius
+            of_arm = [
+                Shown("output_angle", course),
+                Shown("speed_ratio", course, 1, "output_speed"),
+                Shown("acceleration_ratio", course, 2, "output_acceleration"),
+                Shown("x", coordinate("planet", place)),
+                Shown("y", coordinate("planet", place, 1j)),
+            ]
+            return motion_table("motion", self, of_arm, samples)
+        way, point = outwards(self), -self.slider.ratio * self.slider.planet_radius
         shown = [
             Shown("deviation", way.scaled(-1.0)),
             Shown("velocity", way, 1, "slider_velocity"),
@@ -286,6 +383,9 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     def check_dwell_quality(self) -> Iterator[Check]:
         """GL311: the dwell that is reached within the tolerance against the one that is wanted."""
+        if self.spec.is_arm:
+            yield from self._arm_quality()
+            return
         tolerance, reached = self.spec.dwell.tolerance, self.tolerance_carrier_angle
         if tolerance is None or reached is None:
             return
@@ -297,6 +397,14 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         text += f"; over that angle it moves {self.dwell_ripple:.6g} mm"
         yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
 
+    def _arm_quality(self) -> Iterator[Check]:
+        asked, reached, tolerance = self.spec.dwell.angle, self.tolerance_dwell_angle, self.spec.dwell.tolerance
+        if asked is None or reached is None:
+            return
+        found = math.degrees(reached)
+        text = f"the arm stays within +-{tolerance:g} deg for {found:.6g} deg of the carrier, {asked:g} deg wanted"
+        yield DWELL_QUALITY.check("pass" if found >= asked - 1e-9 else "fail", text, found, asked, "deg")
+
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
@@ -305,3 +413,6 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         """GL303: the rod against the slide line."""
         remedy = "lengthen the rod, or take a curve with fewer cusps (fewer ring teeth)"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+
+_ALL = frozenset(HypocycloidDwell.outlines["analyze"].quantities)

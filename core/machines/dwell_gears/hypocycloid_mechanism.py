@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.mechanism.closures import slider
-from gearlink.core.mechanism.courses import coordinate
-from gearlink.core.mechanism.joints import Connection, Guide, Mesh, Pin
+from gearlink.core.mechanism.courses import coordinate, turned
+from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, standing, steady
@@ -19,13 +19,15 @@ if TYPE_CHECKING:
 
 def motion(design: HypocycloidDwell) -> Motion:
     """Links and joints over the carrier angle from the middle of the dwell's arc; ring's centre at 0, slider on +x."""
+    if design.spec.is_arm:
+        return _arm_motion(design)
     geometry = design.slider
     r, n, rod = geometry.planet_radius, geometry.cusps, geometry.rod
     tangent = math.tan(design.mesh.working_pressure_angle)
 
     def make(phi: Reals, order: int, _side: int) -> Mechanism:
         carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1) * r})
-        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -r})
+        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -geometry.ratio * r})
         turn, end = slider(planet.at("M"), rod, 0j, 1.0 + 0j)
         links = {
             "carrier": carrier,
@@ -45,6 +47,30 @@ def motion(design: HypocycloidDwell) -> Motion:
         return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})
 
     return Motion(make, Input("carrier_angle"), (Output("Slider F, outwards", outwards(design)),))
+
+
+def _arm_motion(design: HypocycloidDwell) -> Motion:
+    """With an arm about the ring's centre, the point in its slot."""
+    r, n, arm = design.point_radius, design.arm.teeth, design.arm
+    tangent = math.tan(design.mesh.working_pressure_angle)
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        carrier = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": (n - 1.0) * r})
+        planet = Link(carrier.at("B"), steady(phi, -(n - 1.0), order=order), {"B": 0.0, "M": -arm.ratio * r})
+        links = {"carrier": carrier, "planet": planet, "arm": Link(carrier.origin, arm.turn(phi, order))}
+        center = carrier.origin.value
+        connections: list[Connection] = [
+            Pin("O", FRAME, "carrier", center),
+            Pin("planet", "carrier", "planet", planet.origin.value),
+            Pin("D", FRAME, "arm", center),
+            Contact("slot", "arm", "planet", planet.at("M").value, 1j * links["arm"].unit),
+            Mesh("mesh_ring", FRAME, "planet", center, carrier.unit, n * r, r, tangent, True, "carrier"),
+        ]
+        return Mechanism(links, connections, "carrier")
+
+    turns = design.planet_teeth // math.gcd(design.planet_teeth, design.ring_teeth)
+    course = turned("arm")
+    return Motion(make, Input("carrier_angle", end=2.0 * math.pi * turns, turns=turns), (Output("Arm", course),))
 
 
 def outwards(design: HypocycloidDwell) -> Course:

@@ -52,7 +52,9 @@ class HypocycloidDwellSection(Spec):
     """The dwell that is wanted."""
 
     angle: CarrierAngle | None = Field(None, description="carrier angle of the dwell; left out: the whole arc")
-    tolerance: Length | None = Field(None, description="+- tolerance of the slider's place")
+    tolerance: Length | None = Field(
+        None, description="+- tolerance of the slider's place; of a slotted arm of its angle, in deg"
+    )
 
 
 class DwellTarget(Spec):
@@ -69,11 +71,23 @@ class CarrierShaft(Spec):
     O_radius: Length | None = Field(None, description="radius of the carrier's shaft, in the middle of the ring gear")
 
 
+class DrivingPoint(Spec):
+    """The point of the planet that moves the output."""
+
+    ratio: Annotated[float, Field(json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="its distance from the planet's axis over the pitch radius"
+    )
+
+
 class HypocycloidDwellSpec(DrivenSpec):
-    """Ring gear, planet on a carrier, and a rod from the planet's pitch circle to a slider."""
+    """Ring gear, planet on a carrier, and a rod from a point of the planet to a slider, or an arm with a slot."""
 
     kind: Literal["hypocycloid-dwell"]
     gears: HypocycloidGears
+    output: Literal["slider", "slotted-arm"] = Field(
+        "slider", description="slider: on a rod; slotted-arm: turns about the ring's centre, the point in its slot"
+    )
+    point: DrivingPoint = DrivingPoint.model_construct()
     rod: Rod | None = None
     dwell: HypocycloidDwellSection = HypocycloidDwellSection.model_construct()
     target: DwellTarget | None = None
@@ -83,8 +97,25 @@ class HypocycloidDwellSpec(DrivenSpec):
         None, description="masses, forces and drive, for the command loads"
     )
 
+    @property
+    def is_arm(self) -> bool:
+        """Whether an arm with a slot is the output."""
+        return self.output == "slotted-arm"
+
     @model_validator(mode="after")
     def _rod_or_target(self) -> HypocycloidDwellSpec:
+        if not self.point.ratio > 0.0:
+            message = "point.ratio is {ratio}: it must be above 0"
+            raise PydanticCustomError("GL108", message, {"key": "point.ratio", "ratio": f"{self.point.ratio:g}"})
+        if self.is_arm:
+            for key in ("rod", "target"):
+                if getattr(self, key) is not None:
+                    message = "{key} goes with output: slider: leave it out"
+                    raise PydanticCustomError("GL111", message, {"key": key})
+            return self
+        if self.point.ratio != 1.0 and (self.target is not None or self.rod is None or self.rod.rule is not None):
+            message = "rules and targets are those of a point on the pitch circle: give rod.length, or point.ratio 1"
+            raise PydanticCustomError("GL111", message, {"key": "point.ratio"})
         if self.rod is None and self.target is None:
             raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})
         if self.rod is not None and self.target is not None:

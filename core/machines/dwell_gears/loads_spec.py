@@ -17,6 +17,7 @@ class HypocycloidMasses(Spec):
     planet: Body | None = Field(None, description="planet, from its axis; the point M lies at -r on its x")
     rod: Body | None = Field(None, description="rod, from M to F")
     slider: Body | None = Field(None, description="slider at F")
+    arm: Body | None = Field(None, description="arm with the slot, with all that turns with it, about D")
 
 
 class HypocycloidLoads(Loads):

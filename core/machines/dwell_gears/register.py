@@ -18,9 +18,11 @@ if TYPE_CHECKING:
 
 def hypocycloid(design: HypocycloidDwell, mechanism: Mechanism) -> Movable:
     """The rod, the carrier, which is the centre distance of planet and ring, and the planet's teeth."""
-    part, gears = design.slider, design.spec.gears
-    arm = (part.cusps - 1) * part.planet_radius
-    sizes = longer(mechanism, {"rod.length": ("rod", part.rod), "centers.planet_ring": ("carrier", arm)})
+    gears, arm = design.spec.gears, design.carrier_length
+    ends = {"centers.planet_ring": ("carrier", arm)}
+    if not design.spec.is_arm:
+        ends["rod.length"] = ("rod", design.slider.rod)
+    sizes = longer(mechanism, ends)
     alpha = math.radians(gears.pressure_angle)
     teeth = {name: GearOfSource(gears.module, gears.module * z, alpha) for name, z in
              (("planet", gears.planet), ("ring", gears.ring))}  # fmt: skip
@@ -29,6 +31,7 @@ def hypocycloid(design: HypocycloidDwell, mechanism: Mechanism) -> Movable:
         sizes,
         {"planet_ring": arm},
         gears={name: Turned(links[name], each) for name, each in teeth.items()},
+        radius=arm if design.spec.is_arm else 0.0,
     )
 
 
