@@ -23,6 +23,9 @@ LOADS: dict[str, tuple[str, dict[str, Any]]] = {
     "planar-mechanism": ("planar_watt", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
     "disc-cam": ("loaded_cam", {}),
     "cycloidal-reducer": ("loaded_cycloidal", {}),
+    "cam-gear": ("loaded_cam_gear", {}),
+    "cam-linkage": ("cam_linkage", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
+    "linked-cams": ("linked_cams", {"speed": 60, "links": {"table": _MASSES, "slide_x": {"mass": 3}}}),
     "geneva-drive": ("loaded_geneva", {}),
     "hypocycloid-dwell": ("hypocycloid_slider", {"speed": 60, "links": {"planet": _MASSES, "slider": {"mass": 3}}}),
 }

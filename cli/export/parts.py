@@ -102,6 +102,40 @@ def cycloidal(design: Any) -> Makers:
     return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
 
 
+def grooved(design: Any) -> Makers:
+    """Both walls of a groove in the frame, each with the path of the roller's centre."""
+    return {name: partial(_wall, design, name, place) for place, name in enumerate(("groove_inner", "groove_outer"))}
+
+
+def _wall(design: Any, name: str, place: int) -> Part:
+    groove = design.groove
+    joints = [joint for joint in groove.joints if 0.0 < joint < _TURN]
+
+    def points(theta: Reals) -> Points:
+        return np.stack([groove.walls(theta)[place], groove.path(theta).place])
+
+    def extra(theta: Reals) -> Reals:
+        return np.stack([np.degrees(theta), np.degrees(groove.pressure_angle(theta)), groove.curvature(theta)])
+
+    found = list(design.check("cam-undercut"))[place]
+    return Part(
+        name=name,
+        title=f"{name.removeprefix('groove_')} wall of the groove",
+        stretches=tuple(
+            Stretch(CAM_LAYERS, points, low, high, extra=extra) for low, high in pairwise([0.0, *joints, _TURN])
+        ),
+        closed=True,
+        notes=(f"roller radius {groove.roller_radius:.9g} mm", "frame: axis of the input at the origin"),
+        findings=(found.message,) if found.status == "fail" else (),
+        extra_columns=("input_angle [deg]", "pressure_angle [deg]", "curvature [1/mm]"),
+    )
+
+
+def linked_cams(design: Any) -> Makers:
+    """Both cams."""
+    return {f"{axis}_cam": partial(disc_cam, f"{axis}_cam", cam) for axis, cam in zip("xy", design.cams, strict=True)}
+
+
 def wide_swing(design: Any) -> Makers:
     """The profiles of the stroke, and the contours of the closed cams of a cycle."""
     if design.spec.cam is None:

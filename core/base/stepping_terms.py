@@ -38,4 +38,9 @@ RACKS = {
     "moving_rack_length": Term("", "mm", "least length of the moving rack: travel and path of contact"),
 }
 STEP_TRAIN = {"steps": Term("", "1", "steps of the output per turn of the carrier", "thesis 2.2.2")}
-STEPPING = {**GENEVA, **REDUCER, **RACKS, **STEP_TRAIN}
+CAM_DRIVE = {
+    "lever_swing": Term("", "deg", "range of the lever's angle against the carrier", "thesis 1.3.4; own derivation"),
+    "path_speed_max": Term("", "mm/s", "greatest speed along the path"),
+    "path_speed_min": Term("", "mm/s", "least speed along the path"),
+}
+STEPPING = {**GENEVA, **REDUCER, **RACKS, **STEP_TRAIN, **CAM_DRIVE}

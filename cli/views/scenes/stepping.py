@@ -13,6 +13,8 @@ from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, pale
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Part, Points, Reals, Scene, circle
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.cam_drives.grooved import Grooved
+    from gearlink.core.machines.cam_drives.linked import LinkedCams
     from gearlink.core.machines.cycloidal.design import CycloidalReducer
     from gearlink.core.machines.geneva.design import GenevaDrive
 
@@ -119,3 +121,49 @@ def _round(center: Points, turn: Reals, circle_radius: float, radius: float, cou
              turn=np.zeros_like(turn), color=color, fill=pale(color, 0.4), repeats=0)
         for k in range(count)
     ]  # fmt: skip
+
+
+def grooved(design: Grooved, fraction: Reals) -> Scene:
+    """Positions over fractions of a turn of the input: the links, the roller, and both walls of its groove."""
+    scene = of_motion.build(design, fraction)
+    theta, groove = TURN * fraction, design.groove
+    still, axis = np.zeros_like(fraction), np.zeros(fraction.shape, dtype=np.complex128)
+    whole = np.linspace(0.0, TURN, 721)
+    inner, outer = groove.walls(whole)
+    walls = [
+        Body(outline=outer, place=axis, turn=still, color=GREY, fill=pale(GREY, 0.18), name="groove"),
+        Body(outline=inner, place=axis, turn=still, color=GREY, fill="#FFFFFF"),
+    ]
+    roller = Body(outline=circle(groove.roller_radius, 36), place=groove.path(theta).place, turn=still, color=GREEN,
+                  fill=pale(GREEN, 0.4), repeats=0, name="roller")  # fmt: skip
+    kept = tuple(each for each in scene.parts if getattr(each, "name", "") != "groove" and not _is_block(each))
+    return replace(scene, parts=(*walls, *kept, roller))
+
+
+def _is_block(part: Part) -> bool:
+    """The block that the generic scene draws about the pin of a slot."""
+    return isinstance(part, Body) and not part.name and len(part.outline) == 5
+
+
+def linked_cams(design: LinkedCams, fraction: Reals) -> Scene:
+    """Positions over fractions of a turn: both cams, their rollers, and the table on its path."""
+    scene = of_motion.build(design, fraction)
+    theta = TURN * fraction
+    links = design.moving.at(theta, 0).links
+    axis, still = links["cam"].origin.value, np.zeros_like(fraction)
+    whole = np.linspace(0.0, TURN, 721)
+    parts: list[Part] = []
+    for cam, color, name, way in zip(design.cams, (BLUE, ORANGE), ("x", "y"), (1.0, 1j), strict=True):
+        outline = cam.points(whole)[1]
+        parts.append(
+            Body(outline=outline, place=axis, turn=theta, color=color, fill=pale(color, 0.2), name=f"{name} cam")
+        )
+        at = links[f"slide_{name}"].origin.value
+        parts.append(Body(outline=circle(cam.roller_radius, 36), place=at, turn=still, color=color,
+                          fill=pale(color, 0.5), repeats=0))  # fmt: skip
+        parts.append(Chain(joints=(at, at + 4.0 * way * cam.roller_radius), color=color, marked=False))
+    path = design.moving.at(whole, 0).links["table"].origin.value
+    parts.append(Body(outline=path, place=np.zeros_like(axis), turn=still, color=GREEN, name="path", width=1.6))
+    parts.append(Body(outline=circle(0.5 * design.cams[0].roller_radius, 24), place=links["table"].origin.value,
+                      turn=still, color=GREEN, fill=pale(GREEN, 0.5), repeats=0, name="table"))  # fmt: skip
+    return replace(scene, parts=tuple(parts))

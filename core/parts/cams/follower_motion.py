@@ -178,13 +178,19 @@ class FollowerMotion:
 
 
 def motion_of(
-    motion: list[Segment] | MotionTable, initial_lift: float = 0.0, *, unit: float = 1.0, spec: Any = None
+    motion: list[Segment] | MotionTable,
+    initial_lift: float = 0.0,
+    *,
+    unit: float = 1.0,
+    spec: Any = None,
+    whole: float = 0.0,
 ) -> FollowerMotion:
     """The motion that a design file gives.
 
     Parameters
         unit : float - of its lifts: 1 for mm, pi/180 for deg
         spec : the design file, of whose speed and vibration laws may be shaped; None: they know of none
+        whole : float - of what turns round: the lift of a turn, by whole multiples of which it may end higher
     Raises
         NoSolution - at `motion`, for a law that cannot be or a lift that does not return
     """
@@ -204,7 +210,8 @@ def motion_of(
                 v, a = segment.end_velocity, segment.end_acceleration
                 given[len(pieces) - 1] = None if v is None else unit * v, None if a is None else unit * a
         start, lift = end, pieces[-1].high
-    if abs(lift - unit * initial_lift) > 1e-9 * max(1.0, abs(lift)):
+    gained = lift - unit * initial_lift
+    if abs(gained - (whole * round(gained / whole) if whole else 0.0)) > 1e-9 * max(1.0, abs(lift)):
         message = f"the lift ends at {lift / unit:.9g} and starts at {initial_lift:.9g}: let it return"
         raise NoSolution(message, key="motion")
     return FollowerMotion(_joined(_awaited(pieces, unit), given))

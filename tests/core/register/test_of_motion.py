@@ -34,6 +34,9 @@ CASES: dict[str, tuple[str, ...]] = {
     "gear_pair": ("centers.gears", "pins.gear1", "gears.gear1", "gears.gear2"),
     "wide_swing_cycle": ("centers.cam", "cam.profile", "cam.roller_radius", "pins.roller", "pins.D"),
     "loaded_cycloidal": ("eccentricity", "pins.E1", "pins.A"),
+    "cam_gear": ("lever.length", "centers.gears", "cam.profile", "pins.roller", "pins.B"),
+    "cam_linkage": ("links.input", "links.coupler", "links.follower", "cam.profile", "pins.roller", "pins.C"),
+    "linked_cams": ("cams.x.roller_radius", "pins.O"),
     "geneva_drive": ("center_distance", "pins.D", "pins.A"),
     "lift_cam": ("cam.profile", "follower.roller_radius", "follower.offset", "pins.roller", "pins.O"),
     "planar_watt": (
@@ -72,6 +75,8 @@ WITHOUT_MESH = (
     "wide_swing_cycle",
     "lift_cam",
     "geneva_drive",
+    "cam_linkage",
+    "linked_cams",
     "loaded_cycloidal",
     "planar_watt",
     "planar_quick_return",

@@ -1,0 +1,306 @@
+"""Cam-gear and cam-linkage as designs: the output's motion is given, the groove follows from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.errors import NoSolution, in_section
+from gearlink.core.base.real_speed import RealSpeed, per_time
+from gearlink.core.base.remedies.ways import either, up
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.cam_drives.spec import CamDriveSpec, CamGearSpec, CamLinkageSpec
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.parts.cams.groove import Groove, Path
+    from gearlink.core.parts.cams.output_motion import OutputMotion
+    from gearlink.core.parts.gears.data import GearData
+
+_GROOVE = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
+_OUTPUT = (
+    "speed_ratio_max", "speed_ratio_min", "acceleration_ratio_max", "input_speed", "turn_time", "output_speed_max",
+    "output_speed_min", "output_acceleration_max",
+)  # fmt: skip
+_CHECKS = ("pressure-angle", "cam-undercut")
+_TEETH = (
+    "undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance", "tooth-form", "sliding",
+)  # fmt: skip
+_IN_LINE = 1e-9
+
+
+class Grooved(RealSpeed, Design):
+    """A drive whose roller runs in a groove of the frame; a subclass says where the roller is."""
+
+    spec: CamDriveSpec
+    requirements = Design.requirements | {"motion", "limits.pressure_angle"}
+    larger = "enlarge the drive against its roller"
+
+    @cached_property
+    def output_motion(self) -> OutputMotion:
+        """Output angle over the input angle."""
+        from gearlink.core.parts.cams.output_motion import OutputMotion
+
+        return OutputMotion(self.spec.motion)
+
+    def path(self, theta: Reals) -> Path:
+        """The roller's centre in the frame."""
+        raise NotImplementedError
+
+    def require_closed(self) -> None:
+        """Refuse a drive that cannot turn through.
+
+        Raises
+            NoSolution
+        """
+
+    @cached_property
+    def groove(self) -> Groove:
+        """The groove.
+
+        Raises
+            NoSolution - where the drive does not close over the turn
+        """
+        from gearlink.core.parts.cams.groove import Groove
+
+        self.require_closed()
+        return Groove(self.path, self.spec.roller_radius, self.output_motion.joints)
+
+    max_pressure_angle: float = placed("groove.steepest.value")
+    min_curvature_radius: float = placed("groove.sharpest.value")
+    max_radius: float = placed("groove.max_radius")
+    min_radius: float = placed("groove.min_radius")
+
+    @cached_property
+    def _rates(self) -> list[Extreme]:
+        from gearlink.core.numerics.extremes import extremes_over
+
+        motion = self.output_motion
+
+        def speed(theta: Reals) -> Reals:
+            return motion.evaluate(theta, 1)[1]
+
+        def acceleration(theta: Reals) -> Reals:
+            return abs(motion.evaluate(theta, 2)[2])
+
+        wanted = [(speed, True), (speed, False), (acceleration, True)]
+        return extremes_over(wanted, joints=motion.joints, samples=1024)
+
+    speed_ratio_max: float = placed("_rates.0.value")
+    speed_ratio_min: float = placed("_rates.1.value")
+    acceleration_ratio_max: float = placed("_rates.2.value")
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+
+    def motion_columns(self, _theta: Reals, /) -> dict[str, tuple[Any, str]]:
+        """Further columns of the table of the motion."""
+        return {}
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """The output over a turn of the input."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        self.require_closed()
+        degrees = turn_degrees(samples)
+        theta = np.radians(degrees)
+        angle, speed, acceleration = self.output_motion.evaluate(theta, 2)
+        columns: dict[str, tuple[Any, str]] = {
+            "input_angle": (degrees, "deg"),
+            "output_angle": (np.degrees(angle), "deg"),
+            "speed_ratio": (speed, "1"),
+            "acceleration_ratio": (acceleration, "1"),
+            **self.motion_columns(theta),
+        }
+        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+        return Table.of("motion", self.timed(columns, "input_angle", rates))
+
+    def table_main_cam(self, samples: int | None = None) -> Table:
+        """The groove: path of the roller, both walls, pressure angle, curvature."""
+        return self.groove.table(samples)
+
+    def check_pressure_angle(self) -> Check:
+        """GL401."""
+        return self.groove.check_pressure_angle(self.spec.limits.pressure_angle, self.larger)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402."""
+        return self.groove.check_undercut(self.larger)
+
+
+class CamGear(Grooved):
+    """Sun, planet and carrier, the planet's lever in a groove: output by a differential.
+
+    chi = (z_s/z_p)(theta - theta_out),  X = angle + chi,  P = e^(i theta)(R + l e^(i X)),
+    tan alpha = [R cos X + l (1 + chi')]/(R sin X)
+
+    Source
+        thesis 1.3.4; own derivation
+    """
+
+    kind = "cam-gear"
+    spec: CamGearSpec
+    outlines = {
+        "analyze": Outline(
+            ("lever_swing", *_GROOVE, *_OUTPUT, "carrier_length", "contact_ratio"), (*_CHECKS, *_TEETH),
+            ("motion", "main_cam"),
+        )
+    }  # fmt: skip
+    ways = {
+        "pressure-angle": (*either("lever.angle"), *either("lever.length", "gears.module")),
+        "cam-undercut": (*either("roller_radius"), up("gears.module", step=0.25)),
+    }
+    larger = "shorten the lever, turn it (lever.angle), take fewer sun teeth, or give the motion more input angle"
+
+    @cached_property
+    def gear_data(self) -> GearData:
+        """Sun and planet."""
+        from gearlink.core.parts.gears.from_spec import data_of, pair_at
+
+        gears = self.spec.gears
+        plain = 0.5 * gears.module * (gears.sun + gears.planet) / math.cos(math.radians(gears.helix_angle))
+        with in_section("gears"):
+            pair = pair_at(gears, (gears.sun, gears.planet), plain if gears.profile_shift is None else None)
+            return data_of(gears, pair)
+
+    @property
+    def carrier_length(self) -> float:
+        """R, from the sun's axis to the planet's [mm]."""
+        return self.gear_data.pair.center_distance
+
+    contact_ratio: float = placed("gear_data.pair.contact_ratio")
+
+    @property
+    def share(self) -> float:
+        """z_s/z_p."""
+        return self.spec.gears.sun / self.spec.gears.planet
+
+    def lever(self, theta: Reals, order: int, side: int = 1) -> list[Reals]:
+        """Angle X of the lever from the direction sun to planet, and its derivatives by the input angle [rad]."""
+        angle, *rates = self.output_motion.evaluate(theta, order, side=side)
+        found = [math.radians(self.spec.lever.angle) + self.share * (theta - angle)]
+        found += [self.share * ((1.0 if k == 0 else 0.0) - each) for k, each in enumerate(rates)]
+        return found
+
+    @cached_property
+    def _swing(self) -> tuple[Extreme, Extreme]:
+        from gearlink.core.numerics.extremes import extremes_over
+
+        def place(theta: Reals) -> Reals:
+            return self.lever(theta, 0)[0]
+
+        top, low = extremes_over([(place, True), (place, False)], joints=self.output_motion.joints, samples=1024)
+        return top, low
+
+    @property
+    def lever_swing(self) -> float:
+        """Range of the lever's angle against the carrier [rad]."""
+        return self._swing[0].value - self._swing[1].value
+
+    def require_closed(self) -> None:
+        """The lever must never lie in line with its carrier, where the groove cannot turn it."""
+        top, low = self._swing
+        over = math.floor(top.value / math.pi + _IN_LINE) * math.pi
+        if over >= low.value - _IN_LINE:
+            raise NoSolution(
+                f"the lever comes in line with its carrier: its angle runs from {math.degrees(low.value):.6g} to "
+                f"{math.degrees(top.value):.6g} deg, over {math.degrees(over):.6g} deg; set lever.angle so that it "
+                "keeps between 0 and 180 deg, or take fewer sun teeth",
+                key="lever.angle",
+            )
+
+    def path(self, theta: Reals) -> Path:
+        """P, P', P'' and u = d P/d X."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import units
+        from gearlink.core.parts.cams.groove import Path
+
+        x, first, second = self.lever(theta, 2)
+        turn, arm, length = units(theta), self.spec.lever.length * units(x), self.carrier_length
+        spin = 1.0 + first
+        return Path(
+            np.asarray(turn * (length + arm)),
+            np.asarray(1j * turn * (length + spin * arm)),
+            np.asarray(turn * (1j * second * arm - length - spin**2 * arm)),
+            np.asarray(1j * turn * arm),
+        )
+
+    def motion_columns(self, theta: Reals) -> dict[str, tuple[Any, str]]:
+        """Angle of the lever."""
+        import numpy as np
+
+        return {"lever_angle": (np.degrees(self.lever(theta, 0)[0]), "deg")}
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks are those of sun and planet."""
+        if name not in _TEETH:
+            return super().check(name)
+        from gearlink.core.parts.gears.drawing_checks import pair_check
+
+        with in_section("gears"):
+            return pair_check(name, self.gear_data, self.spec.limits, shifts=self.spec.gears.profile_shift is not None)
+
+
+class CamLinkage(Grooved):
+    """A five-bar A-B-C-D-E whose joint C runs in a groove: the output by any law, full turns too.
+
+    Source
+        thesis 1.3.2; own derivation
+    """
+
+    kind = "cam-linkage"
+    spec: CamLinkageSpec
+    outlines = {"analyze": Outline((*_GROOVE, *_OUTPUT), _CHECKS, ("motion", "main_cam"))}
+    ways = {
+        "pressure-angle": either("links.coupler", "links.follower", "links.output", "links.input", "phase"),
+        "cam-undercut": either("roller_radius", "links.coupler", "links.follower"),
+    }
+    larger = "change coupler, follower or phase, or give the motion more input angle"
+
+    @cached_property
+    def _span(self) -> tuple[Extreme, Extreme]:
+        """Greatest and least distance of B and D."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import units
+        from gearlink.core.numerics.extremes import extremes_over
+
+        links, phase = self.spec.links, math.radians(self.spec.phase)
+
+        def apart(theta: Reals) -> Reals:
+            d = links.frame + links.output * units(phase + self.output_motion.evaluate(theta, 0)[0])
+            return np.abs(d - links.input * units(theta))
+
+        far, near = extremes_over([(apart, True), (apart, False)], joints=self.output_motion.joints, samples=1024)
+        return far, near
+
+    def require_closed(self) -> None:
+        """Coupler and follower must reach from B to D over the whole turn."""
+        links, (far, near) = self.spec.links, self._span
+        least, most = abs(links.coupler - links.follower), links.coupler + links.follower
+        open_at = far if far.value >= most else near if near.value <= least else None
+        if open_at is not None:
+            raise NoSolution(
+                f"coupler and follower do not close at input angle {math.degrees(open_at.place):.6g} deg: B and D are "
+                f"{open_at.value:.6g} mm apart there, it must be between {least:.6g} and {most:.6g} mm; change "
+                "links.coupler or links.follower, or phase",
+                key="links",
+            )
+
+    def path(self, theta: Reals) -> Path:
+        """C and its derivatives; u is across BC."""
+        import numpy as np
+
+        from gearlink.core.machines.cam_drives.mechanism import five_bar
+        from gearlink.core.parts.cams.groove import Path
+
+        links = five_bar(self, theta, 2, 1)
+        place = links["coupler"].at("C")
+        return Path(place.value, place.first, place.second, np.asarray(1j * links["coupler"].unit))

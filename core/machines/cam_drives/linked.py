@@ -1,0 +1,205 @@
+"""Two cams on one shaft that move a cross slide along a path."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.real_speed import RealSpeed
+from gearlink.core.base.remedies.ways import either, up
+from gearlink.core.base.report import Check, Table
+from gearlink.core.base.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.cam_drives.spec import LinkedCamsSpec
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.disc_cam import DiscCam
+    from gearlink.core.parts.cams.follower_motion import FollowerMotion
+
+AXES = ("x", "y")
+_LARGER = "enlarge its base_radius"
+
+
+class LinkedCams(RealSpeed, Design):
+    """Each coordinate of the path is the lift of an in-line cam, counted from its least.
+
+    Source
+        thesis 1.3.1; own derivation: tan alpha = s'/(r_0 + s)
+    """
+
+    kind = "linked-cams"
+    spec: LinkedCamsSpec
+    outlines = {
+        "analyze": Outline(
+            ("stroke", "max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius", "input_speed",
+             "turn_time", "path_speed_max", "path_speed_min"),
+            ("pressure-angle", "cam-undercut"),
+            ("path", "x_cam", "y_cam"),
+        )
+    }  # fmt: skip
+    requirements = Design.requirements | {"limits.pressure_angle", "path"}
+    ways = {
+        "pressure-angle": (up("cams.x.base_radius"), up("cams.y.base_radius")),
+        "cam-undercut": (*either("cams.x.roller_radius", "cams.y.roller_radius"), up("cams.x.base_radius"),
+                         up("cams.y.base_radius")),
+    }  # fmt: skip
+
+    # The path
+
+    def coordinate(self, axis: int, theta: Reals, order: int) -> list[Reals]:
+        """x or y and derivatives by the input angle [mm]."""
+        import numpy as np
+
+        if self.spec.path.points is not None:
+            return self._splines[axis].evaluate(theta, order)
+        assert self.spec.path.harmonics is not None
+        found = [np.zeros_like(theta) for _ in range(order + 1)]
+        for n, cos, sin in (self.spec.path.harmonics.x, self.spec.path.harmonics.y)[axis]:
+            wave = (cos - 1j * sin) * np.exp(1j * n * theta)
+            for k in range(order + 1):
+                found[k] = found[k] + ((1j * n) ** k * wave).real
+        return found
+
+    @cached_property
+    def _splines(self) -> list[FollowerMotion]:
+        from gearlink.core.parts.cams.follower_motion import spline
+
+        points = self.spec.path.points or []
+        angles = [math.radians(row[0]) for row in points]
+        return [spline(angles, [row[axis] for row in points]) for axis in (1, 2)]
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Input angles at which the fourth derivative may jump: the points of a spline [rad]."""
+        return (
+            () if self.spec.path.points is None else tuple(math.radians(row[0]) for row in self.spec.path.points[:-1])
+        )
+
+    @cached_property
+    def lowest(self) -> list[float]:
+        """Least x and y of the path [mm]."""
+        return [found[0] for found in self._reach]
+
+    @cached_property
+    def _reach(self) -> list[tuple[float, float]]:
+        from gearlink.core.numerics.extremes import extremes_over
+
+        found = []
+        for axis in (0, 1):
+
+            def place(theta: Reals, axis: int = axis) -> Reals:
+                return self.coordinate(axis, theta, 0)[0]
+
+            low, high = extremes_over([(place, False), (place, True)], joints=self.joints, samples=1024)
+            found.append((low.value, high.value))
+        return found
+
+    @property
+    def stroke(self) -> list[float]:
+        """Strokes of both slides [mm]."""
+        return [high - low for low, high in self._reach]
+
+    @cached_property
+    def _speeds(self) -> list[float]:
+        from gearlink.core.numerics.extremes import extremes_over
+
+        def speed(theta: Reals) -> Reals:
+            return abs(self.coordinate(0, theta, 1)[1] + 1j * self.coordinate(1, theta, 1)[1])
+
+        found = extremes_over([(speed, True), (speed, False)], joints=self.joints, samples=1024)
+        return [each.value for each in found]
+
+    @property
+    def path_speed_max(self) -> float | None:
+        """Greatest speed along the path [mm/s]."""
+        return None if self.angular_speed is None else self._speeds[0] * self.angular_speed
+
+    @property
+    def path_speed_min(self) -> float | None:
+        """Least speed along the path [mm/s]."""
+        return None if self.angular_speed is None else self._speeds[1] * self.angular_speed
+
+    # The cams
+
+    @cached_property
+    def cams(self) -> tuple[DiscCam, DiscCam]:
+        """Those of x and of y, in the frame at input angle 0; their followers move along +x and +y."""
+        from gearlink.core.parts.cams.disc_cam import DiscCam
+        from gearlink.core.parts.cams.profile import RollerPath, translating
+
+        def made(axis: int) -> DiscCam:
+            given = (self.spec.cams.x, self.spec.cams.y)[axis]
+
+            def path(theta: Reals, order: int) -> RollerPath:
+                place, *rates = self.coordinate(axis, theta, max(order, 1))
+                second = rates[1] if order > 1 else 0.0
+                height = given.base_radius + (place - self.lowest[axis])
+                return translating(height, rates[0], second, direction=(1.0, 1j)[axis])
+
+            key = f"cams.{AXES[axis]}"
+            return DiscCam(f"{AXES[axis]} cam", path, 1, given.roller_radius, self.joints, key)
+
+        return made(0), made(1)
+
+    @property
+    def max_pressure_angle(self) -> list[float]:
+        """Greatest pressure angle of both cams [rad]."""
+        return [cam.max_pressure_angle.value for cam in self.cams]
+
+    @property
+    def min_curvature_radius(self) -> list[float]:
+        """Least convex radius of both pitch curves [mm]."""
+        return [cam.min_curvature_radius.value for cam in self.cams]
+
+    @property
+    def max_radius(self) -> list[float]:
+        """Greatest radius of both pitch curves [mm]."""
+        return [cam.max_radius + cam.roller_radius for cam in self.cams]
+
+    @property
+    def min_radius(self) -> list[float]:
+        """Least radius of both pitch curves [mm]."""
+        return [cam.min_radius + cam.roller_radius for cam in self.cams]
+
+    # Tables and checks
+
+    def table_path(self, samples: int | None = None) -> Table:
+        """The path over the input angle, with lifts and rates."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        theta = np.radians(degrees)
+        columns = {"input_angle": (degrees, "deg")}
+        for axis, name in enumerate(AXES):
+            place, speed, acceleration = self.coordinate(axis, theta, 2)
+            columns |= {
+                name: (place, "mm"),
+                f"{name}_lift": (place - self.lowest[axis], "mm"),
+                f"{name}_velocity": (speed, "mm/rad"),
+                f"{name}_acceleration": (acceleration, "mm/rad^2"),
+            }
+        return Table.of("path", self.timed(columns, "input_angle", {}))
+
+    def table_x_cam(self, samples: int | None = None) -> Table:
+        """The cam of x."""
+        return self.cams[0].table("x_cam", samples)
+
+    def table_y_cam(self, samples: int | None = None) -> Table:
+        """The cam of y."""
+        return self.cams[1].table("y_cam", samples)
+
+    def check_pressure_angle(self) -> Iterator[Check]:
+        """GL401 of both."""
+        from gearlink.core.parts.cams.checks import pressure_angle_checks
+
+        return pressure_angle_checks(self.cams, self.spec.limits.pressure_angle, _LARGER)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402 of both."""
+        from gearlink.core.parts.cams.checks import undercut_checks
+
+        return undercut_checks(self.cams, plainly=_LARGER)

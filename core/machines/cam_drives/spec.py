@@ -1,0 +1,168 @@
+"""The design files of mechanisms of gears or links with cams."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import (
+    Angle,
+    Assembly,
+    Deferred,
+    Distance,
+    DrawingLimits,
+    DrivenSpec,
+    Entries,
+    GearLimits,
+    Length,
+    LoadLimits,
+    SignedLength,
+    Spec,
+    Teeth,
+)
+from gearlink.core.parts.cams.output_motion import OutputLaw
+from gearlink.core.parts.gears.keys.pair import PairKeys
+
+SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
+Number = Annotated[float, Field(json_schema_extra={"unit": "1"})]
+Harmonic = Annotated[list[Number], Field(min_length=3, max_length=3), Entries("[n, cos, sin]", "[1, 20, 0]")]
+Waves = Annotated[list[Harmonic], Field(min_length=1, max_length=60)]
+PathPoint = Annotated[list[SignedLength], Field(min_length=3, max_length=3), Entries("[angle, x, y]", "[90, 20, 5]")]
+
+
+class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):
+    """Limits of the checks."""
+
+    pressure_angle: SteepAngle = Field(45.0, description="greatest pressure angle")
+
+
+class CamDriveSpec(DrivenSpec):
+    """What drives with a groove in the frame share."""
+
+    roller_radius: Length = Field(description="radius of the roller in the groove")
+    motion: OutputLaw = Field(description="output over a turn of the input: segments with laws, or a table")
+    limits: CamDriveLimits = CamDriveLimits.model_construct()
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if getattr(self, "loads", None) is not None else ()))
+
+
+class SunAndPlanet(PairKeys):
+    """Sun on the output, planet on the carrier."""
+
+    sun: Teeth = Field(description="teeth of the sun, which is the output")
+    planet: Teeth = Field(description="teeth of the planet")
+
+
+class Lever(Spec):
+    """The lever on the planet that carries the roller."""
+
+    length: Length = Field(description="from the planet's axis to the roller's")
+    angle: Angle = Field(description="from the direction sun to planet to the lever, at input angle 0")
+
+
+class CamGearSpec(CamDriveSpec):
+    """A planet whose lever runs in a groove of the frame: carrier the input, sun the output."""
+
+    kind: Literal["cam-gear"]
+    gears: SunAndPlanet
+    lever: Lever
+    loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamGearSection")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+
+class FiveLinks(Spec):
+    """The links of the five-bar."""
+
+    input: Length = Field(description="input link AB")
+    coupler: Length = Field(description="coupler BC, from the input to the roller at C")
+    follower: Length = Field(description="follower CD, from the output to the roller at C")
+    output: Length = Field(description="output link ED")
+    frame: Distance = Field(description="frame AE; 0: input and output on one axis")
+
+
+class CamLinkageSpec(CamDriveSpec):
+    """A five-bar whose middle joint C runs in a groove of the frame: AB the input, ED the output."""
+
+    kind: Literal["cam-linkage"]
+    links: FiveLinks
+    phase: Angle = Field(0.0, description="direction of ED at output angle 0")
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D")
+    loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamLinkageSection")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+
+class Harmonics(Spec):
+    """Both coordinates of the path as sums of harmonics of the input angle."""
+
+    x: Annotated[list[Harmonic], Field(min_length=1, max_length=60)] = Field(
+        description="n, and amounts of cos and sin"
+    )
+    y: Annotated[list[Harmonic], Field(min_length=1, max_length=60)] = Field(description="the same of y")
+
+    @model_validator(mode="after")
+    def _whole(self) -> Harmonics:
+        for key in ("x", "y"):
+            for place, (n, *_) in enumerate(getattr(self, key)):
+                if n < 1 or n != int(n) or n > 1000:
+                    message = "the number of a harmonic is a whole one from 1 to 1000, not {n}"
+                    raise PydanticCustomError("GL108", message, {"key": f"{key}[{place}][0]", "n": f"{n:g}"})
+        return self
+
+
+class LinkedPath(Spec):
+    """The path of the slide."""
+
+    harmonics: Harmonics | None = Field(None, description="both coordinates by harmonics of the input angle")
+    points: Annotated[list[PathPoint], Field(min_length=5, max_length=2000)] | None = Field(
+        None, description="input angle and place, ascending from 0 to 360, closed; a quintic spline goes through them"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> LinkedPath:
+        if (self.harmonics is None) == (self.points is None):
+            if self.points is None:
+                raise PydanticCustomError("GL106", "give harmonics, or points in their place", {"key": "harmonics"})
+            raise PydanticCustomError("GL111", "harmonics and points exclude each other: give one", {"key": "points"})
+        rows = self.points or [[0.0, 0.0, 0.0], [360.0, 0.0, 0.0]]
+        ascending = all(before[0] < after[0] for before, after in pairwise(rows))
+        if not ascending or rows[0][0] != 0.0 or rows[-1][0] != 360.0 or rows[0][1:] != rows[-1][1:]:
+            message = "points ascend from input angle 0 to 360 and end where they start"
+            raise PydanticCustomError("GL111", message, {"key": "points"})
+        return self
+
+
+class LinkedCam(Spec):
+    """One of both cams, with an in-line roller."""
+
+    base_radius: Length = Field(description="cam axis to the roller's centre at lift 0")
+    roller_radius: Length = Field(description="radius of the roller")
+
+
+class LinkedCamPair(Spec):
+    """The cams of both coordinates, on one shaft."""
+
+    x: LinkedCam
+    y: LinkedCam
+
+
+class LinkedCamsSpec(DrivenSpec):
+    """A cross slide that two cams on one shaft move along a path."""
+
+    kind: Literal["linked-cams"]
+    path: LinkedPath
+    cams: LinkedCamPair
+    limits: CamDriveLimits = CamDriveLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.cam_drives.loads:LinkedCamsSection")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))

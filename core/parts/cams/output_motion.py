@@ -1,0 +1,106 @@
+"""The output of a drive over the angle of its input, by segments with laws or through points: it turns on, stands, and
+turns back as the file says.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.errors import at_key
+from gearlink.core.base.spec import Spec
+from gearlink.core.parts.cams.motion_spec import MotionTable, Segment
+from gearlink.core.parts.cams.spec import SegmentLaw
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.cams.follower_motion import FollowerMotion
+
+TURN = 2.0 * math.pi
+_FIT = 1e-9
+OutputAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={"unit": "deg"})]
+
+
+class OutputSegment(Spec):
+    """A stretch of the input angle with one law; it begins where the one before ends."""
+
+    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="input angle at which it ends; that of the last segment is 360"
+    )
+    output: OutputAngle | None = Field(
+        None, description="output angle at its end, from 0 at input angle 0 on; left out: a dwell"
+    )
+    law: SegmentLaw | None = Field(None, description="law of motion; left out: modified-sine, or a dwell")
+
+
+def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegment] | MotionTable:
+    """Refuse a motion that does not take a turn of the input, or leaves the output between whole turns."""
+    if isinstance(motion, MotionTable):
+        ends, gained = [row[0] for row in motion.table], motion.table[-1][1] - motion.table[0][1]
+        first = ends[0]
+    else:
+        ends = [segment.to for segment in motion]
+        first, gained = 0.0, next((each.output for each in reversed(motion) if each.output is not None), 0.0)
+    if any(after <= before for before, after in pairwise(ends)):
+        raise _refused("the input angles of the motion must ascend")
+    if first != 0.0 or ends[-1] != 360.0:
+        raise _refused(f"the motion takes a whole turn of the input, up to 360 deg, not to {ends[-1]:.9g}")
+    if abs(gained - 360.0 * round(gained / 360.0)) > _FIT:
+        raise _refused(f"the output ends at {gained:.9g} deg: it must end with whole turns, such as 0 or 360")
+    return motion
+
+
+OutputLaw = Annotated[
+    Annotated[list[OutputSegment], Field(min_length=1, max_length=200)] | MotionTable, AfterValidator(_whole_turns)
+]
+
+
+def _refused(message: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message})
+
+
+class OutputMotion:
+    """Output angle over the input angle.
+
+    Parameters
+        given : the key of the file
+    """
+
+    def __init__(self, given: list[OutputSegment] | MotionTable) -> None:
+        self.even = 0.0
+        self._base = self._made(given)
+        start, end = self._base.pieces[0].low, self._base.pieces[-1].high
+        self.gained = end - start + TURN * self.even
+
+    def _made(self, given: list[OutputSegment] | MotionTable) -> FollowerMotion:
+        from gearlink.core.parts.cams.follower_motion import motion_of, spline
+
+        if isinstance(given, MotionTable):
+            rows = [(math.radians(angle), math.radians(output)) for angle, output in given.table]
+            self.even = (rows[-1][1] - rows[0][1]) / TURN
+            return spline([angle for angle, _ in rows], [output - self.even * angle for angle, output in rows])
+        segments = [
+            Segment.model_construct(to=each.to, lift=each.output, law=each.law, mirrored=False) for each in given
+        ]
+        with at_key("motion"):
+            return motion_of(segments, unit=math.radians(1.0), whole=TURN)
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Input angles at which the law changes [rad]."""
+        return self._base.joints
+
+    def evaluate(self, theta: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:
+        """Output angle and its derivatives by the input angle [rad], running on over its turns."""
+        import numpy as np
+
+        value, *rates = self._base.evaluate(theta, order, side=side)
+        turns = np.floor(theta / TURN)
+        value = value + self.even * np.mod(theta, TURN) + self.gained * turns
+        if rates and self.even:
+            rates[0] = rates[0] + self.even
+        return [value, *rates]
