@@ -483,7 +483,7 @@ KINDS: dict[str, Kind] = {
             "several mechanisms on one main shaft, or driven by each other: timing, loads, torsion, register",
             "machines.machine",
             "spec:MachineSpec",
-            {"analyze": "design:Machine"},
+            {"analyze": "design:Machine", "loads": "loads:MachineLoads"},
             picture="cli.views.figures.machine:draw",
             sheets={
                 "timing-line": "cli.views.figures.machine:line_sheet",

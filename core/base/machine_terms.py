@@ -15,6 +15,9 @@ MACHINE = {
     "machine_speed_limit": Term("", "1/min", "speed of the main shaft at which the first member reaches its limit"),
     "speed_limit_member": Term("", "1", "the member that limits the machine's speed"),
     "speed_limit_check": Term("", "1", "the check by which it does"),
+    "members_without_loads": Term("", "1", "members that add nothing, since they have no section loads"),
+    "wind_up_max_at": Term("", "deg", "machine angle of the greatest wind-up"),
+    "wind_up_disc": Term("", "1", "the disc that is wound up most"),
     "wind_up_max": Term("", "deg", "greatest wind-up of a disc of the main shaft against the first one", "modes"),
     "machine_yield": Term("", "1", "share of the machines that keep the allowed register", "normal law"),
 }

@@ -162,7 +162,7 @@ class OfMembers(Design):
 
     def check(self, name: str) -> list[Check]:
         """The findings of a check: the machine's own, then those of the members with their names before them."""
-        found = super().check(name) if hasattr(self, "check_" + name.replace("-", "_")) else []
+        found = super().check(name) if name in type(self).outlines[self.command].checks else []
         for member, design in self._answering.items():
             if name in design.outline(self._asked(design)).checks:
                 with in_section(f"members.{member}.design"):

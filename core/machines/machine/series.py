@@ -252,36 +252,38 @@ class OnShaft:
     def joints(self) -> tuple[float, ...]:
         """Angles from the phase of the row on, over `turns`, at which a rate may jump [rad], ascending."""
         end = TURN * self.turns
-        if self.driver is None:
-            assert self.period is not None
-            inputs = (self.motion.input.start, *self.motion.input.joints)
-            own = [each % self.period + k * self.period for k in range(int(abs(self.periods))) for each in inputs]
-            found = [each / abs(self.ratio) if self.ratio > 0.0 else end - each / abs(self.ratio) for each in own]
-        else:
-            found = [*self._of_driver, *self._crossings]
+        own = (self.motion.input.start, *self.motion.input.joints)
+        found = [*self._of_driver(self.turns), *self.places(own, self.period, self.turns)]
         return tuple(sorted({0.0, *(each for each in found if 0.0 <= each < end)}))
 
-    @property
-    def _of_driver(self) -> list[float]:
-        assert self.driver is not None
-        times = self.turns // self.driver.turns
+    def _of_driver(self, turns: int) -> list[float]:
+        """The joints of its driver over some turns of the main shaft."""
+        if self.driver is None:
+            return []
+        times = turns // self.driver.turns
         return [each + k * TURN * self.driver.turns for k in range(times) for each in self.driver.joints]
 
-    @property
-    def _crossings(self) -> list[float]:
-        """Where its input comes to one of its own joints."""
-        end, given = TURN * self.turns, self.motion.input
-        seen = self.input(np.linspace(0.0, end, 360 * self.turns + 1), 0)[0]
+    def places(self, own: Sequence[float], period: float | None, turns: int) -> list[float]:
+        """Angles from the phase of the row on, over some turns of the main shaft, at which its input comes to a place.
+
+        Parameters
+            own : places of its input, repeated after `period` [rad or mm]; None: over its range
+        """
+        end = TURN * turns
+        if self.driver is None:
+            assert period is not None
+            times = round(abs(self.ratio) * end / period)
+            repeated = [each % period + k * period for k in range(times) for each in own]
+            return [each / abs(self.ratio) if self.ratio > 0.0 else end - each / abs(self.ratio) for each in repeated]
+        seen = self.input(np.linspace(0.0, end, 360 * turns + 1), 0)[0]
         low, high = float(seen.min()), float(seen.max())
-        if self.period is None:
-            places = [each for each in given.joints if low < each < high]
-        else:
-            first, last = (math.floor((each - given.start) / self.period) for each in (low, high))
-            own = (given.start, *given.joints)
-            places = [each + k * self.period for k in range(first, last + 1) for each in own]
-            places = [each for each in dict.fromkeys(places) if low < each < high]
-        wanted = [lambda angle, at=at: self.input(angle, 0)[0] - at for at in places]
-        return [each for found in zeros_of(wanted, end, self.turns, jumps=self._of_driver) for each in found]
+        wanted = list(own)
+        if period is not None:
+            first, last = (math.floor(each / period) for each in (low, high))
+            wanted = [each % period + k * period for k in range(first, last + 1) for each in own]
+        reached = [each for each in dict.fromkeys(wanted) if low < each < high]
+        courses = [lambda angle, at=at: self.input(angle, 0)[0] - at for at in reached]
+        return [each for found in zeros_of(courses, end, turns, jumps=self._of_driver(turns)) for each in found]
 
 
 def _unit(course: Course) -> str:

@@ -1,0 +1,558 @@
+"""The loads of a machine: every member felt at the main shaft, one motor, one flywheel, and the shaft that winds up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property as kept
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.design import Design, Outline, placed
+from gearlink.core.base.errors import MissingSection, NoSolution, in_section
+from gearlink.core.base.report import Check, Quantity, Status, Table
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.machine import codes
+from gearlink.core.machines.machine.design import Machine, OfMembers
+from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
+from gearlink.core.machines.machine.speeds import own_speeds
+from gearlink.core.mechanism.dynamics import Reduced, System
+from gearlink.core.mechanism.joints import Contact
+from gearlink.core.mechanism.motion import TURN, Motion
+from gearlink.core.numerics.arrays import Reals, turn_degrees
+from gearlink.core.studies.loads.design import LoadsDesign
+from gearlink.core.studies.loads.machine import Machine as Loaded
+from gearlink.core.studies.loads.names import RUN, TORQUE
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.machine.shaft import Swing
+    from gearlink.core.machines.machine.spec import MachineSpec
+
+_SHEETS = 60.0
+_QUANTITIES = (
+    *TORQUE, *RUN, "machine_speed_limit", "speed_limit_member", "speed_limit_check", "natural_frequencies",
+    "critical_speeds", "wind_up_max", "wind_up_max_at", "wind_up_disc", "members_without_loads",
+)  # fmt: skip
+_CHECKS = ("member-speed", "motor-torque", "motor-speed", "speed-fluctuation", "critical-speed", "machine-speed")
+_LIMITS = {"lift_off_speed": "lift-off", "residual_speed_limit": "residual-vibration"}
+_NEAR, _SMALL, _NEAR_LIMIT = 0.1, 0.01, 0.9
+_SAMPLES = 720
+
+
+class Limited(NamedTuple):
+    """A speed of the main shaft that a member does not bear.
+
+    Fields
+        member, check : str - which member, and by which check
+        speed : float [1/min]
+    """
+
+    member: str
+    check: str
+    speed: float
+
+
+@dataclass(frozen=True)
+class Felt:
+    """A member as the main shaft feels it.
+
+    Fields
+        place : OnShaft
+        phase : float [rad] - of the row on the main shaft
+        loads : LoadsDesign
+    """
+
+    place: OnShaft
+    phase: float
+    loads: LoadsDesign
+
+    @kept
+    def machine(self) -> Loaded:
+        """Its own machine under its loads."""
+        with in_section(f"members.{self.place.name}.design"):
+            found = self.loads.machine
+            if found.stroke:
+                raise NoSolution("these loads are those of a stroke: give the whole cycle", key="loads")
+            if found.friction is not None and self.place.driver is not None:
+                message = "friction of a member behind another depends on how its driver runs: leave it out"
+                raise NoSolution(message, key="loads.friction")
+            return found
+
+    @kept
+    def backwards(self) -> Loaded:
+        """The same turning the other way, in which resistances act the other way."""
+        return replace(self.machine, speed=-self.machine.speed, kept={}, kept_few={}, kept_sums={})
+
+    @property
+    def period(self) -> float | None:
+        """Input after which its loads repeat [rad]; None over a range."""
+        return None if self.place.period is None else self.machine.period
+
+    @property
+    def turns(self) -> int:
+        """Turns of the main shaft after which its loads repeat."""
+        if self.period is None or self.place.period is None:
+            return self.place.turns
+        periods = abs(self.place.periods)  # motion periods in the turns of the motion
+        times = round(self.period / self.place.period)
+        return self.place.turns * (times // math.gcd(times, round(periods)) if periods else 1)
+
+    def breaks(self, turns: int) -> list[float]:
+        """Machine angles over some turns at which a force jumps or bends [rad]."""
+        times, end = turns // self.place.turns, TURN * turns
+        found = [each + k * TURN * self.place.turns for k in range(times) for each in self.place.joints]
+        found += self.place.places([0.0, *self.machine.breaks], self.period, turns)
+        return [(each + self.phase) % end for each in found]
+
+    def input(self, angle: Reals) -> list[Reals]:
+        """Its input and two derivatives at machine angles, the input within a period."""
+        u, first, second = self.place.input(angle - self.phase, 2)
+        return [u if self.period is None else np.mod(u, self.period), first, second]
+
+    def reduced(self, angle: Reals) -> Reduced:
+        """Inertia and load on the main shaft at machine angles.
+
+        J = u'^2 J_m,  J' = 2 u' u'' J_m + u'^3 J_m',  Q = u' Q_m
+
+        Source
+            virtual power, (Y1)
+        """
+        u, first, second = self.input(angle)
+        inertia, slope, weight, static = np.zeros((4, angle.size))
+        forth = np.ones(angle.size, dtype=bool) if self.place.driver is None else first >= 0.0
+        for rows, machine in ((forth, "machine"), (~forth, "backwards")):
+            if rows.any():
+                loaded: Loaded = getattr(self, machine)
+                own = loaded.reduced(u[rows])
+                inertia[rows], slope[rows], weight[rows] = own.inertia, own.slope, own.weight
+                static[rows] = loaded.load_torque(u[rows])
+        return Reduced(
+            first**2 * inertia,
+            2.0 * first * second * inertia + first**3 * slope,
+            first * weight,
+            -first * (static + weight),
+        )
+
+    def lift_off(self) -> float | None:
+        """Speed of the main shaft at which a contact that something presses is lost [rad/s], by its own u', u''.
+
+        N = N_0 + W^2 N_1, lost where it comes to 0; None where none is pressed or lost
+
+        Source
+            own derivation: the equations of Newton and Euler are linear in W^2
+        """
+        angle = np.linspace(0.0, TURN * self.turns, _SAMPLES * self.turns, endpoint=False)
+        u, first, second = self.input(angle)
+        machine = self.machine
+        mechanism = machine.at(u)
+        pressed = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is None]
+        if not pressed:
+            return None
+        system = System(mechanism, machine.masses)
+        still = system.right_side(machine.applied(u), machine.gravity, 0.0, 0.0)
+        moving = system.right_side((), 0j, first, second)
+        rest, swung = system.solve([still, moving])
+        found = []
+        for name in pressed:
+            k = system.place(name)
+            lost = swung[k] < -1e-12 * np.abs(swung[k]).max()
+            if lost.any():
+                found.append(float(np.sqrt(np.maximum(rest[k][lost], 0.0) / -swung[k][lost]).min()))
+        return min(found) if found else None
+
+
+def _no_links(_q: Reals, _order: int, _side: int) -> Any:
+    raise AssertionError("a machine of members has no links of its own")
+
+
+@dataclass(frozen=True)
+class Together(Loaded):
+    """All members on the main shaft, as the loads of a machine.
+
+    Fields
+        felt : Felt of every member with loads
+    """
+
+    felt: Sequence[Felt] = ()
+
+    def _reduced(self, phi: Reals) -> Reduced:
+        found = Reduced(*np.zeros((4, phi.size)))
+        for each in self.felt:
+            own = each.reduced(phi)
+            for name in ("inertia", "slope", "weight", "applied"):
+                getattr(found, name)[:] += getattr(own, name)
+        return found
+
+    def _given_breaks(self) -> list[float]:
+        """Those of the members."""
+        return [angle for each in self.felt for angle in each.breaks(self.turns)]
+
+    def _turning_back(self) -> list[float]:
+        """None besides those of the members."""
+        return []
+
+    def anew(self) -> Loaded:
+        """The same with nothing kept."""
+        return replace(self, kept={}, kept_few={}, kept_sums={})
+
+
+class _Section:
+    """The section `loads` of a machine: its keys, and None for those that members have alone."""
+
+    friction = vibration = backlash = None
+
+    def __init__(self, given: Any) -> None:
+        self.flywheel = None if given is None else given.flywheel
+        self.motor = None if given is None else given.motor
+
+
+class MachineLoads(OfMembers, LoadsDesign):
+    """Torques of all members on the main shaft; input angle: the machine angle."""
+
+    spec: MachineSpec
+    command = "loads"
+    outlines = {"loads": Outline(_QUANTITIES, _CHECKS, ("torque", "wind_up"))}
+    extra_tables = ("speed", "resonances", "speed_limits", "wind_up_course")
+    links, pins, meshes = (), (), ()
+    derived = frozenset(_QUANTITIES[len(TORQUE) :])
+
+    @cached_property
+    def design(self) -> Machine:
+        """Timing and members."""
+        return Machine(self.spec)
+
+    @property
+    def members(self) -> Any:
+        """Those of the design."""
+        return self.design.members
+
+    def member(self, name: str) -> Design | None:
+        """The loads of a member on the main shaft; None of one behind another, whose speed is not even."""
+        return self._loads.get(name) if self.spec.members[name].input is None else None
+
+    @cached_property
+    def _loads(self) -> dict[str, LoadsDesign]:
+        """The loads of every member that has some.
+
+        Raises
+            MissingSection - where none has
+        """
+        found: dict[str, LoadsDesign] = {}
+        for name, member in self.spec.members.items():
+            if "loads" in member.kind.commands and getattr(member.spec, "loads", None) is not None:
+                with in_section(f"members.{name}.design"):
+                    made = member.kind.design("loads", self._spec_of(name))
+                    if isinstance(made, LoadsDesign):
+                        self._refuse_drives(made)
+                        found[name] = made
+        if not found:
+            raise MissingSection("no member has loads: give one of them the section loads", key="members")
+        return found
+
+    def _refuse_drives(self, made: LoadsDesign) -> None:
+        for key in ("motor", "flywheel"):
+            if getattr(made.section, key, None) is not None:
+                message = f"the machine has one {key}: give it in loads of the machine, not in those of a member"
+                raise NoSolution(message, key=f"loads.{key}")
+
+    def _spec_of(self, name: str) -> Any:
+        """The spec of a member; one behind another is made at the machine's speed, and moved by its driver."""
+        member = self.spec.members[name]
+        if member.input is None:
+            return self.members.own_spec(name)
+        given = own_speeds(member.spec)
+        return member.changed([(each.key, abs(self.given_speed) / each.per) for each in given[-1:]])
+
+    def phase_of(self, member: str, what: str) -> float | None:
+        """Phase and its room of a free member [rad]."""
+        return self.design.phase_of(member, what)
+
+    @property
+    def members_without_loads(self) -> list[str] | None:
+        """Members that add nothing, since they have no loads."""
+        return [name for name in self.spec.members if name not in self._loads] or None
+
+    # What the loads of any machine ask
+
+    @cached_property
+    def section(self) -> Any:
+        """Motor and flywheel."""
+        return _Section(self.spec.loads)
+
+    @property
+    def given_speed(self) -> float:
+        """Speed of the main shaft [1/min]."""
+        if self.spec.speed is None:
+            raise MissingSection("`loads` needs the speed of the main shaft: give speed (rev/min)", key="speed")
+        return self.spec.speed
+
+    @property
+    def friction(self) -> None:
+        """That of the members is in their torques."""
+        return
+
+    @cached_property
+    def felt(self) -> dict[str, Felt]:
+        """The members with loads as the main shaft feels them."""
+        phases = self.design.phases
+        return {
+            name: Felt(self.members[name], math.radians(phases[self.spec.root(name)]), loads)
+            for name, loads in self._loads.items()
+        }
+
+    @cached_property
+    def turns(self) -> int:
+        """Turns of the main shaft after which everything repeats."""
+        found = math.lcm(self.members.turns, *(each.turns for each in self.felt.values()))
+        if found > MOST_TURNS:
+            message = f"the loads repeat only after {found} turns, more than {MOST_TURNS}: take simpler ratios"
+            raise NoSolution(message, key="members")
+        return found
+
+    @cached_property
+    def machine(self) -> Together:
+        """All members together."""
+        felt = tuple(self.felt.values())
+        return Together(Motion(_no_links), {}, None, 0j, self.speed, self.turns, felt=felt)  # type: ignore[arg-type]
+
+    @property
+    def cost(self) -> float:
+        """As much as all members."""
+        return sum(each.cost for each in self._loads.values())
+
+    pins_found = meshes_found = property(lambda _self: dict[str, Any](), doc="None of the machine's own.")
+
+    def has(self, _name: str) -> bool:
+        """It has no joints of its own."""
+        return False
+
+    # Speeds that the members bear
+
+    @cached_property
+    def limits(self) -> list[Limited]:
+        """Speeds of the main shaft that members do not bear, the least first."""
+        found: list[Limited] = []
+        for name in self.spec.members:
+            found += self._limits_of(name) if self.spec.members[name].input is None else self._limits_behind(name)
+        return sorted(found, key=lambda each: each.speed)
+
+    def _limits_of(self, name: str) -> Iterator[Limited]:
+        """Of a member on the main shaft: those of its own design over its ratio."""
+        own, ratio = self.members[name].design, abs(self.spec.members[name].ratio)
+        for quantity, check in _LIMITS.items():
+            design: Any = self._loads.get(name) or own
+            design = design if quantity in design.quantity_names() else own
+            if quantity not in design.quantity_names():
+                continue
+            with in_section(f"members.{name}.design"):
+                value: Quantity | None = design.quantity(quantity)
+            if value is not None and isinstance(value.value, (int, float)) and math.isfinite(value.value):
+                per = _SHEETS if value.unit == "sheets/h" else 1.0
+                yield Limited(name, check, value.value / per / ratio)
+
+    def _limits_behind(self, name: str) -> Iterator[Limited]:
+        """Of a member behind another: by the rates of its own input."""
+        felt = self.felt.get(name)
+        speed = None if felt is None else felt.lift_off()
+        if speed is not None:
+            yield Limited(name, "lift-off", speed * 30.0 / math.pi)
+
+    def _limit(self, field: str) -> Any:
+        return getattr(self.limits[0], field) if self.limits else None
+
+    @property
+    def machine_speed_limit(self) -> float | None:
+        """Least of those speeds [1/min]."""
+        found: float | None = self._limit("speed")
+        return found
+
+    @property
+    def speed_limit_member(self) -> str | None:
+        """The member that it is of."""
+        found: str | None = self._limit("member")
+        return found
+
+    @property
+    def speed_limit_check(self) -> str | None:
+        """The check by which it is."""
+        found: str | None = self._limit("check")
+        return found
+
+    # The main shaft
+
+    natural_frequencies: list[float] | None = placed("design.natural_frequencies")
+    critical_speeds: list[float] | None = placed("design.critical_speeds")
+
+    @property
+    def discs(self) -> list[str]:
+        """Names of the discs of the main shaft."""
+        shaft = self.spec.shaft
+        assert shaft is not None, "asked for only with a main shaft"
+        return shaft.members or [str(i) for i in range(1, len(shaft.inertias) + 1)]
+
+    def disc_of(self, name: str) -> int:
+        """The disc on which a member acts: that of its name, or of the member that drives it; else the first."""
+        root = self.spec.root(name)
+        return self.discs.index(root) if root in self.discs else 0
+
+    @cached_property
+    def swing(self) -> Swing:
+        """The steady swing of the main shaft under the members' torques.
+
+        Raises
+            MissingSection - without a main shaft
+        """
+        from gearlink.core.machines.machine.shaft import Swing
+
+        chain, count = self.design.chain, _SAMPLES * self.turns
+        angle: Reals = np.arange(count, dtype=np.float64) * (TURN * self.turns / count)
+        torques = np.zeros((chain.discs, count))
+        for name, each in self.felt.items():
+            torques[self.disc_of(name)] -= each.reduced(angle).torque(self.speed)
+        return Swing(chain, torques, self.turns, self.speed)
+
+    @cached_property
+    def _most_wound(self) -> tuple[int, int]:
+        """Disc and row at which the shaft is wound up most."""
+        disc, row = np.unravel_index(np.argmax(np.abs(self.swing.twist)), self.swing.twist.shape)
+        return int(disc), int(row)
+
+    def _of_shaft(self, value: Any) -> Any:
+        return None if self.spec.shaft is None else value()
+
+    @property
+    def wind_up_max(self) -> float | None:
+        """Greatest wind-up of a disc against the first [rad], a magnitude."""
+        found: float | None = self._of_shaft(lambda: abs(float(self.swing.twist[self._most_wound])))
+        return found
+
+    @property
+    def wind_up_max_at(self) -> float | None:
+        """Machine angle of it [rad], of the rows."""
+        found: float | None = self._of_shaft(lambda: TURN * self._most_wound[1] / _SAMPLES)
+        return found
+
+    @property
+    def wind_up_disc(self) -> str | None:
+        """The disc of it."""
+        found: str | None = self._of_shaft(lambda: self.discs[self._most_wound[0]])
+        return found
+
+    # Tables
+
+    def outline(self, command: str) -> Outline:
+        """Without the wind-up where no main shaft is given."""
+        found = super().outline(command)
+        return found if self.spec.shaft else found._replace(tables=tuple(t for t in found.tables if t != "wind_up"))
+
+    def require_table(self, name: str, /) -> None:
+        """Those of the main shaft need it."""
+        if name in ("wind_up", "wind_up_course", "resonances"):
+            _ = self.design.chain
+
+    def table_torque(self, samples: int | None = None) -> Table:
+        """Torque on the main shaft and each member's share."""
+        phi, columns = self.rows(samples)
+        columns["input_torque"] = self.machine.torque(phi), "N m"
+        for name, each in self.felt.items():
+            columns[f"{name}.torque"] = each.reduced(phi).torque(self.speed), "N m"
+        return Table.of("torque", columns)
+
+    def table_speed_limits(self, _samples: int | None = None) -> Table:
+        """Speeds of the main shaft that members do not bear, the least first."""
+        data = tuple(zip(*self.limits, strict=True)) or ((), (), ())
+        return Table("speed_limits", ("member", "check", "speed"), ("1", "1", "1/min"), data)
+
+    def table_resonances(self, _samples: int | None = None) -> Table:
+        """Speeds at which a harmonic of the members' torque meets a natural frequency, by order."""
+        rows = []
+        whole = np.abs(self.swing.amplitudes.sum(axis=0))
+        for k in range(1, min(len(self.swing.orders), 40 * self.turns + 1)):
+            for mode, frequency in enumerate(self.natural_frequencies or (), 1):
+                rows.append((float(self.swing.orders[k]), mode, _SHEETS * frequency / float(self.swing.orders[k]),
+                             float(whole[k])))  # fmt: skip
+        columns = ("harmonic", "mode", "speed", "torque")
+        return Table("resonances", columns, ("1", "1", "1/min", "N m"), tuple(zip(*rows, strict=True)))
+
+    def table_wind_up(self, _samples: int | None = None) -> Table:
+        """Wind-up at each member against the first disc, and what it costs at the member's own output.
+
+        Notes
+            y'(theta) times the wind-up: greatest over the cycle, and where `register.at` stands at that angle.
+        """
+        self.require_table("wind_up")
+        rows = []
+        count = self.swing.twist.shape[1]
+        angle = np.arange(count) * (TURN * self.turns / count)
+        for name in self.spec.members:
+            twist, member = self.swing.twist[self.disc_of(name)], self.members[name]
+            lost = member.rates(angle - math.radians(self.design.phases[self.spec.root(name)]), 1)[1] * twist
+            unit, scale = ("deg", 180.0 / math.pi) if member.course.unit == "rad" else ("mm", 1.0)
+            degrees = np.degrees(twist)
+            rows.append((name, self.discs[self.disc_of(name)], float(degrees.mean()), float(degrees.max()),
+                         float(degrees.min()), scale * float(np.abs(lost).max()), self._at_print(angle, lost, scale),
+                         unit))  # fmt: skip
+        columns = ("member", "disc", "mean", "max", "min", "output_error", "output_error_at_print", "output_unit")
+        units = ("1", "1", "deg", "deg", "deg", "1", "1", "1")
+        return Table("wind_up", columns, units, tuple(zip(*rows, strict=True)))
+
+    def _at_print(self, angle: Reals, lost: Reals, scale: float) -> float | None:
+        section = self.spec.register_
+        if section is None:
+            return None
+        end = TURN * self.turns
+        return scale * float(np.interp(math.radians(section.at) % end, np.append(angle, end), np.append(lost, lost[0])))
+
+    def table_wind_up_course(self, samples: int | None = None) -> Table:
+        """Wind-up of every disc against the first over the machine angle."""
+        self.require_table("wind_up_course")
+        degrees = turn_degrees(samples, self.turns)
+        twist = np.degrees(self.swing.twist)
+        at = np.linspace(0.0, 360.0 * self.turns, twist.shape[1] + 1)
+        columns: dict[str, tuple[Any, str]] = {"input_angle": (degrees, "deg")}
+        for disc, course in zip(self.discs, twist, strict=True):
+            columns[disc] = np.interp(degrees, at, np.append(course, course[0])), "deg"
+        return Table.of("wind_up_course", columns)
+
+    # Checks
+
+    def check_member_speed(self) -> Iterator[Check]:
+        """GL531."""
+        return self.design.check_member_speed()
+
+    def check_critical_speed(self) -> Iterator[Check]:
+        """GL532: harmonics of the members' torque near a natural frequency."""
+        if self.spec.shaft is None:
+            return
+        whole = np.abs(self.swing.amplitudes.sum(axis=0))[1:]
+        orders, top = self.swing.orders[1:], float(whole.max())
+        for mode, frequency in enumerate(self.natural_frequencies or (), 1):
+            off = np.abs(orders * self.given_speed / (_SHEETS * frequency) - 1.0)
+            near = np.flatnonzero((off < _NEAR) & (whole > _SMALL * top)) if top > 0.0 else np.zeros(0, dtype=int)
+            text = f"mode {mode} of the main shaft, {frequency:.5g} Hz"
+            if not near.size:
+                clear = f"{text}: no harmonic of the torque above 1 % of the largest lies within 10 %"
+                yield codes.CRITICAL_SPEED.check("pass", clear, float(off.min()), _NEAR, side=">=")
+                continue
+            k = int(near[np.argmax(whole[near])])
+            text += f", is met by harmonic {orders[k]:g} of the torque, {whole[k]:.4g} N m, at"
+            text += f" {_SHEETS * frequency / orders[k]:.5g} rev/min: run at another speed, or stiffen the shaft"
+            yield codes.CRITICAL_SPEED.check("warn", text, float(off[k]), _NEAR, side=">=")
+
+    def check_machine_speed(self) -> Iterator[Check]:
+        """GL533: the machine's speed against what its members bear."""
+        if not self.limits:
+            return
+        first = self.limits[0]
+        text = f"{first.member} bears {first.speed:.6g} rev/min of the main shaft ({first.check})"
+        status: Status = "pass"
+        if self.given_speed > first.speed:
+            status, text = (
+                "fail",
+                f"{text}, the machine turns at {self.given_speed:g}: run slower, or mend it",
+            )
+        elif self.given_speed > _NEAR_LIMIT * first.speed:
+            status, text = "warn", f"{text}, little above the machine's {self.given_speed:g}"
+        yield codes.MACHINE_SPEED.check(status, text, self.given_speed, first.speed, "1/min")
