@@ -483,7 +483,12 @@ KINDS: dict[str, Kind] = {
             "several mechanisms on one main shaft, or driven by each other: timing, loads, torsion, register",
             "machines.machine",
             "spec:MachineSpec",
-            {"analyze": "design:Machine", "loads": "loads:MachineLoads"},
+            {
+                "analyze": "design:Machine",
+                "loads": "loads:MachineLoads",
+                "register": "register:RegisterOfMachine",
+                "tolerance": "",
+            },
             picture="cli.views.figures.machine:draw",
             sheets={
                 "timing-line": "cli.views.figures.machine:line_sheet",

@@ -500,10 +500,18 @@ class MachineLoads(OfMembers, LoadsDesign):
 
     def _at_print(self, angle: Reals, lost: Reals, scale: float) -> float | None:
         section = self.spec.register_
-        if section is None:
-            return None
+        return None if section is None else scale * self._between(angle, lost, section.at)
+
+    def _between(self, angle: Reals, course: Reals, at: float) -> float:
+        """A course over the rows at a machine angle [deg] between them."""
         end = TURN * self.turns
-        return scale * float(np.interp(math.radians(section.at) % end, np.append(angle, end), np.append(lost, lost[0])))
+        return float(np.interp(math.radians(at) % end, np.append(angle, end), np.append(course, course[0])))
+
+    def twist_at(self, name: str, at: float) -> float:
+        """Wind-up of the disc of a member against the first at a machine angle [deg]; [rad]."""
+        count = self.swing.twist.shape[1]
+        angle: Reals = np.arange(count, dtype=np.float64) * (TURN * self.turns / count)
+        return self._between(angle, self.swing.twist[self.disc_of(name)], at)
 
     def table_wind_up_course(self, samples: int | None = None) -> Table:
         """Wind-up of every disc against the first over the machine angle."""
@@ -530,11 +538,14 @@ class MachineLoads(OfMembers, LoadsDesign):
         orders, top = self.swing.orders[1:], float(whole.max())
         for mode, frequency in enumerate(self.natural_frequencies or (), 1):
             off = np.abs(orders * self.given_speed / (_SHEETS * frequency) - 1.0)
-            near = np.flatnonzero((off < _NEAR) & (whole > _SMALL * top)) if top > 0.0 else np.zeros(0, dtype=int)
+            off = np.where(whole > _SMALL * top, off, np.inf)
+            near = np.flatnonzero(off < _NEAR)
             text = f"mode {mode} of the main shaft, {frequency:.5g} Hz"
             if not near.size:
                 clear = f"{text}: no harmonic of the torque above 1 % of the largest lies within 10 %"
-                yield codes.CRITICAL_SPEED.check("pass", clear, float(off.min()), _NEAR, side=">=")
+                nearest = float(off.min())
+                value = nearest if math.isfinite(nearest) else None
+                yield codes.CRITICAL_SPEED.check("pass", clear, value, _NEAR, side=">=")
                 continue
             k = int(near[np.argmax(whole[near])])
             text += f", is met by harmonic {orders[k]:g} of the torque, {whole[k]:.4g} N m, at"

@@ -53,13 +53,17 @@ def wanted_speed(machine: MachineSpec, name: str) -> float | None:
     return None if machine.speed is None or member.input is not None else machine.speed * member.ratio
 
 
+def speed_changes(machine: MachineSpec, name: str) -> list[tuple[str, float]]:
+    """The keys of a member's file that hold a speed, with that which the machine gives it; none without one."""
+    speed = wanted_speed(machine, name)
+    if speed is None:
+        return []
+    given = own_speeds(machine.members[name].spec)
+    wanted = [(each, (speed if each.signed else abs(speed)) / each.per) for each in given]
+    return [(each.key, value) for each, value in wanted if each.value != value]
+
+
 def at_speed(machine: MachineSpec, name: str) -> Any:
     """The spec of a member with the speed that the machine gives it; as it is where the machine has none."""
-    member, speed = machine.members[name], wanted_speed(machine, name)
-    if speed is None:
-        return member.spec
-    given = own_speeds(member.spec)
-    changes = [(each.key, (speed if each.signed else abs(speed)) / each.per) for each in given]
-    if all(each.speed is not None and each.value == value for each, (_, value) in zip(given, changes, strict=True)):
-        return member.spec
-    return member.changed(changes)
+    changes = speed_changes(machine, name)
+    return machine.members[name].changed(changes) if changes else machine.members[name].spec

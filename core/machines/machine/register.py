@@ -1,0 +1,206 @@
+"""The register between members at the print: what the errors of each member's parts cost there, and all together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import MissingSection, in_section
+from gearlink.core.base.report import Check, Status, Table, safely_above
+from gearlink.core.base.results import cached_property
+from gearlink.core.machines.machine.design import Machine
+from gearlink.core.machines.machine.speeds import speed_changes
+from gearlink.core.studies.tolerance.codes import REGISTER_BUDGET
+
+if TYPE_CHECKING:
+    from gearlink.core.machines.machine.loads import MachineLoads
+    from gearlink.core.machines.machine.spec import MachineRegister, MachineSpec
+    from gearlink.core.studies.register.design import RegisterDesign
+    from gearlink.core.studies.tolerance.budget import Budget
+
+_ROOT_2 = math.sqrt(2.0)
+
+
+class Share(NamedTuple):
+    """What a member costs at the print.
+
+    Fields
+        gain : float - its share in the chain, signed
+        angle : float [deg] - its own input there
+        budget : Budget - its own at that place, for the torque sign with the larger band
+        wind_up : float [mm] - what the main shaft's wind-up moves its output, times the gain
+    """
+
+    gain: float
+    angle: float
+    budget: Budget
+    wind_up: float
+
+
+class RegisterOfMachine(Design):
+    """The members of `register.chain`, each with its own sources at its own input at the print."""
+
+    kind = "machine"
+    spec: MachineSpec
+    outlines = {
+        "register": Outline(
+            ("worst", "rss", "band", "wind_up_at_print", "machine_yield"), ("register-budget",), ("shares", "budget")
+        )
+    }
+    advises = False
+
+    @cached_property
+    def design(self) -> Machine:
+        """Timing and members."""
+        return Machine(self.spec)
+
+    @cached_property
+    def section(self) -> MachineRegister:
+        """The section `register`.
+
+        Raises
+            MissingSection
+        """
+        if self.spec.register_ is None:
+            message = "`register` needs the section register: {at: 214, chain: {feed: 1, gripper: -1}}"
+            raise MissingSection(message, key="register")
+        return self.spec.register_
+
+    def require_named(self) -> None:
+        """Refuse sources and places that the members do not have."""
+        _ = self.shares
+
+    @cached_property
+    def shares(self) -> Mapping[str, Share]:
+        """By member."""
+        return {name: self._share(name, gain) for name, gain in self.section.chain.items()}
+
+    def _share(self, name: str, gain: float) -> Share:
+        import numpy as np
+
+        place = self.design.members[name]
+        angle = math.radians(self.section.at - self.design.phases[self.spec.root(name)])
+        u, rate = place.input(np.array([angle]), 1)
+        own = place.reduced(u)[0]
+        with in_section(f"members.{name}.design"):
+            member = self.spec.members[name]
+            if "register" not in member.kind.commands or not getattr(member.spec, "tolerance", None):
+                message = f"{name} stands in register.chain: give it tolerance: {{sources: {{...}}}}"
+                raise MissingSection(message, key="tolerance.sources")
+            register: RegisterDesign = member.kind.design("register", self._spec_of(name, float(own[0]) / place.scale))  # type: ignore[assignment]
+            worse = max(register.budgets, key=lambda each: float(each.band.max()))
+            moved = float(
+                register.output(own)(register.mechanism(own), None)[1][0] * rate[0]
+            )  # mm per rad of the machine
+        return Share(gain, float(own[0]) / place.scale, worse, gain * moved * self._twist(name))
+
+    def _spec_of(self, name: str, angle: float) -> Any:
+        """The spec of a member that looks at its register where its input stands [deg]."""
+        return self.spec.members[name].changed([("register.at", angle), *speed_changes(self.spec, name)])
+
+    def _twist(self, name: str) -> float:
+        """Wind-up of the main shaft at a member at the print [rad]; 0 without shaft or loads."""
+        return self._loads.twist_at(name, self.section.at) if self._winds_up else 0.0
+
+    @property
+    def _winds_up(self) -> bool:
+        given = any(getattr(member.spec, "loads", None) is not None for member in self.spec.members.values())
+        return given and self.spec.shaft is not None and self.spec.speed is not None
+
+    @cached_property
+    def _loads(self) -> MachineLoads:
+        from gearlink.core.machines.machine.loads import MachineLoads  # with the loads, where they are wanted
+
+        return MachineLoads(self.spec)
+
+    # Results
+
+    @property
+    def worst(self) -> float:
+        """Greatest error where all sources of all members add up [mm]."""
+        return sum(abs(each.gain) * float(each.budget.worst.max()) for each in self.shares.values())
+
+    @property
+    def rss(self) -> float:
+        """Standard deviation of the error [mm]: members scatter by themselves."""
+        return math.sqrt(sum((each.gain * float(each.budget.rss.max())) ** 2 for each in self.shares.values()))
+
+    @property
+    def mean(self) -> float:
+        """What all machines have alike [mm]."""
+        at = ((each.gain, float(each.budget.mean[each.budget.at])) for each in self.shares.values())
+        return sum(gain * mean for gain, mean in at)
+
+    @property
+    def band(self) -> float:
+        """What 99.73 % of the machines keep, to either side [mm]."""
+        import numpy as np
+
+        from gearlink.core.studies.tolerance.budget import normal_band
+
+        return float(normal_band(np.array([self.mean]), np.array([self.rss]))[0])
+
+    @property
+    def wind_up_at_print(self) -> float | None:
+        """What the wind-up of the main shaft moves the register [mm]: alike in every machine, set right at speed."""
+        found = sum(each.wind_up for each in self.shares.values())
+        return found if self._winds_up else None
+
+    @property
+    def machine_yield(self) -> float | None:
+        """Share of the machines whose error is within the tolerance, by the normal law; None without one."""
+        limit = self.section.tolerance
+        if limit is None:
+            return None
+        if self.rss == 0.0:
+            return float(abs(self.mean) <= limit)
+        low, high = ((sign * limit - self.mean) / self.rss / _ROOT_2 for sign in (-1.0, 1.0))
+        return 0.5 * (math.erf(high) - math.erf(low))
+
+    # Tables and checks
+
+    def table_shares(self, _samples: int | None = None) -> Table:
+        """What each member gives."""
+        rows = [
+            (name, each.gain, each.angle, abs(each.gain) * float(each.budget.worst.max()),
+             abs(each.gain) * float(each.budget.rss.max()), self._variance(each), each.wind_up)
+            for name, each in self.shares.items()
+        ]  # fmt: skip
+        columns = ("member", "gain", "member_input", "worst", "sigma", "share", "wind_up")
+        units = ("1", "1", "deg", "mm", "mm", "1", "mm")
+        return Table("shares", columns, units, tuple(zip(*rows, strict=True)))
+
+    def _variance(self, each: Share) -> float:
+        whole = self.rss**2
+        return (each.gain * float(each.budget.rss.max())) ** 2 / whole if whole > 0.0 else 0.0
+
+    def table_budget(self, _samples: int | None = None) -> Table:
+        """Every source of every member, the greatest first; gains and shares are those of the whole."""
+        rows = sorted(
+            (
+                (name, row.source, abs(each.gain) * row.gain, row.limit, abs(each.gain) * row.worst,
+                 abs(each.gain) * row.sigma, row.share * self._variance(each), each.gain * row.mean)
+                for name, each in self.shares.items()
+                for row in each.budget.rows
+            ),
+            key=lambda row: -row[6],
+        )  # fmt: skip
+        columns = ("member", "source", "gain", "limit", "worst", "sigma", "share", "mean")
+        units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
+        return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
+
+    def check_register_budget(self) -> Iterator[Check]:
+        """GL520 where the file names what may be lost."""
+        limit = self.section.tolerance
+        if limit is None:
+            return
+        status: Status = "fail" if self.band > limit else "warn" if self.worst > limit else "pass"
+        text = f"99.73 % keep +-{self.band:.4g} mm at {self.section.at:g} deg, at worst it is {self.worst:.4g} mm"
+        if status != "pass":
+            table = self.table_budget()
+            first, share = f"{table['source'][0]} of {table['member'][0]}", 100.0 * float(table["share"][0])
+            text += f"; {limit:g} mm are allowed: improve {first} first ({share:.3g} % of the variance)"
+            text += f", or allow {safely_above(self.band if status == 'fail' else self.worst)} mm"
+        yield REGISTER_BUDGET.check(status, text, self.band, limit, "mm")
