@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Design, Outline, UnknownName, in_unit
+from gearlink.core.base.design import Design, Found, Outline, UnknownName, in_unit
 from gearlink.core.base.errors import MissingSection, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Status, Table
@@ -72,61 +72,56 @@ class OfMembers(Design):
         found = {name: self.member(name) for name in self.spec.members}
         return {name: design for name, design in found.items() if design is not None}
 
-    def _own(self) -> tuple[str, ...]:
-        """Names of the machine's own quantities."""
-        return type(self).outlines[self.command].quantities
+    @classmethod
+    def _classes(cls, spec: MachineSpec) -> dict[str, type[Design]]:
+        """The class of each member that answers the command; none of them is made for that."""
+        return {name: member.kind.class_for(cls.command, member.spec) for name, member in spec.members.items()}
 
-    @property
-    def own_names(self) -> tuple[str, ...]:
-        """The machine's quantities, those of free members, and of every member its own as MEMBER.NAME."""
-        return tuple(dict.fromkeys([*self._shown, *self._of_members]))
-
-    @property
-    def _shown(self) -> list[str]:
-        return [*self._own(), *(f"{name}.{what}" for name in self.spec.free for what in _OF_MEMBER)]
-
-    @property
-    def _of_members(self) -> Iterator[str]:
-        for name, design in self._answering.items():
-            yield from (f"{name}.{each}" for each in design.quantity_names())
+    @classmethod
+    def _shown(cls, spec: MachineSpec) -> tuple[str, ...]:
+        """The machine's own quantities, and those of free members."""
+        return (*cls.outlines[cls.command].quantities, *(f"{name}.{what}" for name in spec.free for what in _OF_MEMBER))
 
     @classmethod
     def names_for(cls, spec: Any, /) -> tuple[str, ...]:
-        """The quantities of a file."""
-        return cls(spec).own_names
+        """The machine's quantities, those of free members, and of every member its own as MEMBER.NAME."""
+        of_members = (
+            f"{name}.{each}"
+            for name, own in cls._classes(spec).items()
+            for each in own.names_for(spec.members[name].spec)
+        )
+        return tuple(dict.fromkeys([*cls._shown(spec), *of_members]))
+
+    @cached_property
+    def own_names(self) -> tuple[str, ...]:
+        """The quantities of this machine."""
+        return self.names_for(self.spec)
 
     @classmethod
     def unit_for(cls, spec: Any, name: str, /) -> str:
-        """The unit of a quantity of a file."""
-        return cls(spec).unit_of(name)
-
-    def unit_of(self, name: str) -> str:
         """The unit of a quantity: of a member's own what its kind says."""
         member, _, rest = name.partition(".")
         if rest in _OF_MEMBER:
             return _OF_MEMBER[rest]
-        if rest and member in self._answering:
-            design = self._answering[member]
-            return type(design).unit_for(design.spec, rest)
-        return term(name).unit
+        own = cls._classes(spec).get(member) if rest else None
+        return term(name).unit if own is None else own.unit_for(spec.members[member].spec, rest)
 
     def outline(self, command: str) -> Outline:
         """With the phases that are found, and the checks of the members."""
         found = super().outline(command)
-        return found._replace(quantities=tuple(self._shown), checks=tuple(self._checks(found)))
+        return found._replace(quantities=self._shown(self.spec), checks=self.judged(command, self.spec))
 
-    def _checks(self, own: Outline) -> Iterable[str]:
-        more = (check for design in self._answering.values() for check in design.outline(self._asked(design)).checks)
-        return dict.fromkeys([*own.checks, *more])
-
-    def _asked(self, design: Design) -> str:
-        """The command as a member has it."""
-        return self.command if self.command in design.outlines else next(iter(design.outlines))
+    @classmethod
+    def _checks_of(cls, own: type[Design], spec: Any) -> tuple[str, ...]:
+        """The checks of the command of a member, of a kind that has it by another name those of its first."""
+        return own.judged(cls.command if cls.command in own.outlines else next(iter(own.outlines)), spec)
 
     @classmethod
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
         """Own checks and those of the members."""
-        return cls(spec).outline(command).checks
+        members = cls._classes(spec).items()
+        more = (check for name, own in members for check in cls._checks_of(own, spec.members[name].spec))
+        return tuple(dict.fromkeys([*cls.outlines[command].checks, *more]))
 
     def decisive(self, command: str) -> Iterable[str]:
         """What can say that there is no such machine."""
@@ -164,10 +159,14 @@ class OfMembers(Design):
         """The findings of a check: the machine's own, then those of the members with their names before them."""
         found = super().check(name) if name in type(self).outlines[self.command].checks else []
         for member, design in self._answering.items():
-            if name in design.outline(self._asked(design)).checks:
-                with in_section(f"members.{member}.design"):
-                    found += [of_member(member, each) for each in design.check(name)]
+            if name in self._checks_of(type(design), design.spec):
+                found += [of_member(member, each) for each in self.found_of(member, design, name)]
         return found
+
+    def found_of(self, member: str, design: Design, check: str) -> list[Check]:
+        """The findings of a check of a member."""
+        with in_section(f"members.{member}.design"):
+            return design.check(check)
 
 
 def of_member(member: str, found: Check) -> Check:
@@ -182,6 +181,27 @@ class Machine(OfMembers):
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes",)
     derived = frozenset(OWN)
+
+    def varied(self, spec: Any) -> Machine:
+        """The machine of another file, with the members that are as they were."""
+        from gearlink.core.machines.machine.series import Members
+
+        made = type(self)(spec)
+        vars(made)["members"] = Members(spec, self.members.known)
+        return made
+
+    def found_of(self, member: str, design: Design, check: str) -> list[Check]:
+        """The findings of a check of a member, known while its own file stays as it is."""
+        known = self.members.known[member].findings
+        if check not in known:
+            known[check] = super().found_of(member, design, check)
+        found: list[Check] = known[check]
+        return found
+
+    def completion(self) -> Iterator[Found]:
+        """The phases that were found, in the place of free ones."""
+        for name in self.spec.free:
+            yield Found(f"members.{name}.phase", self.phases[name], "phase: free")
 
     @cached_property
     def timing(self) -> Timing:

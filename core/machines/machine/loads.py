@@ -28,7 +28,7 @@ from gearlink.core.studies.loads.names import RUN, TORQUE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.shaft import Swing
-    from gearlink.core.machines.machine.spec import MachineSpec
+    from gearlink.core.machines.machine.spec import MachineSpec, Member
 
 _SHEETS = 60.0
 _QUANTITIES = (
@@ -208,6 +208,11 @@ class _Section:
         self.motor = None if given is None else given.motor
 
 
+def has_loads(member: Member) -> bool:
+    """Whether a member has the section."""
+    return "loads" in member.kind.commands and getattr(member.spec, "loads", None) is not None
+
+
 class MachineLoads(OfMembers, LoadsDesign):
     """Torques of all members on the main shaft; input angle: the machine angle."""
 
@@ -228,6 +233,12 @@ class MachineLoads(OfMembers, LoadsDesign):
         """Those of the design."""
         return self.design.members
 
+    @classmethod
+    def _classes(cls, spec: MachineSpec) -> dict[str, type[Design]]:
+        """Those of members on the main shaft that have loads."""
+        having = {name: member for name, member in spec.members.items() if has_loads(member) and member.input is None}
+        return {name: member.kind.class_for("loads", member.spec) for name, member in having.items()}
+
     def member(self, name: str) -> Design | None:
         """The loads of a member on the main shaft; None of one behind another, whose speed is not even."""
         return self._loads.get(name) if self.spec.members[name].input is None else None
@@ -241,12 +252,10 @@ class MachineLoads(OfMembers, LoadsDesign):
         """
         found: dict[str, LoadsDesign] = {}
         for name, member in self.spec.members.items():
-            if "loads" in member.kind.commands and getattr(member.spec, "loads", None) is not None:
+            if has_loads(member):
                 with in_section(f"members.{name}.design"):
-                    made = member.kind.design("loads", self._spec_of(name))
-                    if isinstance(made, LoadsDesign):
-                        self._refuse_drives(made)
-                        found[name] = made
+                    found[name] = member.kind.design("loads", self._spec_of(name))  # type: ignore[assignment]
+                    self._refuse_drives(found[name])
         if not found:
             raise MissingSection("no member has loads: give one of them the section loads", key="members")
         return found

@@ -7,8 +7,8 @@ rates here are counted from the phase of the member on the main shaft with which
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -310,12 +310,35 @@ def slug(name: str) -> str:
     return "_".join("".join(each if each.isalnum() else " " for each in name.lower()).split())
 
 
-class Members:
-    """All members of a machine, each behind what drives it."""
+@dataclass(frozen=True)
+class Known:
+    """What is known of a member by its own file alone, so that machines that differ elsewhere share it.
 
-    def __init__(self, spec: MachineSpec) -> None:
+    Fields
+        spec, design : of the member, at the machine's speed
+        findings : by check
+        runs : by output, ratio and dial
+    """
+
+    spec: Any
+    design: Design
+    findings: dict[str, Any] = field(default_factory=dict)
+    runs: dict[Any, Any] = field(default_factory=dict)
+
+
+class Members:
+    """All members of a machine, each behind what drives it.
+
+    Parameters
+        spec : MachineSpec
+        known : by member - of a machine that differs in some keys
+    """
+
+    def __init__(self, spec: MachineSpec, known: Mapping[str, Known] | None = None) -> None:
         self.spec = spec
         self._made: dict[str, OnShaft] = {}
+        self._before = known or {}
+        self.known: dict[str, Known] = {}
 
     def __getitem__(self, name: str) -> OnShaft:
         """A member by name, made when first asked for."""
@@ -328,7 +351,10 @@ class Members:
 
     def _make(self, name: str, member: Member) -> OnShaft:
         with in_section(f"members.{name}.design"):
-            design = member.kind.design("analyze", self.own_spec(name))
+            own, before = self.own_spec(name), self._before.get(name)
+            alike = before is not None and before.spec == own
+            self.known[name] = before if alike else Known(own, member.kind.design("analyze", own))  # type: ignore[assignment]
+            design = self.known[name].design
             if not design.moving.outputs:
                 raise NoSolution("this design moves nothing", key="kind")
         if member.input is None:

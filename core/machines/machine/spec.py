@@ -6,11 +6,11 @@ import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec import Deferred, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
+from gearlink.core.base.spec import Deferred, DesignSpec, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
 from gearlink.core.base.spec_paths import put
 from gearlink.core.machines.machine.relations import NotARelation, parse
 
@@ -34,20 +34,44 @@ def _refuse(code: str, key: str, message: str) -> PydanticCustomError:
     return PydanticCustomError(code, "{message}", {"message": message, "key": key})
 
 
-def first_wrong(error: ValidationError) -> tuple[str, str]:
-    """Key and message of the first thing that the model of a member refuses."""
+def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
+    """Code, key and message of the first thing that the model of a member refuses."""
     item = error.errors(include_url=False)[0]
     steps = [step for step in item["loc"] if isinstance(step, int) or step.isidentifier()]
     below = str((item.get("ctx") or {}).get("key", ""))
     key = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in (*steps, *filter(None, [below])))
-    return key.removeprefix("."), item["msg"].replace("Input should be", "it must be")
+    code = item["type"] if item["type"].startswith("GL") else "GL108"
+    return code, key.removeprefix("."), item["msg"].replace("Input should be", "it must be")
+
+
+def _made(design: Any) -> Any:
+    """The spec of a member from the data of its file; one that is made already as it is."""
+    from gearlink.core.base.kinds import KINDS
+
+    if not isinstance(design, dict):
+        if isinstance(design, DesignSpec):
+            return design
+        raise _refuse("GL107", "", "a design is a section: {kind: disc-cam, ...}")
+    name = design.get("kind")
+    moving = {each: kind for each, kind in KINDS.items() if kind.motion}
+    if not isinstance(name, str) or name not in moving:
+        raise _refuse("GL109", "kind", f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}")
+    try:
+        return moving[name].spec_model().model_validate_json(json.dumps(design))
+    except ValidationError as error:
+        code, key, message = _first_wrong(error)
+        raise _refuse(code, key, message) from None
+    except NoSolution as error:
+        raise _refuse(error.code, error.key, error.message) from None
 
 
 class Member(Spec):
     """A mechanism of the machine."""
 
     of: str | None = Field(None, description="its design file, relative to that of the machine")
-    design: dict[str, Any] | None = Field(None, description="the design itself, in place of of")
+    design: Annotated[Any, BeforeValidator(_made), WithJsonSchema({"type": "object"})] | None = Field(
+        None, description="the design itself, in place of of"
+    )
     phase: Annotated[float, Field(json_schema_extra={"unit": "deg"})] | Literal["free"] = Field(
         0.0, description="machine angle at which its input angle is 0, in the driver's unit where it has one; or free"
     )
@@ -64,43 +88,40 @@ class Member(Spec):
             raise _refuse("GL108", "ratio", "with ratio 0 the member stands still: give another one")
         if self.phase == "free" and self.input is not None:
             raise _refuse("GL111", "phase", "a member with input moves with its driver: give a number for its phase")
-        if self.design is not None:
-            _ = self.kind, self.spec
         return self
 
-    @cached_property
+    @property
+    def spec(self) -> Any:
+        """The spec of its design.
+
+        Raises
+            NoSolution - where its file was not read
+        """
+        if self.design is None:
+            raise NoSolution(f"the file {self.of} was not read: give its keys under design", key="of")
+        return self.design
+
+    @property
     def kind(self) -> Kind:
         """The kind of its design."""
         from gearlink.core.base.kinds import KINDS
 
-        name = (self.design or {}).get("kind")
-        moving = {each: kind for each, kind in KINDS.items() if kind.motion}
-        if not isinstance(name, str) or name not in moving:
-            message = f"no kind of member {named(str(name))}: the kinds are {', '.join(moving)}"
-            raise _refuse("GL109", "design.kind", message)
-        return moving[name]
-
-    @cached_property
-    def spec(self) -> Any:
-        """The spec of its design."""
-        return self.changed(())
+        return KINDS[self.spec.kind]
 
     def changed(self, changes: Iterable[tuple[str, Any]]) -> Any:
         """The spec of its design with other values at some paths.
 
         Raises
-            PydanticCustomError - at the key below `design`
+            NoSolution - at the key below `design`
         """
-        data = json.loads(json.dumps(self.design))
+        data = self.spec.model_dump(mode="json", by_alias=True, exclude_unset=True)
         for path, value in changes:
             put(data, path, value)
         try:
-            return self.kind.spec_model().model_validate_json(json.dumps(data))
+            return type(self.spec).model_validate_json(json.dumps(data))
         except ValidationError as error:
-            key, message = first_wrong(error)
-            raise _refuse("GL108", f"design.{key}", message) from None
-        except NoSolution as error:
-            raise _refuse(error.code, f"design.{error.key}", error.message) from None
+            _, key, message = _first_wrong(error)
+            raise NoSolution(message, key=key) from None
 
 
 class Event(Spec):

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -137,7 +137,8 @@ class Timing:
 
     def __init__(self, spec: MachineSpec, members: Members) -> None:
         self.spec, self.members = spec, members
-        self._runs: dict[str, list[Run]] = {}
+        self._runs: dict[Any, list[Run]] = {}
+        self._offsets: dict[Moment, tuple[str, float]] = {}
 
     @cached_property
     def dial(self) -> float:
@@ -166,11 +167,14 @@ class Timing:
     def runs(self, of: str) -> list[Run]:
         """The runs of an output over the dial, numbered as they stand: by turns of its own from the phase on, within
         one in the order of its own input."""
-        if of not in self._runs:
-            member, course = self.place(of)
-            own = self._of_series if member.driver is not None else self._of_shaft
-            self._runs[of] = own(member, course)
-        return self._runs[of]
+        member, course = self.place(of)
+        known, key = self._runs, (of, member.ratio, self.dial)
+        if member.driver is None:
+            known = self.members.known[member.name].runs
+            key = (of.partition(".")[2], member.ratio, self.dial)
+        if key not in known:
+            known[key] = (self._of_series if member.driver is not None else self._of_shaft)(member, course)
+        return known[key]
 
     def _of_shaft(self, member: OnShaft, course: Course) -> list[Run]:
         """Of a member on the main shaft: those of its own input, exact at its joints."""
@@ -236,6 +240,11 @@ class Timing:
         Raises
             NoSolution - for an event that the member does not have
         """
+        if moment not in self._offsets:
+            self._offsets[moment] = self._offset(moment)
+        return self._offsets[moment]
+
+    def _offset(self, moment: Moment) -> tuple[str, float]:
         if isinstance(moment, float):
             return "", moment
         if not moment.of:
