@@ -36,6 +36,7 @@ class Kind(NamedTuple):
         outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
         errors : str - what its sizes, gears and pins move, for `register`; "": pins alone are known
         register_at : str - where `register` looks where the file does not say
+        drawn : commands that all kinds share and whose picture is its own all the same
         picture, scene : str - what draws its own commands, what builds its film; "": what any motion has
         profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
         rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
@@ -56,6 +57,7 @@ class Kind(NamedTuple):
     errors: str = ""
     register_at: str = ""
     picture: str = ""
+    drawn: tuple[str, ...] = ()
     scene: str = ""
     profiles: str = ""
     parts: tuple[str, ...] = ()

@@ -490,6 +490,8 @@ KINDS: dict[str, Kind] = {
                 "tolerance": "",
             },
             picture="cli.views.figures.machine:draw",
+            drawn=("loads", "register"),
+            scene="cli.views.scenes.machine:build",
             sheets={
                 "timing-line": "cli.views.figures.machine:line_sheet",
                 "timing-circle": "cli.views.figures.machine:circle_sheet",
