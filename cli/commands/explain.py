@@ -116,9 +116,11 @@ def run_explain(subject: str | None, format: Format) -> int:
 
 def find(subject: str) -> list[Topic]:
     """Every topic of a name, the terms of the field first; blanks, hyphens, underscores and case do not matter."""
+    subject = " ".join(subject.split())
+    if re.fullmatch(r"(?i)GL\d{3}", subject):  # no term is written so
+        return _program_names(subject)
     from gearlink.cli.glossary import meanings_of, named_places, named_terms
 
-    subject = " ".join(subject.split())
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
     found += _program_names(subject)
     return [*found, *(_meaning(subject, meaning) for meaning in meanings_of(subject))] or list(_told_of(subject))

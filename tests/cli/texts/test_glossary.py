@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import shlex
+import subprocess
+import sys
 from collections import Counter
 from typing import Any
 
@@ -217,3 +219,14 @@ def test_words_of_other_tools_name_keys_of_their_kinds() -> None:
         assert meaning.kinds or meaning.section in KEYS
         for kind in meaning.kinds:
             assert set(meaning.keys) <= KEYS_OF[kind], (meaning.words, kind)
+
+
+def test_nothing_reads_the_glossary_before_it_is_asked_for() -> None:
+    """No module imports it at its head, and a code is explained without it."""
+    heads = [
+        path for path in (DESIGNS.parent / "cli").rglob("*.py") if "\nfrom gearlink.cli.glossary" in path.read_text()
+    ]
+    assert heads == []
+    probe = "import sys\nfrom gearlink.cli.commands.explain import find\nassert find('gl301')\n"
+    probe += "assert 'gearlink.cli.glossary' not in sys.modules"
+    subprocess.run([sys.executable, "-c", probe], check=True, cwd=DESIGNS.parent)
