@@ -444,6 +444,8 @@ def fixed_name(name: str, known: Collection[str]) -> str:
         >>> fixed_name("prime_radius", ("cam_base_radius",)), fixed_name("prime_radius", ("prime_radius",))
         ('cam_base_radius', 'prime_radius')
     """
+    if not isinstance(name, str):  # of a program of a user's own, whose names are refused elsewhere
+        return name
     head, dot, last = name.rpartition(".")
     fixed = f"{head}{dot}{ALIASES.get(last, last)}"
     return fixed if name not in known and fixed in known else name
