@@ -370,7 +370,8 @@ def _name_sources(loaded: LoadedFile, model: type[BaseModel]) -> None:
         names = group.get("sources") if isinstance(group, dict) else None
         if isinstance(names, list):
             fixed_names = [paths.get(name, name) if isinstance(name, str) else name for name in names]
-            loaded.data = _with(loaded.data, ("tolerance", "correlated", i, "sources"), fixed_names, "")
+            if fixed_names != names:
+                loaded.data = _with(loaded.data, ("tolerance", "correlated", i, "sources"), fixed_names, "")
 
 
 def fixed_path(path: str, model: type[BaseModel], data: Any) -> str:

@@ -142,6 +142,8 @@ def test_sources_and_variables_are_paths_of_keys() -> None:
     read_tolerance = read(data)[0].tolerance
     assert list(read_tolerance.sources) == ["cam.base_radius", "cam.roller_radius"]
     assert read_tolerance.correlated[0].sources == ["cam.base_radius", "cam.roller_radius"]
+    data["tolerance"]["correlated"][0] |= {"sources": names[::-1], "rho": 2.0}
+    assert refused(data) == [("GL176", "tolerance.correlated[0].rho")]
     variables = {"cam.prime_radius": {"values": [65, 70]}, "cam.roller_radius": {"values": [20]}}
     study = {"kind": "study", "design": worked("flatbed-press"), "variables": variables}
     loaded = parse(json.dumps(study | {"minimize": {"max_radius": 1}}).encode(), "a.yaml")
