@@ -131,6 +131,51 @@ def _wall(design: Any, name: str, place: int) -> Part:
     )
 
 
+def track(design: Any) -> Makers:
+    """Both walls of a drum's track, developed at the outside and at the bottom, each with the pitch line."""
+    drum, walls = design.drum, (("upper", 1), ("lower", -1))
+    radii = (("outside", drum.outside), ("bottom", drum.bottom))
+    return {
+        f"{place}_{wall}": partial(_developed, design, f"{place}_{wall}", radius, side)
+        for place, radius in radii
+        for wall, side in walls
+    }
+
+
+def _developed(design: Any, name: str, radius: float, side: int) -> Part:
+    drum = design.drum
+    joints = [joint for joint in design.follower_motion.joints if 0.0 < joint < _TURN]
+
+    def points(phi: Reals, which: int, low: float, high: float) -> Points:
+        within = np.clip(phi, low and math.nextafter(low, _TURN), math.nextafter(high, 0.0))  # one side of a joint
+        arc, along = drum.developed(radius, which, within)
+        return np.asarray(arc + 1j * along)
+
+    def stretch(low: float, high: float) -> Stretch:
+        def both(phi: Reals) -> Points:
+            return np.stack([points(phi, each, low, high) for each in (side, 0)])
+
+        def extra(phi: Reals) -> Reals:
+            angle = np.degrees(drum.pressure_angle(radius, phi))
+            return np.stack([np.degrees(phi), angle, drum.curvature(radius, phi)])
+
+        return Stretch(CAM_LAYERS, both, low, high, extra=extra)
+
+    found = design.check_cam_undercut()
+    return Part(
+        name=name,
+        title=f"{name.partition('_')[2]} wall of the track, developed at the {name.partition('_')[0]}",
+        stretches=tuple(stretch(low, high) for low, high in pairwise([0.0, *joints, _TURN])),
+        closed=False,
+        notes=(
+            f"developed at radius {radius:.9g} mm; roller radius {drum.roller_radius:.9g} mm",
+            "frame: x along the circumference from cam angle 0 on, y along the axis, lift 0 at y 0",
+        ),
+        findings=(found.message,) if found.status == "fail" else (),
+        extra_columns=("cam_angle [deg]", "pressure_angle [deg]", "curvature [1/mm]"),
+    )
+
+
 def linked_cams(design: Any) -> Makers:
     """Both cams."""
     return {f"{axis}_cam": partial(disc_cam, f"{axis}_cam", cam) for axis, cam in zip("xy", design.cams, strict=True)}

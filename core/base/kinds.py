@@ -466,6 +466,8 @@ KINDS: dict[str, Kind] = {
             outputs={"follower": ("lift",)},
             picture="cli.views.figures.cylindrical_cam:draw",
             scene="cli.views.scenes.cylindrical_cam:build",
+            profiles="cli.export.parts:track",
+            parts=("outside_upper", "outside_lower", "bottom_upper", "bottom_lower"),
             worked="barrel_cam",
         ),
         Kind(

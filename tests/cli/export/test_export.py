@@ -367,3 +367,22 @@ def test_standard_input_and_quiet(gearlink: Any, standard_input: Any, tmp_path: 
 @pytest.mark.parametrize("value", [0.00087212, 0.000999999, 1.0, 9.995, 3e-14])
 def test_a_stated_error_is_never_below_the_reached_one(value: float) -> None:
     assert value <= float(rounded_up(value)) <= 1.011 * value
+
+
+def test_walls_of_a_drum_stand_a_roller_off_its_pitch_line(gearlink: Any, tmp_path: Path) -> None:
+    """The developed wall is a roller radius from the pitch line and square to it, by differences of the CSV."""
+    gearlink("export", ROOT / "designs" / "barrel_cam.yaml", "--as", "csv", "--out", tmp_path, "--part", "bottom_lower")
+    (path,) = tmp_path.glob("*.csv")
+    rows = table(path)
+    wall, pitch = (
+        [complex(float(row[f"{head}x [mm]"]), float(row[f"{head}y [mm]"])) for row in rows] for head in ("", "pitch_")
+    )
+    off = [w - p for w, p in zip(wall, pitch, strict=True)]
+    assert [abs(each) for each in off] == pytest.approx([10.0] * len(off), rel=1e-12)
+    assert max(each.imag for each in off) < 0.0  # the lower wall
+    for before, at, after, each in zip(pitch, pitch[1:], pitch[2:], off[1:], strict=False):
+        way = (after - before) / abs(after - before)
+        # the chord over two rows leans by half of their difference of slope
+        bend = abs((after - at) / abs(after - at) - (at - before) / abs(at - before))
+        assert abs((way * each.conjugate()).real) <= 10.0 * (bend + 1e-3)  # lifts of the file are rounded
+    assert float(rows[0]["x [mm]"]) == pytest.approx(0.0, abs=1e-9)
