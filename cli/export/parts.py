@@ -61,7 +61,16 @@ def press(design: Any) -> Makers:
         found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
     if design.spec.input_gears is not None:
         found |= gear_pair(design, "input_gears")
-    return found or _lacking("the file has neither a section cam nor a section input_gears")
+    if design.spec.cylinder.gears is not None:
+        data, titles = design.teeth.cylinder, ("gear 3, on MN", "gear 4, on the cylinder")
+        found |= of_mesh(data.pair, ("gear3", "gear4"), titles, "cylinder.gears", widths_of=lambda: data.face_width)
+    if design.spec.bed.pinion is not None:
+        mesh, (lower, upper) = design.teeth.pinion, design.teeth.rack_teeth
+        found |= on_rack(mesh, ("pinion", "lower_rack"), ("pinion", "lower rack"), "bed.pinion", lower)
+        found["upper_rack"] = on_rack(mesh, ("pinion", "upper_rack"), ("", "upper rack"), "bed.pinion", upper)[
+            "upper_rack"
+        ]
+    return found or _lacking("the file has no section cam and no gears: input_gears, cylinder.gears, bed.pinion")
 
 
 def gripper(design: Any) -> Makers:

@@ -124,11 +124,12 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.flatbed_press:draw",
             scene="cli.views.scenes.flatbed_press:build",
             profiles="cli.export.parts:press",
-            parts=("main_cam", "return_cam", "gear1", "gear2"),
+            parts=("main_cam", "return_cam", "gear1", "gear2", "gear3", "gear4", "pinion", "lower_rack", "upper_rack"),
             rexs=("gear 1", "gear 2"),
             sheets={
                 "motion": "cli.views.figures.sheets.motion_sheet:press",
                 "timing": "cli.views.figures.sheets.timing_sheet:press",
+                "polygons": "cli.views.figures.sheets.polygons:draw",
                 "pressure": "cli.views.figures.sheets.cam_sheets:press_discs",
                 "drawing": "cli.views.figures.sheets.cam_sheets:press_discs",
             },

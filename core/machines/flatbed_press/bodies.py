@@ -54,8 +54,8 @@ def return_overlap(design: FlatbedPress) -> Iterator[Check]:
     Notes
         p is the travel of the bed's chain; the lift of the cams, some per cent of it, is left out.
     """
-    turns = max(1, round(design.spec.cylinder.gear_ratio))
-    if turns == 1 or abs(turns - design.spec.cylinder.gear_ratio) > 1e-9:
+    turns = max(1, round(design.spec.cylinder.ratio))
+    if turns == 1 or abs(turns - design.spec.cylinder.ratio) > 1e-9:
         return
     import numpy as np
 

@@ -134,7 +134,7 @@ def _zone_length(design: FlatbedPress) -> Check:
 
 def register(design: FlatbedPress) -> Iterator[Check]:
     """GL506: the cylinder makes whole turns per sheet, and of several prints in one alone."""
-    ratio = design.spec.cylinder.gear_ratio
+    ratio = design.spec.cylinder.ratio
     off = abs(ratio - max(1, round(ratio)))
     text = f"the cylinder makes {amount(ratio, 'turn', spec='g')} per sheet"
     if off > 1e-9:

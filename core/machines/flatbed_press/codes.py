@@ -61,3 +61,14 @@ PLACE = Rule(
     ("cylinder-place", "gear-direction"),
     ("loads.cylinder_direction", "loads.gear_1_direction", "loads"),
 )
+RACK_LENGTH = Rule(
+    "GL346",
+    "rack too short",
+    "A rack of the bed has fewer teeth (bed.rack_teeth) than the travel of its pinion takes.",
+    "The pinion runs off the rack at the end of the stroke.",
+    "Give the rack more teeth, or leave bed.rack_teeth out.",
+    "teeth >= (travel + path of contact + pitch)/pitch; travel: stroke of F, of the lower rack with the follower's",
+    "own derivation",
+    ("rack-length",),
+    ("bed.rack_teeth", "bed.pinion"),
+)

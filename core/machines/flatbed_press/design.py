@@ -17,6 +17,7 @@ from gearlink.core.machines.flatbed_press import bodies, checks
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.machines.flatbed_press.compensation import Compensation
 from gearlink.core.machines.flatbed_press.refusals import turns_back
+from gearlink.core.machines.flatbed_press.teeth import OF_CYLINDER, OF_PINION, OF_RACKS, PressTeeth, polygons
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.disc_cams import DiscCams
@@ -210,7 +211,7 @@ class PressMotion:
         """Drag link GHMN and the cylinder's gears."""
         cylinder = self.spec.cylinder
         angle = math.radians(cylinder.initial_crank_angle)
-        return CylinderChain(_four_bar(cylinder.double_crank), angle, cylinder.radius, cylinder.gear_ratio)
+        return CylinderChain(_four_bar(cylinder.double_crank), angle, cylinder.radius, cylinder.ratio)
 
     @cached_property
     def min_transmission_angle_bed(self) -> float:
@@ -651,6 +652,9 @@ _EXTREMES = (
 )
 
 
+_OF_TEETH = frozenset((*OF_CYLINDER, *OF_PINION, *OF_RACKS))
+
+
 class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuantities, OnDiscCams):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
@@ -660,14 +664,26 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
         "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
-        "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
+        "gear": Outline(
+            (*GEAR_QUANTITIES, *DRAWING_QUANTITIES, *OF_CYLINDER, *OF_PINION, *OF_RACKS),
+            (*GEAR_CHECKS, *DRAWING_CHECKS, "rack-length"),
+        ),
         "analyze": Outline((*_PRESS_QUANTITIES, *_EXTREMES), _PRESS_CHECKS, ("positions",)),
     }
 
     derived = DERIVED
     extreme_names = _EXTREMES
     motion_extremes: dict[str, float] = placed("motion.extremes")
-    extra_tables = ("chains", "drawing", "factors", "candidates", LAW_TABLE)
+    extra_tables = (
+        "chains",
+        "polygons",
+        "drawing",
+        "factors",
+        "cylinder_gears",
+        "pinion_rack",
+        "candidates",
+        LAW_TABLE,
+    )
     requirements = Design.requirements | {"sync.print_length"}
     cost = 5.0
     candidates, ways_of = checks.candidates, checks.ways_of
@@ -708,6 +724,11 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     def cams(self) -> PressCams:
         """The compensation cams and their follower."""
         return PressCams(self.spec, self.motion)
+
+    @cached_property
+    def teeth(self) -> PressTeeth:
+        """Gears 3 and 4, the pinion and its racks."""
+        return PressTeeth(self)
 
     @cached_property
     def bed_motion(self) -> BedMotion:
@@ -798,6 +819,8 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         """Quantities of the gear pair are its own, and so are extremes of the bed."""
         if name in _BED_EXTREMES:
             return self.bed_motion.extremes[name]
+        if name in _OF_TEETH:
+            return self.teeth.quantity(name)
         if name in GEAR_QUANTITIES:
             return gear_quantity(self.gear_pair, name)
         if name not in DRAWING_QUANTITIES:
@@ -807,6 +830,11 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     def needs(self, name: str) -> str:
         """The keys that the input gears lack for a quantity."""
+        mesh, _, last = name.rpartition(".")
+        if mesh:
+            section = {"cylinder_gears": "cylinder.gears", "pinion_rack": "bed.pinion"}[mesh]
+            given = self.spec.cylinder.gears if mesh == "cylinder_gears" else self.spec.bed.pinion
+            return section if given is None else lacking(last, given, f"{section}.")
         return lacking(name, self.spec.input_gears, "input_gears.")
 
     def rests_on(self, name: str) -> str:
@@ -843,6 +871,24 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         given = self.spec.input_gears
         return ("factors",) if command == "gear" and given is not None and given.rating is not None else ()
 
+    def table_cylinder_gears(self, _samples: int | None = None) -> Table:
+        """The gear table of the drawing of gears 3 and 4."""
+        from gearlink.core.parts.gears.drawing import drawing_table
+
+        with at_key("cylinder.gears"):
+            return replace(drawing_table(self.teeth.cylinder), name="cylinder_gears")
+
+    def table_pinion_rack(self, _samples: int | None = None) -> Table:
+        """The gear table of the drawing of pinion and racks."""
+        from gearlink.core.parts.gears.drawing import rack_drawing
+
+        with at_key("bed.pinion"):
+            return replace(rack_drawing(self.teeth.pinion, None), name="pinion_rack")
+
+    def table_polygons(self, samples: int | None = None) -> Table:
+        """The velocity polygons of both chains at twelve positions."""
+        return Table.of("polygons", polygons(self, samples))
+
     table_positions, table_follower, table_chains = positions_table, follower_table, chains_table
     table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
@@ -859,8 +905,15 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             return super().check(name)
         from gearlink.core.parts.gears.drawing_checks import pair_check
 
-        with at_key("input_gears"):
-            return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
+        found: list[Check] = []
+        if self.spec.input_gears is not None or not self.teeth.names:
+            with at_key("input_gears"):
+                found = pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
+        return [*found, *self.teeth.checks(name)]
+
+    def check_rack_length(self) -> Iterator[Check]:
+        """GL346."""
+        return self.teeth.check_racks()
 
     @classmethod
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
@@ -871,6 +924,12 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     def outline(self, command: str) -> Outline:
         """With the section `cam`, `press` judges whether the cams can bear the motion; `analyze` shows them too."""
         outline = self.outlines[command]
+        if command == "gear":
+            others = self.teeth.names
+            own = outline.quantities if self.spec.input_gears is not None or not others else ()
+            checks = outline.checks if self.spec.bed.rack_teeth is not None else outline.checks[:-1]
+            shown = (*(name for name in own if name not in _OF_TEETH), *others)
+            return outline._replace(quantities=shown, checks=checks)
         if command not in ("press", "analyze") or self.spec.cam is None:
             return outline
         bearing = _BEARING if self.cams.is_sized else ()

@@ -68,14 +68,19 @@ def cylinder(design: FlatbedPress) -> Course:
 
 
 def pitch_radii(design: FlatbedPress) -> tuple[float, float]:
-    """Of gears 3 and 4 [mm]."""
+    """Of gears 3 and 4 [mm]: those of their teeth, where the file gives them."""
+    if design.spec.cylinder.gears is not None:
+        one, other = design.teeth.cylinder.pair.working_radius
+        return one, other
     given = _section(design).cylinder_gear_radius
     gear_4 = design.spec.cylinder.radius * _GEAR_4 if given is None else given
-    return gear_4 * design.spec.cylinder.gear_ratio, gear_4
+    return gear_4 * design.spec.cylinder.ratio, gear_4
 
 
 def pinion_radius(design: FlatbedPress) -> float:
-    """Pitch radius of the pinion [mm]."""
+    """Pitch radius of the pinion [mm]: that of its teeth, where the file gives them."""
+    if design.spec.bed.pinion is not None:
+        return design.teeth.pinion.pair.reference_radius[0]
     given = _section(design).pinion_radius
     return design.spec.bed.stroke * _PINION if given is None else given
 
@@ -200,7 +205,9 @@ class _Press:
         return (float(links["carriage"].origin.value.imag[0]) - lift) / self.to_bed
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
-        f, tangent, r8 = links["carriage"].origin.value, math.tan(_RACK_ANGLE), abs(self.to_bed)
+        f, r8 = links["carriage"].origin.value, abs(self.to_bed)
+        given = self.design.spec.bed.pinion
+        tangent = math.tan(_RACK_ANGLE if given is None else self.design.teeth.pinion.working_pressure_angle)
         lower = "rack" if self.follower is not None else FRAME
         return [
             Pin("A", FRAME, "gear2", links["gear2"].origin.value),
@@ -263,7 +270,9 @@ class _Press:
         if pair is not None:
             (r1, r2), tangent = pair.working_radius, math.tan(pair.working_pressure_angle)
             joints.append(Mesh("mesh_12", "gear2", "gear1", links["gear2"].origin.value, toward, r2, r1, tangent))
-        return [*joints, Mesh("mesh_34", "MN", "cylinder", n, self._to_cylinder, r3, r4, math.tan(_RACK_ANGLE))]
+        given = self.design.spec.cylinder.gears
+        angle = _RACK_ANGLE if given is None else self.design.teeth.cylinder.pair.working_pressure_angle
+        return [*joints, Mesh("mesh_34", "MN", "cylinder", n, self._to_cylinder, r3, r4, math.tan(angle))]
 
 
 def _sliding(place: Reals, way: tuple[Reals, ...]) -> Point:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, radians
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -14,12 +15,14 @@ from gearlink.core.base.spec import (
     Deferred,
     Distance,
     DrawingLimits,
+    Entries,
     GearLimits,
     Length,
     LoadLimits,
     Ratio,
     SignedLength,
     Spec,
+    Teeth,
     TolerancedSpec,
     also,
     require_offset_below_rod,
@@ -47,13 +50,43 @@ class DoubleCrank(Spec):
     assembly: Assembly = Field(1, description="+1: coupler pin left of the vector crank pin -> far pivot")
 
 
+class CylinderGears(PairKeys):
+    """Gear 3 on MN and gear 4 on the cylinder."""
+
+    teeth: Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[gear 3, gear 4]", "[68, 68]")] = Field(
+        description="teeth of gears 3 and 4"
+    )
+
+
 class Cylinder(Spec):
     """The cylinder chain."""
 
     radius: Length = Field(description="radius of the printing cylinder")
-    gear_ratio: Ratio = Field(1.0, description="cylinder turns per turn of MN")
+    gear_ratio: Ratio = Field(1.0, description="cylinder turns per turn of MN; with gears that of their teeth")
+    gears: CylinderGears | None = Field(None, description="gears 3 and 4, for geometry, drawing and loads")
     double_crank: DoubleCrank
     initial_crank_angle: Angle = Field(description="angle of GH from the line G-N at the start")
+
+    @property
+    def ratio(self) -> float:
+        """Cylinder turns per turn of MN, by the teeth where they are given."""
+        return self.gear_ratio if self.gears is None else self.gears.teeth[0] / self.gears.teeth[1]
+
+    @model_validator(mode="after")
+    def _same_ratio(self) -> Cylinder:
+        if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
+            message = "the teeth of gears 3 and 4 make a ratio of {ratio}: leave gear_ratio out, or change the teeth"
+            raise PydanticCustomError("GL111", message, {"key": "gear_ratio", "ratio": f"{self.ratio:.9g}"})
+        return self
+
+
+RackTeeth = Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[lower, upper]", "[28, 28]")]
+
+
+class Pinion(PairKeys):
+    """The pinion at F between the two racks."""
+
+    teeth: Teeth = Field(description="teeth of the pinion")
 
 
 class Bed(Spec):
@@ -64,10 +97,17 @@ class Bed(Spec):
     crank_offset_angle: Angle = Field(description="angle CDE between the driven crank and the slider's crank")
     rod: Length = Field(description="connecting rod EF")
     offset: SignedLength = Field(0.0, description="offset e of the slide line from D")
+    pinion: Pinion | None = Field(None, description="pinion of both racks, for geometry, drawing and loads")
+    rack_teeth: (
+        Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[lower, upper]", "[28, 28]")] | None
+    ) = Field(None, description="teeth of the lower and of the upper rack; left out: as many as the travel takes")
 
     @model_validator(mode="after")
     def _reachable(self) -> Bed:
         require_offset_below_rod(self.rod, self.offset, "offset")
+        if self.rack_teeth is not None and self.pinion is None:
+            message = "rack_teeth goes with pinion: {module, teeth}"
+            raise PydanticCustomError("GL106", "{message}", {"key": "pinion", "message": message})
         return self
 
 
@@ -146,8 +186,32 @@ class FlatbedPressSpec(TolerancedSpec):
         None, description="masses, forces and drive, for the command loads"
     )
 
+    @model_validator(mode="after")
+    def _one_radius(self) -> FlatbedPressSpec:
+        """A radius that the loads give beside teeth must be that of the teeth."""
+        pinion, gears = self.bed.pinion, self.cylinder.gears
+        for key, teeth in (
+            ("pinion_radius", None if pinion is None else (pinion, pinion.teeth)),
+            ("cylinder_gear_radius", None if gears is None else (gears, gears.teeth[1])),
+        ):
+            given = getattr(self.loads, key, None)
+            if teeth is None or given is None:
+                continue
+            keys, z = teeth
+            found = 0.5 * keys.module * z / cos(radians(keys.helix_angle))
+            if keys.profile_shift is None and abs(given - found) > 1e-9 * found:
+                message = "the teeth make a radius of {found} mm: leave {last} out, or give the same"
+                words = {"key": f"loads.{key}", "found": f"{found:.9g}", "last": key}
+                raise PydanticCustomError("GL111", message, words)
+        return self
+
+    @property
+    def has_gears(self) -> bool:
+        """Whether there are any gears to look at."""
+        return any(each is not None for each in (self.input_gears, self.cylinder.gears, self.bed.pinion))
+
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        gears: tuple[str, ...] = ("gear",) if self.input_gears is not None else ()
+        gears: tuple[str, ...] = ("gear",) if self.has_gears else ()
         gears += ("loads",) if self.loads is not None else ()
         return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

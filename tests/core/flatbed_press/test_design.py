@@ -408,7 +408,7 @@ def test_start_position_and_bed_touch_nothing_of_the_cylinder():
 def test_gears_touch_no_chain():
     design = press(input_gears=GEARS, cam=CAM)
     design.report("gear")
-    assert computed(design) == {"gear_pair", "gear_data"}
+    assert computed(design) == {"gear_pair", "gear_data", "teeth"}
 
 
 def test_cam_never_sizes_gears_nor_press_the_cam():

@@ -32,6 +32,8 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     """
     from gearlink.cli.views.figures.drawing import style
 
+    if made.get_layout_engine() is None:  # true to size: its panels stand where they are
+        return made
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     labels = _labels(made)
     if known is not None and known.likeness == _likeness(made):
