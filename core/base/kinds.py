@@ -499,7 +499,7 @@ KINDS: dict[str, Kind] = {
                 "timing-line": "cli.views.figures.machine:line_sheet",
                 "timing-circle": "cli.views.figures.machine:circle_sheet",
             },
-            worked="sheet_press",
+            worked="sheet_feeder",
         ),
     )
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -20,9 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind
     from gearlink.core.machines.machine.relations import Relation
 
-_NAME = r"[A-Za-z][A-Za-z0-9_]*"
-_RESERVED = ("machine",)
-MemberName = Annotated[str, Field(pattern=f"^{_NAME}$")]
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 AboveZero = Annotated[float, Field(gt=0, le=1e12)]
 Inertia = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
 Stiffness = Annotated[float, Field(gt=0, le=1e15, json_schema_extra={"unit": "N m/rad"})]
@@ -32,6 +31,12 @@ MachineAngle = Annotated[float, Field(ge=-36_000, le=36_000, json_schema_extra={
 
 def _refuse(code: str, key: str, message: str) -> PydanticCustomError:
     return PydanticCustomError(code, "{message}", {"message": message, "key": key})
+
+
+def _require_name(name: str, key: str) -> None:
+    if not _NAME.fullmatch(name):
+        message = f"{named(name)} is no name: letters, digits and _, a letter first"
+        raise _refuse("GL108", key, message)
 
 
 def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
@@ -183,8 +188,12 @@ class MachineLimits(Spec):
 class MachineLoads(Spec):
     """Motor and flywheel on the main shaft."""
 
-    flywheel: Annotated[Any, Deferred("studies.loads.spec:Flywheel")] | None = None
-    motor: Annotated[Any, Deferred("studies.loads.spec:Motor")] | None = None
+    flywheel: Annotated[Any, Deferred("studies.loads.spec:Flywheel")] | None = Field(
+        None, description="flywheel on the main shaft"
+    )
+    motor: Annotated[Any, Deferred("studies.loads.spec:Motor")] | None = Field(
+        None, description="motor of the main shaft"
+    )
 
 
 class MachineRegister(Spec):
@@ -205,10 +214,10 @@ class MachineSpec(TolerancedSpec):
 
     kind: Literal["machine"]
     speed: Speed | None = Field(None, description="speed of the main shaft")
-    members: Annotated[dict[MemberName, Member], Field(min_length=1, max_length=60)] = Field(
+    members: Annotated[dict[str, Member], Field(min_length=1, max_length=60)] = Field(
         description="the mechanisms by name, each {of: FILE} or {design: {...}}"
     )
-    events: Annotated[dict[MemberName, Event], Field(max_length=200)] = Field(
+    events: Annotated[dict[str, Event], Field(max_length=200)] = Field(
         {}, description="moments by name at which a member passes a value"
     )
     require: Annotated[list[str], Field(max_length=200)] = Field(
@@ -227,8 +236,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _drivers(self) -> MachineSpec:
         for name, member in self.members.items():
-            if name in _RESERVED:
-                raise _refuse("GL111", f"members.{name}", f"{name} is a word of its own: call the member otherwise")
+            _require_name(name, f"members.{name}")
             if member.input is None:
                 continue
             driver = member.input.partition(".")[0]
@@ -252,6 +260,7 @@ class MachineSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _named(self) -> MachineSpec:
         for name, event in self.events.items():
+            _require_name(name, f"events.{name}")
             if name in self.members:
                 raise _refuse("GL111", f"events.{name}", f"{name} is a member: call the event otherwise")
             if event.of.partition(".")[0] not in self.members:

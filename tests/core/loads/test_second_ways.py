@@ -28,7 +28,8 @@ from gearlink.core.mechanism.rates import Point, Turn, carried, fixed
 
 
 def test_every_kind_that_has_loads_is_here() -> None:
-    assert set(LOADS) == {name for name, kind in KINDS.items() if "loads" in kind.commands}
+    # a whole machine has no joints of its own: tests/core/machine holds its loads to those of its members
+    assert {*LOADS, "machine"} == {name for name, kind in KINDS.items() if "loads" in kind.commands}
 
 
 @pytest.mark.parametrize("kind", LOADS)

@@ -62,6 +62,9 @@ STUDIES = {
     "planar mechanism": Study(
         "planar_watt", {"links.arm[2]": 4, "frame.D[0]": 1}, {"GL303"}, {"limits__transmission_angle": 11.2}
     ),
+    "machine": Study(
+        "sheet_feeder", {"members.forwarder.phase": 12, "members.lays.design.cam.prime_radius": 1}, {"GL530"}
+    ),
     "rocker": Study("wide_lever", {"links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 50.8}),
     "crank-rocker": Study(
         "crank_rocker_links", {"links.crank": 8, "links.frame": 8}, {"GL303"}, {"limits__transmission_angle": 46.5}

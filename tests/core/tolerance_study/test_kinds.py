@@ -43,6 +43,7 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "swing_gripper": (["links.input", "pivots.output[0]"], "min_transmission_angle[0] >= 1 deg"),
     "geared_six_bar": (["links.output", "links.frame"], "min_transmission_angle >= 1 deg"),
     "planar_watt": (["links.crank[2]", "frame.D[0]"], "output.swing >= 1 deg"),
+    "sheet_feeder": (["members.forwarder.phase", "members.lays.design.cam.prime_radius"], "lays.max_radius >= 1 mm"),
 }
 
 
