@@ -377,8 +377,7 @@ class Machine(OfMembers):
         self.require_table("modes")
         shapes, shaft = self.chain.shapes, self.spec.shaft
         assert shaft is not None
-        names = shaft.members or [str(i) for i in range(1, len(shaft.inertias) + 1)]
-        columns: dict[str, tuple[Any, str]] = {"disc": (names, "1")}
+        columns: dict[str, tuple[Any, str]] = {"disc": (shaft.discs, "1")}
         return Table.of("modes", columns | {f"mode_{k + 1}": (shapes[:, k], "1") for k in range(shapes.shape[1])})
 
     def require_table(self, name: str, /) -> None:

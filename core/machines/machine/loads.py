@@ -362,9 +362,11 @@ class MachineLoads(OfMembers, LoadsDesign):
                 yield Limited(name, check, value.value / per / ratio)
 
     def _limits_behind(self, name: str) -> Iterator[Limited]:
-        """Of a member behind another: by the rates of its own input."""
-        felt = self.felt.get(name)
-        speed = None if felt is None else felt.lift_off()
+        """Of a member behind another whose cam something presses: by the rates of its own input."""
+        felt, own = self.felt.get(name), self.members[name].design
+        if felt is None or "lift_off_speed" not in own.quantity_names() or own.raw("lift_off_speed") is None:
+            return
+        speed = felt.lift_off()
         if speed is not None:
             yield Limited(name, "lift-off", speed * 30.0 / math.pi)
 
@@ -399,12 +401,13 @@ class MachineLoads(OfMembers, LoadsDesign):
         """Names of the discs of the main shaft."""
         shaft = self.spec.shaft
         assert shaft is not None, "asked for only with a main shaft"
-        return shaft.members or [str(i) for i in range(1, len(shaft.inertias) + 1)]
+        return shaft.discs
 
     def disc_of(self, name: str) -> int:
-        """The disc on which a member acts: that of its name, or of the member that drives it; else the first."""
-        root = self.spec.root(name)
-        return self.discs.index(root) if root in self.discs else 0
+        """The disc on which a member acts: that with its name or its driver's; else the first."""
+        shaft, root = self.spec.shaft, self.spec.root(name)
+        assert shaft is not None, "asked for only with a main shaft"
+        return next((i for i, names in enumerate(shaft.acting) if root in names), 0)
 
     @cached_property
     def swing(self) -> Swing:

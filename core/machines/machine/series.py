@@ -156,8 +156,9 @@ class OnShaft:
         """Turns that make a share of periods a turn a whole number."""
         found = Fraction(share).limit_denominator(_LARGEST)
         if abs(float(found) - share) > _WHOLE * max(1.0, share):
-            message = f"ratio {self.ratio:.12g} is none of whole numbers up to {_LARGEST}: the machine never repeats"
-            raise NoSolution(f"{message}; give it with all its digits", key="ratio")
+            message = f"at ratio {self.ratio:.12g} its input never repeats with the machine within {_LARGEST} turns"
+            period = "" if self.period is None else f", its own period being {math.degrees(self.period):.6g} deg"
+            raise NoSolution(f"{message}{period}: give a ratio of whole numbers, with all its digits", key="ratio")
         return found.denominator
 
     @property

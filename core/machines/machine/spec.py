@@ -149,8 +149,8 @@ class MainShaft(Spec):
         description="stiffness between neighbours, at the shaft of the first of both; through a mesh that of the teeth "
         "times the square of its base radius"
     )
-    members: Annotated[list[str], Field(max_length=200)] | None = Field(
-        None, description="names of the discs; the torque of a member acts on the disc of its name, others on the first"
+    members: Annotated[list[str | list[str]], Field(max_length=200)] | None = Field(
+        None, description="names of the discs, of a disc with several members a list; other members act on the first"
     )
     ratios: Annotated[list[Turns], Field(max_length=200)] | None = Field(
         None, description="turns of each disc per turn of the main shaft; default 1"
@@ -172,10 +172,24 @@ class MainShaft(Spec):
                 raise _refuse("GL111", name, f"give one for each of the {count} discs, not {len(given)}")
         if self.ratios is not None and 0.0 in self.ratios:
             raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 stands still")
-        if self.members is not None and len(set(self.members)) < count:
-            twice = next(name for name in self.members if self.members.count(name) > 1)
-            raise _refuse("GL111", "members", f"two discs are called {named(twice)}: give each its own name")
+        names = [name for disc in self.acting for name in disc]
+        if twice := [name for name in names if names.count(name) > 1]:
+            raise _refuse("GL111", "members", f"{named(twice[0])} stands on two discs: give it one place")
+        if [] in self.acting:
+            raise _refuse("GL108", "members", "a disc without a name: give it one, such as motor")
         return self
+
+    @property
+    def acting(self) -> list[list[str]]:
+        """Names that stand on each disc; the first one names it."""
+        if self.members is None:
+            return [[str(i)] for i in range(1, len(self.inertias) + 1)]
+        return [[disc] if isinstance(disc, str) else disc for disc in self.members]
+
+    @property
+    def discs(self) -> list[str]:
+        """Names of the discs."""
+        return [names[0] for names in self.acting]
 
 
 class MachineLimits(Spec):

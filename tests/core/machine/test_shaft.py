@@ -8,9 +8,10 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from machines import FEED, cam, machine, of
+from machines import FEED, ROCKER, cam, machine, of
 from scipy.integrate import solve_ivp
 
+from gearlink.core.machines.machine.loads import MachineLoads
 from gearlink.core.machines.machine.shaft import Chain, Swing
 
 CHAINS = [
@@ -67,6 +68,16 @@ def test_ratios_reduce_discs_and_shafts_to_the_main_shaft() -> None:
     plain = {"inertias": [2, 2, 1], "stiffnesses": [8000, 12000]}
     found = [machine({"m": of(cam(FEED))}, shaft=each).natural_frequencies for each in (shaft, plain)]
     assert found[0] == pytest.approx(found[1], rel=1e-12)
+
+
+def test_several_members_stand_on_one_disc() -> None:
+    """Both work against a steady torque behind the same spring: the twist is that of their sum."""
+    pulled = ROCKER | {"loads": {"links": {}, "forces": [{"on": "crank", "torque": -8.0}]}}
+    shaft = {"inertias": [1, 1], "stiffnesses": [5000], "members": ["motor", ["one", "two"]]}
+    made = machine({"one": of(pulled), "two": of(pulled, phase=90)}, shaft=shaft, speed=60)
+    table = MachineLoads(made.spec).table("wind_up")
+    assert table["disc"].tolist() == ["one", "one"]
+    assert table["mean"].tolist() == pytest.approx([math.degrees(-16.0 / 5000.0)] * 2, rel=1e-12)
 
 
 def test_the_swing_is_that_of_an_integration_over_time() -> None:
