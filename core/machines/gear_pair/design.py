@@ -232,14 +232,16 @@ class GearPairDesign(GearQuantities, Design):
         """The calculation sheet of the rating."""
         from gearlink.core.parts.gears.rating.sheet import factors_table
 
+        self.require_table("factors")
         with at_key("rating"):
-            assert self.data.rated is not None, "require_table asks for it"
+            assert self.data.rated is not None, "the file has rating"
             return factors_table(self.data.rated)
 
     def table_root(self, _samples: int | None = None) -> Table:
         """Stress along the generated fillets."""
         from gearlink.core.parts.gears.rating.true_root import root_table
 
+        self.require_table("root")
         with at_key("rating"):
             return root_table(self.data)
 
