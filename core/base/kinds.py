@@ -479,6 +479,7 @@ KINDS: dict[str, Kind] = {
             {"laws": "design:MotionLawDesign", "analyze": "design:MotionLawDesign"},
             codes="",
             picture="cli.views.figures.motion_laws:draw_design",
+            drawn=("laws",),
             worked="quiet_law",
         ),
         Kind(

@@ -54,8 +54,8 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 def panels(command: str, design: Design) -> Figure:
     """The figure of a command on a design, as the kind draws it, not placed yet; all kinds share those of some
     commands."""
-    shared = command in _SHARED and command not in FILES[design.kind].drawn
-    if shared and not (command == "laws" and design.kind in FILES):
+    own = FILES[design.kind].drawn if design.kind in FILES else ()
+    if command in _SHARED and command not in own:
         made: Figure = load(f"cli.views.figures.{_SHARED[command]}:draw")(design)
     else:
         made = load(FILES[design.kind].picture or "cli.views.figures.of_motion:draw")(command, design)
