@@ -19,6 +19,6 @@ MACHINE = {
     "wind_up_max_at": Term("", "deg", "machine angle of the greatest wind-up"),
     "wind_up_disc": Term("", "1", "the disc that is wound up most"),
     "wind_up_max": Term("", "deg", "greatest wind-up of a disc of the main shaft against the first one", "modes"),
-    "wind_up_at_print": Term("", "mm", "what the wind-up of the main shaft moves the register, alike in every machine"),
+    "wind_up_at_print": Term("", "mm", "shift of the register by the twist of the main shaft, alike in every machine"),
     "machine_yield": Term("", "1", "share of the machines that keep the allowed register", "normal law"),
 }

@@ -46,6 +46,6 @@ CAM_DRIVE = {
 PRESS_TEETH = {
     "pinion_radius": Term("r_8", "mm", "radius with which the pinion rolls on both racks", "TY-460 report 2.4"),
     "rack_teeth": Term("", "1", "teeth of the lower and the upper rack, given or as many as the travel takes"),
-    "rack_travel": Term("", "mm", "how far the pinion goes along the lower and the upper rack"),
+    "rack_travel": Term("", "mm", "distance of the pinion along the lower and the upper rack"),
 }
 STEPPING = {**PRESS_TEETH, **GENEVA, **REDUCER, **RACKS, **STEP_TRAIN, **CAM_DRIVE}
