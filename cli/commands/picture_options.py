@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from gearlink.cli.options import Options
+from gearlink.cli.options import Options, PlotFormat
 from gearlink.cli.typer_options import Spec, offers, option, takes
 
 
@@ -17,6 +17,16 @@ class MovingFormat(StrEnum):
     GIF = "gif"
     MP4 = "mp4"
     HTML = "html"
+
+
+class Paper(StrEnum):
+    """Sheets of paper, ISO 216."""
+
+    A0 = "A0"
+    A1 = "A1"
+    A2 = "A2"
+    A3 = "A3"
+    A4 = "A4"
 
 
 def register(app: typer.Typer) -> None:
@@ -83,11 +93,21 @@ def _sheet(
             metavar="[NAME]...", help="motion, timing, pressure, drawing; default: all", autocompletion=offers("sheets")
         ),
     ] = None,
+    scale: Annotated[
+        str | None, typer.Option(metavar="1[:N]", help="draw cams true to this scale, with a bar that checks the print")
+    ] = None,
+    paper: Annotated[
+        Paper | None, typer.Option(help="of --scale: the sheet of paper; default: as large as the drawing")
+    ] = None,
+    format: Annotated[  # the name of the option
+        PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
+    ] = None,
 ) -> None:
     """Write further sheets of a design: motion of every output, timing, pressure angles, drawings of cams.
 
-    Example: gearlink sheet press.yaml motion drawing --plot-format pdf
+    Example: gearlink sheet press.yaml drawing --scale 1 --format pdf
     """
     from gearlink.cli.commands.sheet import run_sheet
 
-    raise typer.Exit(run_sheet(spec, names or [], options))
+    chosen = options if format is None else options._replace(plot_format=format)
+    raise typer.Exit(run_sheet(spec, names or [], chosen, scale, None if paper is None else paper.value))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,15 +24,24 @@ from gearlink.core.base.kinds import KINDS
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from gearlink.cli.views.figures.sheets.true_size import Scale
 
-def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
-    """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
+
+def run_sheet(
+    source: str, names: Sequence[str], options: Options, scale: str | None = None, paper: str | None = None
+) -> int:
+    """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status.
+
+    Parameters
+        scale, paper : "1" or "1:N" of cams true to size, and the sheet of paper that they are to fit on
+    """
 
     try:
+        size = _scale(scale, paper, names)
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
-            made = sheets_of(whole_design(kind, spec))
+            made = sheets_of(whole_design(kind, spec), size)
             chosen, paths = _chosen(made, names, spec, source), []
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
                 paths.append(_write(made, chosen[number], spec, options))
@@ -85,8 +95,33 @@ def kinds() -> tuple[str, ...]:
     return tuple(kind.name for kind in KINDS.values() if kind.all_sheets)
 
 
-def sheets_of(design: Any) -> Makers:
-    """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`).
+def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale | None:
+    """The scale that is asked for; None for drawings on a page of their own.
+
+    Raises
+        DesignFileError - for one that cannot be read, a paper without a scale, or sheets that have none
+    """
+    if scale is None and paper is None:
+        return None
+    from gearlink.cli.views.figures.sheets.true_size import Scale
+
+    message = ""
+    if scale is None:
+        message = "--paper goes with --scale: give --scale 1, or 1:2"
+    elif not names or any(name.rpartition("-")[0] != "drawing" and name != "drawing" for name in names):
+        message = "--scale is that of cams: name the sheet drawing, or drawing-1"
+    else:
+        one, _, reduction = scale.partition(":")
+        with suppress(ValueError):
+            value = float(reduction or "1")
+            if one == "1" and 0.01 <= value <= 1000.0:
+                return Scale(value, paper or "")
+        message = f"--scale {scale} is none: write 1, or 1:2 for half the size (1:N, N from 0.01 to 1000)"
+    raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale" if scale else "--paper")])
+
+
+def sheets_of(design: Any, scale: Scale | None = None) -> Makers:
+    """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`), true to a scale.
 
     Raises
         NoSolution - where the mechanism cannot make its turn
@@ -104,6 +139,12 @@ def sheets_of(design: Any) -> Makers:
     cams = cam_sheets.discs(design)
     if cams:
         found["pressure"] = lambda: cam_sheets.pressure(design)
+    if scale is not None:
+        from gearlink.cli.views.figures.sheets import true_size
+
+        for i in range(len(cams)):
+            found[f"drawing-{i + 1}"] = lambda i=i: true_size.drawing(design, i, scale)  # type: ignore[misc]
+        return found
     for i in range(len(cams)):
         found[f"drawing-{i + 1}"] = lambda i=i: cam_sheets.drawing(design, i)  # type: ignore[misc]
     return found

@@ -14,7 +14,7 @@ from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.cam_drives.spec import CamDriveSpec, CamGearSpec, CamLinkageSpec
+    from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.groove import Groove, Path
@@ -36,7 +36,7 @@ _IN_LINE = 1e-9
 class Grooved(RealSpeed, Design):
     """A drive whose roller runs in a groove of the frame; a subclass says where the roller is."""
 
-    spec: CamDriveSpec
+    spec: CamGearSpec | CamLinkageSpec
     requirements = Design.requirements | {"motion", "limits.pressure_angle"}
     larger = "enlarge the drive against its roller"
 

@@ -39,16 +39,8 @@ class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):
     pressure_angle: SteepAngle = Field(45.0, description="greatest pressure angle")
 
 
-class CamDriveSpec(DrivenSpec):
-    """What drives with a groove in the frame share."""
-
-    roller_radius: Length = Field(description="radius of the roller in the groove")
-    motion: OutputLaw = Field(description="output over a turn of the input: segments with laws, or a table")
-    limits: CamDriveLimits = CamDriveLimits.model_construct()
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", *(("loads",) if getattr(self, "loads", None) is not None else ()))
+Roller = Annotated[Length, Field(description="radius of the roller in the groove")]
+Output = Annotated[OutputLaw, Field(description="output over a turn of the input: segments with laws, or a table")]
 
 
 class SunAndPlanet(PairKeys):
@@ -65,15 +57,22 @@ class Lever(Spec):
     angle: Angle = Field(description="from the direction sun to planet to the lever, at input angle 0")
 
 
-class CamGearSpec(CamDriveSpec):
+class CamGearSpec(DrivenSpec):
     """A planet whose lever runs in a groove of the frame: carrier the input, sun the output."""
 
     kind: Literal["cam-gear"]
     gears: SunAndPlanet
     lever: Lever
+    roller_radius: Roller
+    motion: Output
+    limits: CamDriveLimits = CamDriveLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamGearSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))
 
 
 class FiveLinks(Spec):
@@ -86,16 +85,23 @@ class FiveLinks(Spec):
     frame: Distance = Field(description="frame AE; 0: input and output on one axis")
 
 
-class CamLinkageSpec(CamDriveSpec):
+class CamLinkageSpec(DrivenSpec):
     """A five-bar whose middle joint C runs in a groove of the frame: AB the input, ED the output."""
 
     kind: Literal["cam-linkage"]
     links: FiveLinks
     phase: Angle = Field(0.0, description="direction of ED at output angle 0")
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D")
+    roller_radius: Roller
+    motion: Output
+    limits: CamDriveLimits = CamDriveLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamLinkageSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", *(("loads",) if self.loads is not None else ()))
 
 
 class Harmonics(Spec):

@@ -185,7 +185,7 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
         ("ty460_slider_crank", ("timing",), "it has motion"),
         ("six_bar_two_trains", (), "of which this gear-train-mobility has none"),
         ("gear_pair", (), "its sheet is drawn by `gearlink gear "),
-        ("ty460", ("motions",), "it has motion, timing, pressure, drawing-1, drawing-2"),
+        ("ty460", ("motions",), "it has motion, timing, polygons, pressure, drawing-1, drawing-2"),
     ],
 )
 def test_what_a_design_has_not_is_refused(

@@ -67,7 +67,7 @@ def next_scale(least: float) -> float:
 
 def _box(points: list[complex]) -> tuple[complex, float]:
     """Middle and size of what a position takes, the pole with it."""
-    x, y = ([0.0, *(part(each) for each in points)] for part in (lambda z: z.real, lambda z: z.imag))
+    x, y = [0.0, *(each.real for each in points)], [0.0, *(each.imag for each in points)]
     middle = complex(0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y)))
     return middle, max(max(x) - min(x), max(y) - min(y))
 
