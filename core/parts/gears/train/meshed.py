@@ -283,6 +283,7 @@ class Meshed(GearQuantities, Design):
         """The calculation sheets of the meshes, one below the other; a ring is gear 2 of its pair."""
         from gearlink.core.parts.gears.rating.sheet import factors_table
 
+        self.require_table("factors")
         with in_section("gears"), at_key("rating"):
             tables = {
                 mesh: factors_table(each.rated) for mesh, each in self.mesh_data.items() if each.rated is not None
