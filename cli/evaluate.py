@@ -50,6 +50,7 @@ def build(
     options: Options,
     *,
     findings_only: bool = False,
+    key_tables: bool = False,
     designs: FileDesigns | None = None,
 ) -> tuple[Design, Report]:
     """The design of a validated spec (one of `designs`, where its other commands have some) and its report; what the
@@ -62,6 +63,7 @@ def build(
         "samples": options.samples,
         "in_parts": options.format is Format.CSV,
         "findings_only": findings_only,
+        "key_tables": key_tables,
     }
     try:
         with refusals_located(loaded):

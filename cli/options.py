@@ -49,6 +49,23 @@ def folder(text: str) -> Path:
     return _no_stream(file(text), "folder")
 
 
+FULL = "full"
+"""As digits: as many as a number has."""
+
+
+def digits(text: str) -> int | str:
+    """How many significant digits are shown.
+
+    Raises
+        ValueError - for what is neither a number from 1 to 17 nor `full`
+    """
+    if text == FULL:
+        return FULL
+    if text.isascii() and text.isdecimal() and 1 <= int(text) <= 17:
+        return int(text)
+    raise ValueError(f"{text!r} is neither a number of digits from 1 to 17 nor {FULL}")
+
+
 def _no_stream(path: Path, what: str) -> Path:
     if path == STREAM:
         raise ValueError(f"standard output is no {what}: for one of that name give ./-")
@@ -109,6 +126,13 @@ class Options(NamedTuple):
     round: float | None = None
     force: bool = False
     candidates: bool = False
+    all: bool = False
+    digits: int | str | None = None
+
+    @property
+    def brief(self) -> bool:
+        """Whether the key results are shown, not all."""
+        return self.format is Format.TABLE and not self.all
 
 
 class Option(NamedTuple):
@@ -138,6 +162,10 @@ class Option(NamedTuple):
 
 OPTIONS = {
     "format": Option(("--format", "-f"), "how results are printed", Format),
+    "all": Option(("--all",), "show every quantity, table and check, not the key results alone"),
+    "digits": Option(
+        ("--digits",), "significant digits of the table form, or full; default: 0.001 mm, 0.01 deg, else 4", digits, "N"
+    ),
     "plot": Option(("--plot",), "write the picture NAME-COMMAND.png"),
     "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
     "dpi": Option(("--dpi",), "pixels per inch of a png", int, least=20, most=1200),

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from typer.models import OptionInfo
 
-from gearlink.cli.options import OPTIONS, Keyed, Options, file, folder, plain_file
+from gearlink.cli.options import OPTIONS, Keyed, Options, digits, file, folder, plain_file
 
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
 Jobs = Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")]
@@ -27,7 +27,7 @@ def option(name: str, **changed: Any) -> OptionInfo:
         1000
     """
     shared = OPTIONS[name]._replace(**changed)
-    if shared.type in PLACES:
+    if shared.type in READ:
         return place(shared.type, *shared.flags, help=shared.help, metavar=shared.metavar)
     info: OptionInfo = typer.Option(
         *shared.flags,
@@ -40,13 +40,14 @@ def option(name: str, **changed: Any) -> OptionInfo:
     return info
 
 
-PLACES: tuple[Callable[[str], Any], ...] = (file, folder, plain_file)
+READ: dict[Callable[[str], Any], Any] = {file: Path, folder: Path, plain_file: Path, digits: object}
+"""What reads a value and says what is wrong with it, and what it gives."""
 
 
-def place(kind: Callable[[str], Path], *flags: str, help: str, metavar: str | None) -> OptionInfo:
-    """An option whose value is a place to write to, with the reason where it can be none."""
+def place(kind: Callable[[str], Any], *flags: str, help: str, metavar: str | None) -> OptionInfo:
+    """An option whose value is read by a function, such as a place to write to, with the reason where it can be none."""
 
-    def read(text: str) -> Path:
+    def read(text: str) -> Any:
         try:
             return kind(text)
         except ValueError as error:
@@ -111,7 +112,7 @@ def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable
 
 
 def _parameter(name: str, words: str) -> Parameter:
-    kind: Any = OPTIONS[name].type if OPTIONS[name].type not in PLACES else Path
+    kind: Any = READ.get(OPTIONS[name].type, OPTIONS[name].type)
     default = _value(name, getattr(Options(), name))
     if OPTIONS[name].repeatable:
         kind, default = list[kind], []

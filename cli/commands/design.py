@@ -57,7 +57,7 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
         with step("load the formulas"):
             kind.class_for(command, spec)
         with step("compute"), patience(f"computing {spec.name}", quiet=options.quiet):
-            design, report = build(loaded, kind, command, spec, options)
+            design, report = build(loaded, kind, command, spec, options, key_tables=options.brief)
         saved = ExitCode.OK if options.save is None else _save(loaded, kind, command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
@@ -142,6 +142,10 @@ def print_report(report: Report, options: Options) -> None:
         print(as_markdown(report))
     elif options.quantities:
         print(as_lines(report))
+    elif report.key and not options.all:
+        from gearlink.cli.render.key_results import show_key_results
+
+        show_key_results(report, options)
     else:
         from gearlink.cli.render.terminal import show
 

@@ -61,7 +61,7 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         spec = read_spec(loaded, kind, source)
         with patience(f"seeking changes with which {spec.name} holds", quiet=options.quiet):
             repaired, changes = repair(kind, command, spec, strict=options.strict)
-            design, report = build(loaded, kind, command, repaired, options)
+            design, report = build(loaded, kind, command, repaired, options, key_tables=options.brief)
         if options.save is not None:
             saved = save(loaded, kind, command, design, options, changes or ())
     except (DesignFileError, CannotWrite, NoSolution) as error:

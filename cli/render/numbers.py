@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -31,6 +31,39 @@ def number(value: object, digits: int = 7) -> str:
     if isinstance(value, float):
         return f"{value:.{digits}g}"
     return str(value)
+
+
+_DRAWN = {"mm": 3, "deg": 2}
+"""Digits behind the point that a drawing has."""
+_SIGNIFICANT = 4
+_WHOLE = 1e7
+"""Below it what has more than four digits before the point is written out, as 16790."""
+
+
+def drawn(value: object, unit: str, digits: int | str | None = None) -> str:
+    """A value as a drawing has it: 0.001 mm, 0.01 deg, else four significant digits; never fewer than two that count.
+
+    Parameters
+        digits : significant digits in place of these; "full": all
+    Example
+        >>> drawn(30.3455567, "mm"), drawn(84.0, "mm"), drawn(0.00004, "deg"), drawn(16791.9, "W"), drawn(44, "1")
+        ('30.346', '84.000', '4e-05', '16790', '44')
+        >>> drawn([1.0 / 3.0, None], "1", 3), drawn(1.0 / 3.0, "mm", "full")
+        ('0.333 -', '0.3333333333333333')
+    """
+    if isinstance(value, list):
+        return " ".join(drawn(item, unit, digits) for item in value)
+    if not isinstance(value, float):
+        return number(value)
+    if digits is not None:
+        return repr(value) if isinstance(digits, str) else f"{value:.{digits}g}"
+    places = _DRAWN.get(unit)
+    if places is not None and (value == 0.0 or abs(value) >= 9.5 * 10.0**-places):
+        return f"{value:.{places}f}"
+    if places is not None:
+        return f"{value:.2g}"
+    text = f"{value:.{_SIGNIFICANT}g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < _WHOLE else text
 
 
 def scales(report: Report) -> dict[str, float]:
@@ -77,14 +110,27 @@ def thinning(step: int, table: Table) -> str:
     return f"every {step}{ending} of {table.length} rows"
 
 
-def readable_rows(table: Table, step: int = 1, scale: Mapping[str, float] = MappingProxyType({})) -> list[list[str]]:
+def readable_rows(
+    table: Table,
+    step: int = 1,
+    scale: Mapping[str, float] = MappingProxyType({}),
+    digits: int | str | None = 6,
+) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0, and a column
-    that is rounding as a whole beside what its unit has elsewhere, `scale`."""
+    that is rounding as a whole beside what its unit has elsewhere, `scale`. `digits` as in `drawn`."""
     noise = [
         _noise(_largest(column), scale.get(unit, 0.0)) for unit, column in zip(table.units, table.data, strict=True)
     ]
     rows = table.thinned(step).each_row()
-    return [[number(_quiet(x, level), 6) for x, level in zip(row, noise, strict=True)] for row in rows]
+    cells = [[_quiet(x, level) for x, level in zip(row, noise, strict=True)] for row in rows]
+    of_columns = [_of_column(column, unit, digits) for column, unit in zip(zip(*cells, strict=True), table.units, strict=True)]
+    return [list(row) for row in zip(*of_columns, strict=True)]
+
+
+def _of_column(values: Sequence[object], unit: str, digits: int | str | None) -> list[str]:
+    """The cells of a column; whole numbers of a drawing, such as input angles, without digits behind the point."""
+    whole = digits is None and all(not isinstance(x, float) or x.is_integer() for x in values)
+    return [drawn(x, "1" if whole else unit, 7 if whole else digits) for x in values]
 
 
 def _noise(largest: float, scale: float) -> float:

@@ -19,7 +19,7 @@ from rich.text import Text
 
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning, with_intervals
+from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.core.base.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
@@ -41,25 +41,25 @@ def show(report: Report, options: Options) -> None:
     console = console_for(options)
     console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
-        show_grid(_quantities(report, console), console)
+        show_grid(_quantities(report, console, options.digits), console)
         if report.command == "gear":
-            for grid in _pairs(report, console):
+            for grid in _pairs(report, console, options.digits):
                 show_grid(grid, console)
         if console.width < _WIDE and console.is_terminal and not options.quiet:
             print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
     for table in report.tables:
-        show_table(table, console, scale=scales(report))
+        show_table(table, console, scale=scales(report), digits=options.digits)
     show_findings(report, console)
 
 
-def show_findings(report: Report, console: Console) -> None:
-    """What the checks found, and the verdict."""
+def show_findings(report: Report, console: Console, *, passed: bool = True) -> None:
+    """What the checks found, and the verdict; `passed`: those that passed as well."""
     findings = [c for c in report.checks if c.status != "pass"]
     if findings:
         console.print()
         show_grid(_findings(findings, console), console)
     passes = [c for c in report.checks if c.status == "pass"]
-    if passes:
+    if passes and passed:
         console.print()
         show_grid(_passes(passes, scales(report), console), console)
         for proviso in dict.fromkeys(c.message.partition(_NOMINAL)[2] for c in passes if _NOMINAL in c.message):
@@ -149,7 +149,7 @@ def _least_width(column: Column) -> int:
     return longest if column.no_wrap or column.justify == "right" else min(longest, _LEAST_TEXT)
 
 
-def _quantities(report: Report, console: Console) -> Grid:
+def _quantities(report: Report, console: Console, digits: int | str | None) -> Grid:
     grid, scale = grid_for(console), scales(report)
     wide, symbols = console.width >= _WIDE, console.width >= _SYMBOLS_FROM
     for head in ("quantity", *(["symbol"] if symbols else []), "value", "unit", *(["meaning"] if wide else [])):
@@ -159,7 +159,7 @@ def _quantities(report: Report, console: Console) -> Grid:
         if q.value == [] or (report.command == "gear" and _per_gear(q)):  # no standstill has no place
             continue
         unit = "" if q.unit == "1" else q.unit
-        value = number(quiet(q.value, scale.get(q.unit, 0.0)))
+        value = drawn(quiet(q.value, scale.get(q.unit, 0.0)), q.unit, digits)
         grid.add_row(q.name, *([q.symbol] if symbols else []), value, unit, *([q.words] if wide else []))
     return grid
 
@@ -176,7 +176,7 @@ def _per_gear(quantity: Quantity) -> bool:
     return two and quantity.name.rpartition(".")[2] not in _OF_MESH
 
 
-def _pairs(report: Report, console: Console) -> Iterator[Grid]:
+def _pairs(report: Report, console: Console, digits: int | str | None) -> Iterator[Grid]:
     """The quantities of gear 1 and gear 2 side by side, those of each mesh under its name."""
     meshes: dict[str, list[Quantity]] = {}
     for q in filter(_per_gear, report.quantities):
@@ -188,7 +188,7 @@ def _pairs(report: Report, console: Console) -> Iterator[Grid]:
         rows = []
         for q in quantities:
             assert isinstance(q.value, list), "as _per_gear says"
-            one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
+            one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0)), q.unit, digits) for value in q.value)
             rows.append((q.name.rpartition(".")[2], q.symbol, one, other, "" if q.unit == "1" else q.unit))
         room = max(_LEAST_TEXT, room_for_names(_pair_grid(heads, rows, console), console))
         yield _pair_grid(heads, rows, console, room)
@@ -206,9 +206,9 @@ def _pair_grid(
     return grid
 
 
-def _below_each_other(value: Any) -> Text:
+def _below_each_other(value: Any, unit: str, digits: int | str | None) -> Text:
     """A number, or the two limits of one."""
-    return Text("\n".join(map(number, value)) if isinstance(value, list) else number(value))
+    return Text("\n".join(drawn(each, unit, digits) for each in (value if isinstance(value, list) else [value])))
 
 
 def _findings(checks: Sequence[Check], console: Console) -> Grid:
@@ -254,14 +254,21 @@ def _room(check: Check) -> float:
     return abs(check.value - check.limit)
 
 
-def show_table(table: Table, console: Console, most: int = _MOST_ROWS, *, scale: Mapping[str, float] = _ALONE) -> None:
+def show_table(
+    table: Table,
+    console: Console,
+    most: int = _MOST_ROWS,
+    *,
+    scale: Mapping[str, float] = _ALONE,
+    digits: int | str | None = 6,
+) -> None:
     """Print a table, thinned to so many rows and folded to the width; one of several meshes in parts.
 
-    `scale` has the largest number of each unit in the report around it.
+    `scale` has the largest number of each unit in the report around it; `digits` as in `numbers.drawn`.
     """
     if table.columns[:1] == ("mesh",):
         for part in _by_mesh(table):
-            show_table(part, console, most, scale=scale)
+            show_table(part, console, most, scale=scale, digits=digits)
         return
     # Every row of a table that begins with a word says something else; a list that holds one is read whole.
     words = [isinstance(column[0], str) for column in table.data] if table.length else [False]
@@ -269,7 +276,7 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS, *, scale:
     step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
-    cells = readable_rows(table, step, scale)
+    cells = readable_rows(table, step, scale, digits)
     thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     if step == 1:

@@ -15,6 +15,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.base.key_results import Key, key_results
 from gearlink.core.base.nomenclature import fixed_name, term
 from gearlink.core.base.remedies.bench import Bench, commands_of, with_remedies
 from gearlink.core.base.remedies.ways import Way
@@ -29,11 +30,16 @@ _PART_SIZES = (65_521, 65_537)
 
 
 class Outline(NamedTuple):
-    """What a command shows of a design: names of quantities, checks and tables."""
+    """What a command shows of a design: names of quantities, checks and tables.
+
+    `key` names the key results (`core.base.key_results`), `key_tables` the tables that stand beside them.
+    """
 
     quantities: tuple[str, ...] = ()
     checks: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    key: tuple[Key, ...] = ()
+    key_tables: tuple[str, ...] = ()
 
 
 class Found(NamedTuple):
@@ -342,6 +348,7 @@ class Design:
         only: bool = False,
         findings_only: bool = False,
         in_parts: bool = False,
+        key_tables: bool = False,
     ) -> Report:
         """The report of a command.
 
@@ -354,6 +361,7 @@ class Design:
             findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
                 the same, since a mechanism that does not exist has none, its tables are not
             in_parts : bool - compute the rows of long tables while they are read
+            key_tables : bool - of the command's tables give those alone that stand beside its key results
         Raises
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
@@ -364,24 +372,29 @@ class Design:
         if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
             raise UnknownName("command", command, tuple(self.outlines))
         outline = Outline(tuple(quantities)) if quantities or only else self._with_tables(self.outline(command), tables)
-        asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
+        own = () if findings_only else outline.tables
+        beside = self.outlines[command].key_tables if key_tables and own and outline.quantities else own
+        asked = dict.fromkeys([*(name for name in own if name in beside), *tables])
         found: Iterable[Quantity | None] = ()
         if findings_only:
             self.require(command)
         else:
             self.prepare(outline.quantities)
             found = [self.quantity(name) for name in outline.quantities]
+        shown = tuple(quantity for quantity in found if quantity is not None)
         checks = [check for name in outline.checks for check in self.findings(command, name)]
         return Report(
             kind=self.kind,
             name=self.spec.name,
             command=command,
-            quantities=tuple(quantity for quantity in found if quantity is not None),
+            quantities=shown,
             checks=tuple(check for check in checks if check.status != "pass" or not findings_only),
             tables=tuple(
                 self.table_in_parts(name, samples) if in_parts and samples else self.table(name, samples=samples)
                 for name in asked
             ),
+            key=() if quantities or only else key_results(self, self.outlines[command].key, shown),
+            left_out=tuple(name for name in own if name not in asked),
         )
 
     def _with_tables(self, outline: Outline, tables: Sequence[str]) -> Outline:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from gearlink.core.base.key_results import KeyResult
+
     Column: TypeAlias = Sequence[Any] | NDArray[Any]
 
 Value = float | int | str | bool | list[float] | list[int] | list[str] | list[float | None] | list[list[float] | None]
@@ -197,7 +199,7 @@ class TableInParts(Table):
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """All that a command says about one design."""
+    """All that a command says about one design; `key` its key results, `left_out` tables that were not computed."""
 
     kind: str
     name: str
@@ -205,6 +207,8 @@ class Report:
     quantities: tuple[Quantity, ...] = ()
     checks: tuple[Check, ...] = ()
     tables: tuple[Table, ...] = field(default=())
+    key: tuple[KeyResult, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     def _repr_html_(self) -> str:
         from gearlink.core.base.notebook import report_as_html

@@ -1,0 +1,115 @@
+"""The key results of a command: what the file asks for and what was reached, then what it costs.
+
+An outline names them in order (`Outline.key`), each by the name of a quantity, or as a tuple of that name and the keys of
+the file which it answers:
+
+    ("tolerance_dwell_angle", ">dwell.window", ">dwell_window")
+
+The first key that the file has counts. It stands as `required`; behind `>` as the least and behind `<` as the most that is
+asked for. A key that begins with a point is an attribute of the design, in the quantity's unit. A name with `*` stands for
+every quantity like it, behind `^` for the largest of them alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from gearlink.core.base.spec_paths import number_at
+
+if TYPE_CHECKING:
+    from gearlink.core.base.report import Quantity
+
+Key: TypeAlias = "str | tuple[str, ...]"
+FEWEST, MOST = 6, 10
+"""Key results of a command, where it has so many quantities."""
+_HOW = {">": "at least", "<": "at most"}
+_ASIDE = ("_at", ".travel", "power_identity", "massless", "seed", "samples")
+"""Ends of names that no command shows first by itself."""
+
+TITLES = {
+    "tolerance_dwell_angle": "dwell",
+    "tolerance_dwell_start": "dwell, start",
+    "tolerance_dwell_time": "dwell, time",
+    "dwell_tolerance": "dwell, half range +-",
+    "window_limit": "longest possible dwell",
+    "dwell_angle": "return angle phi13",
+    "back_step_angle": "back-step",
+    "back_step_crank_angle": "back-step, crank angle phi12",
+    "dwell_crank_angles": "standstills at",
+    "extreme_crank_angles": "reversals at",
+    "mean_ratio": "output per input revolution",
+    "worst": "register, worst case",
+    "rss": "register, standard deviation",
+    "band": "register, 99.73 % band",
+    "force": "force of the balancing device",
+    "yield_low": "yield, 95 % at least",
+    "yield_high": "yield, 95 % at most",
+    "pin_diameter": "diameter of measuring pins",
+    "contact_force": "contact force at the design speed",
+}
+"""What a key result is called where its name would mislead."""
+
+
+class KeyResult(NamedTuple):
+    """One of the results that a command shows first.
+
+    Fields
+        quantity : Quantity
+        asked : float or None - what the file asks for, in the quantity's unit
+        how : str - "required", "at least" or "at most"; empty where nothing is asked for
+    """
+
+    quantity: Quantity
+    asked: float | None = None
+    how: str = ""
+
+    @property
+    def title(self) -> str:
+        """What it is called, its name where that says it."""
+        return TITLES.get(self.quantity.name, self.quantity.name)
+
+
+def key_results(design: Any, keys: Sequence[Key], quantities: Sequence[Quantity]) -> tuple[KeyResult, ...]:
+    """The first of the named key results that a report has; filled up in its order where they are too few.
+
+    Parameters
+        design : Design - whose file the keys are of
+        keys : names as an outline has them
+        quantities : those of the report
+    """
+    shown = {q.name: q for q in quantities if q.value != []}
+    found: dict[str, KeyResult] = {}
+    for key in keys:
+        name, *paths = (key,) if isinstance(key, str) else key
+        for quantity in _matching(name, shown):
+            found.setdefault(quantity.name, KeyResult(quantity, *_asked(design, paths)))
+    for quantity in shown.values():
+        if len(found) >= FEWEST:
+            break
+        if not quantity.name.endswith(_ASIDE):
+            found.setdefault(quantity.name, KeyResult(quantity))
+    return tuple(found.values())[:MOST]
+
+
+def _matching(name: str, shown: dict[str, Quantity]) -> Iterable[Quantity]:
+    if "*" not in name:
+        return (shown[name],) if name in shown else ()
+    like = [q for each, q in shown.items() if fnmatchcase(each, name.removeprefix("^"))]
+    return (max(like, key=lambda q: abs(_size(q))),) if name.startswith("^") and like else like
+
+
+def _size(quantity: Quantity) -> float:
+    value = quantity.value
+    return float(value) if isinstance(value, (int, float)) else 0.0
+
+
+def _asked(design: Any, paths: Sequence[str]) -> tuple[Any, ...]:
+    """The value that the first key of a file has, and how it stands to what was reached; nothing without one."""
+    for path in paths:
+        plain = path.lstrip("<>")
+        value = getattr(design, plain[1:]) if plain.startswith(".") else number_at(design.spec, plain)
+        if value is not None:
+            return value, _HOW.get(path[0], "required")
+    return ()
