@@ -45,7 +45,7 @@ READ: dict[Callable[[str], Any], Any] = {file: Path, folder: Path, plain_file: P
 
 
 def place(kind: Callable[[str], Any], *flags: str, help: str, metavar: str | None) -> OptionInfo:
-    """An option whose value is read by a function, such as a place to write to, with the reason where it can be none."""
+    """An option whose value a function reads, such as a place to write to, with the reason where it can be none."""
 
     def read(text: str) -> Any:
         try:

@@ -1,4 +1,4 @@
-"""The key results of a command on the terminal: what was asked for beside what was reached, and checks that do not pass.
+"""The key results of a command on the terminal: what was asked for beside what was reached, and failed checks.
 
 Written without rich where all checks pass: its import takes longer than most designs.
 """
@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Sequence
 from shutil import get_terminal_size
 
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.render.numbers import drawn, quiet, scales
+from gearlink.cli.render.numbers import drawn, number, quiet, scales
 from gearlink.core.base.key_results import KeyResult
 from gearlink.core.base.report import Report
 from gearlink.core.base.wording import amount
@@ -19,6 +20,8 @@ from gearlink.core.base.wording import amount
 _BOLD, _GREEN, _PLAIN = "\x1b[1m", "\x1b[32m", "\x1b[0m"
 _WIDE = 110
 """Columns of a terminal that show the meaning of each quantity."""
+_LONGEST = (18, 12)
+"""Characters of a value in the column of values, where there is room for them and where there is not."""
 
 
 def show_key_results(report: Report, options: Options) -> None:
@@ -51,25 +54,35 @@ def _coloured(options: Options) -> bool:
 
 
 def _lines(report: Report, options: Options) -> list[str]:
-    """A line for each key result: title, value, unit and what was asked for; its name where the title is another."""
+    """A line for each key result: title, value, unit and what was asked for; its name where the title is another.
+
+    In a narrow terminal long values run on, and names that do not fit are left out.
+    """
     scale = scales(report)
-    values = [drawn(quiet(q.value, scale.get(q.unit, 0.0)), q.unit, options.digits) for q, *_ in report.key]
-    tails = [_tail(each) for each in report.key]
-    names = max(len(each.title) for each in report.key)
-    width = max(map(len, values))
-    behind = max(map(len, tails))
-    lines = []
-    for each, value, tail in zip(report.key, values, tails, strict=True):
-        line = f"{visible(each.title):<{names}}  {visible(value):>{width}}"
-        rest = f"{tail:<{behind}}  {_aside(each)}" if _aside(each) else tail
-        lines.append(f"{line} {rest}".rstrip())
-    return lines
+    values = [visible(drawn(quiet(q.value, scale.get(q.unit, 0.0)), q.unit, options.digits)) for q, *_ in report.key]
+    columns = get_terminal_size((80, 24)).columns
+    laid = [_laid(report.key, values, longest) for longest in _LONGEST]
+    lines = next((lines for lines in laid if all(len(whole) <= columns for whole, _ in lines)), laid[-1])
+    return [whole if len(whole) <= columns else plain for whole, plain in lines]
+
+
+def _laid(key: Sequence[KeyResult], values: Sequence[str], longest: int) -> list[tuple[str, str]]:
+    """Each line with and without what stands behind it, the values below each other but for those that are longer."""
+    tails = [_tail(each) for each in key]
+    names = max(len(each.title) for each in key)
+    width = max((len(value) for value in values if len(value) <= longest), default=0)
+    behind = max((len(tail) for each, tail in zip(key, tails, strict=True) if _aside(each)), default=0)
+    plain = [
+        f"{visible(each.title):<{names}}  {value:>{width}} {tail:<{behind}}"
+        for each, value, tail in zip(key, values, tails, strict=True)
+    ]
+    return [(f"{line}  {_aside(each)}".rstrip(), line.rstrip()) for line, each in zip(plain, key, strict=True)]
 
 
 def _tail(each: KeyResult) -> str:
     """Unit, and what was asked for."""
     unit = "" if each.quantity.unit == "1" else each.quantity.unit
-    return f"{unit} ({each.how} {each.asked:.12g})".lstrip() if each.asked is not None else unit
+    return f"{unit} ({each.how} {number(each.asked, 6)})".lstrip() if each.asked is not None else unit
 
 
 def _aside(each: KeyResult) -> str:

@@ -123,8 +123,9 @@ def readable_rows(
     ]
     rows = table.thinned(step).each_row()
     cells = [[_quiet(x, level) for x, level in zip(row, noise, strict=True)] for row in rows]
-    of_columns = [_of_column(column, unit, digits) for column, unit in zip(zip(*cells, strict=True), table.units, strict=True)]
-    return [list(row) for row in zip(*of_columns, strict=True)]
+    by_column = list(zip(*cells, strict=True)) or [()] * len(table.units)
+    columns = [_of_column(column, unit, digits) for column, unit in zip(by_column, table.units, strict=True)]
+    return [list(row) for row in zip(*columns, strict=True)]
 
 
 def _of_column(values: Sequence[object], unit: str, digits: int | str | None) -> list[str]:

@@ -30,16 +30,11 @@ _PART_SIZES = (65_521, 65_537)
 
 
 class Outline(NamedTuple):
-    """What a command shows of a design: names of quantities, checks and tables.
-
-    `key` names the key results (`core.base.key_results`), `key_tables` the tables that stand beside them.
-    """
+    """What a command shows of a design: names of quantities, checks and tables."""
 
     quantities: tuple[str, ...] = ()
     checks: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
-    key: tuple[Key, ...] = ()
-    key_tables: tuple[str, ...] = ()
 
 
 class Found(NamedTuple):
@@ -106,6 +101,9 @@ class Design:
 
     kind: ClassVar[str]
     outlines: ClassVar[dict[str, Outline]]
+    keys: ClassVar[Mapping[str, tuple[Key, ...]]] = {}
+    """Key results of its own commands, in the form of `core.base.key_results`, which has those that all kinds share."""
+    key_tables: ClassVar[tuple[str, ...]] = ()  # tables that stand beside them
     extra_tables: ClassVar[tuple[str, ...]] = ()
     page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
     beside_tables: ClassVar[Mapping[str, Outline]] = {}
@@ -373,7 +371,7 @@ class Design:
             raise UnknownName("command", command, tuple(self.outlines))
         outline = Outline(tuple(quantities)) if quantities or only else self._with_tables(self.outline(command), tables)
         own = () if findings_only else outline.tables
-        beside = self.outlines[command].key_tables if key_tables and own and outline.quantities else own
+        beside = self.key_tables if key_tables and own and outline.quantities else own
         asked = dict.fromkeys([*(name for name in own if name in beside), *tables])
         found: Iterable[Quantity | None] = ()
         if findings_only:
@@ -393,7 +391,7 @@ class Design:
                 self.table_in_parts(name, samples) if in_parts and samples else self.table(name, samples=samples)
                 for name in asked
             ),
-            key=() if quantities or only else key_results(self, self.outlines[command].key, shown),
+            key=() if quantities or only else key_results(self, command, shown),
             left_out=tuple(name for name in own if name not in asked),
         )
 

@@ -1,13 +1,14 @@
 """The key results of a command: what the file asks for and what was reached, then what it costs.
 
-An outline names them in order (`Outline.key`), each by the name of a quantity, or as a tuple of that name and the keys of
-the file which it answers:
+A class of designs names them in order (`Design.keys`), each by the name of a quantity, or as a tuple of that name and
+the keys of the file which it answers:
 
     ("tolerance_dwell_angle", ">dwell.window", ">dwell_window")
 
-The first key that the file has counts. It stands as `required`; behind `>` as the least and behind `<` as the most that is
-asked for. A key that begins with a point is an attribute of the design, in the quantity's unit. A name with `*` stands for
-every quantity like it, behind `^` for the largest of them alone.
+The first key that the file has counts. It is `required`; behind `>` the value has to be at least, behind `<` at most
+that of the key, behind `?` the key only asks for it. A key that begins with a point is an attribute of the design, in
+the quantity's unit. A name behind `?` is shown only where the file asks for it. A name with `*` is every quantity like
+it, behind `^` the largest of them alone.
 """
 
 from __future__ import annotations
@@ -28,6 +29,51 @@ _HOW = {">": "at least", "<": "at most"}
 _ASIDE = ("_at", ".travel", "power_identity", "massless", "seed", "samples")
 """Ends of names that no command shows first by itself."""
 
+SHARED: dict[str, tuple[Key, ...]] = {
+    "gear": (
+        ("center_distance", "center_distance"),
+        "*.center_distance",
+        "working_pressure_angle",
+        "profile_shift",
+        ("contact_ratio", ">limits.contact_ratio"),
+        ("*.contact_ratio", ">limits.contact_ratio"),
+        ("safety_pitting", ">limits.safety_pitting"),
+        ("*.safety_pitting", ">limits.safety_pitting"),
+        ("safety_bending", ">limits.safety_bending"),
+        ("*.safety_bending", ">limits.safety_bending"),
+        "backlash_normal",
+        "*.backlash_normal",
+        "output_play",
+        "span_measurement",
+        "tip_radius",
+        "specific_sliding",
+        "*.tip_thickness",
+        "*.span_measurement",
+    ),
+    "loads": (
+        "input_torque_max",
+        "input_torque_min",
+        "input_torque_rms",
+        "input_power_peak",
+        "motor_torque_rms",
+        "flywheel_inertia",
+        "speed_fluctuation",
+        "contact_force_max",
+        "hertz_pressure_max",
+        ("lift_off_speed", ">speed"),
+        "preload_needed",
+        "^pin_*.peak",
+        "^*.tooth_force_max",
+        "shaking_force_max",
+        ("frequency_ratio", ">limits.frequency_ratio"),
+        "residual_amplitude",
+        "energy_fluctuation",
+        "reflected_inertia_max",
+    ),
+    "register": ("worst", ("band", "<register.tolerance"), "rss", "dead_band", "flips"),
+    "tolerance": (("yield", ">tolerance.target_yield"), "yield_low", "yield_high", "no_mechanism", "samples"),
+}
+"""Of commands that no kind has as its own."""
 TITLES = {
     "tolerance_dwell_angle": "dwell",
     "tolerance_dwell_start": "dwell, start",
@@ -39,7 +85,6 @@ TITLES = {
     "back_step_crank_angle": "back-step, crank angle phi12",
     "dwell_crank_angles": "standstills at",
     "extreme_crank_angles": "reversals at",
-    "mean_ratio": "output per input revolution",
     "worst": "register, worst case",
     "rss": "register, standard deviation",
     "band": "register, 99.73 % band",
@@ -71,20 +116,23 @@ class KeyResult(NamedTuple):
         return TITLES.get(self.quantity.name, self.quantity.name)
 
 
-def key_results(design: Any, keys: Sequence[Key], quantities: Sequence[Quantity]) -> tuple[KeyResult, ...]:
+def key_results(design: Any, command: str, quantities: Sequence[Quantity]) -> tuple[KeyResult, ...]:
     """The first of the named key results that a report has; filled up in its order where they are too few.
 
     Parameters
-        design : Design - whose file the keys are of
-        keys : names as an outline has them
+        design : Design
+        command : str
         quantities : those of the report
     """
     shown = {q.name: q for q in quantities if q.value != []}
     found: dict[str, KeyResult] = {}
-    for key in keys:
+    for key in design.keys.get(command) or SHARED.get(command, ()):
         name, *paths = (key,) if isinstance(key, str) else key
-        for quantity in _matching(name, shown):
-            found.setdefault(quantity.name, KeyResult(quantity, *_asked(design, paths)))
+        asked = _asked(design, paths)
+        if name.startswith("?") and not asked:
+            continue
+        for quantity in _matching(name.lstrip("?"), shown):
+            found.setdefault(quantity.name, KeyResult(quantity, *asked))
     for quantity in shown.values():
         if len(found) >= FEWEST:
             break
@@ -108,8 +156,8 @@ def _size(quantity: Quantity) -> float:
 def _asked(design: Any, paths: Sequence[str]) -> tuple[Any, ...]:
     """The value that the first key of a file has, and how it stands to what was reached; nothing without one."""
     for path in paths:
-        plain = path.lstrip("<>")
-        value = getattr(design, plain[1:]) if plain.startswith(".") else number_at(design.spec, plain)
+        key = path.lstrip("<>?")
+        value = getattr(design, key[1:], None) if key.startswith(".") else number_at(design.spec, key)
         if value is not None:
-            return value, _HOW.get(path[0], "required")
+            return (None, "") if path.startswith("?") else (value, _HOW.get(path[0], "required"))
     return ()

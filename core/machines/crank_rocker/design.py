@@ -69,6 +69,22 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     kind = "crank-rocker"
     spec: CrankRockerSpec
+    keys = {
+        "analyze": (
+            "rocker_swing",
+            "quick_return_ratio",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "rocker_speed_max",
+            "rocker_speed_min",
+            "outer_dead_center",
+            "inner_dead_center",
+            "rocker_acceleration_max",
+            "rocker_acceleration_min",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "acceleration_ratio_max",
+        ),
+    }
     outlines = {"analyze": Outline(QUANTITIES, ("transmission-angle",), ("motion",))}
     extra_tables = ("links", "path")
     requirements = Design.requirements | {"swing.angle", "swing.quick_return_ratio", "function.pairs"}

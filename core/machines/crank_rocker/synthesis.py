@@ -255,6 +255,25 @@ class SwingSynthesis(_Synthesis):
     """`synth swing`: swing and time ratio of the rocker, with the best transmission angle or a crank and a frame."""
 
     section = "swing"
+    keys = dict.fromkeys(
+        ("synth swing", "analyze"),
+        (
+            ("rocker_swing", "swing.angle"),
+            ("quick_return_ratio", "swing.quick_return_ratio"),
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "crank_length",
+            "coupler_length",
+            "rocker_length",
+            "frame_length",
+            "outer_dead_center",
+            "inner_dead_center",
+            "rocker_acceleration_max",
+            "rocker_acceleration_min",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = {"synth swing": CrankRocker.outlines["analyze"], "analyze": CrankRocker.outlines["analyze"]}
     ways = {
         "transmission-angle": (*either("swing.crank"), down("swing.quick_return_ratio"), down("swing.angle")),
@@ -294,6 +313,22 @@ class FunctionSynthesis(_Synthesis):
     """`synth function`: the linkage through three pairs of angles."""
 
     section = "function"
+    keys = dict.fromkeys(
+        ("synth function", "analyze"),
+        (
+            "crank_length",
+            "coupler_length",
+            "rocker_length",
+            "frame_length",
+            "crank_offset",
+            "rocker_offset",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "rocker_swing",
+            "assembly",
+            "rocker_acceleration_max",
+            "quick_return_ratio",
+        ),
+    )
     outlines = {"synth function": _OF_PAIRS, "analyze": _OF_PAIRS}
     ways = {}
     remedy = "ask for a smaller swing of the rocker, or move a pair"

@@ -39,6 +39,20 @@ class CycloidalReducer(RealSpeed, Design):
 
     kind = "cycloidal-reducer"
     spec: CycloidalReducerSpec
+    keys = {
+        "analyze": (
+            "ratio",
+            "efficiency",
+            "contact_stress",
+            "pin_force_max",
+            "output_pin_force_max",
+            "backlash",
+            "min_curvature_radius",
+            "pressure_angle_max",
+            "output_hole_radius",
+            "lobes",
+        ),
+    }
     outlines = {"analyze": Outline((*_SIZES, *_FORCES), _CHECKS, ("pins",))}
     extra_tables = ("profile",)
     requirements = Design.requirements | {"torque", "pins", "fixed"}

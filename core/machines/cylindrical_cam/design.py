@@ -35,6 +35,20 @@ class CylindricalCamDesign(OfFollower, Design):
 
     kind = "cylindrical-cam"
     spec: CylindricalCamSpec
+    keys = dict.fromkeys(
+        ("cam", "analyze"),
+        (
+            "lift_max",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "pressure_angle_outside",
+            "min_curvature_radius",
+            "least_wall_factor",
+            "follower_velocity_max",
+            "follower_acceleration_max",
+            "velocity_max",
+            "acceleration_max",
+        ),
+    )
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
     extra_tables = ("walls", LAW_TABLE)
     advises = False

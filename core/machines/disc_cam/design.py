@@ -84,6 +84,24 @@ class DiscCamDesign(OfFollower, Design):
 
     kind = "disc-cam"
     spec: DiscCamSpec
+    keys = dict.fromkeys(
+        ("cam", "analyze"),
+        (
+            "lift_max",
+            ("prime_radius", "cam.prime_radius"),
+            ("max_pressure_angle", "<limits.pressure_angle", "<cam.size.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "follower_velocity_max",
+            "follower_acceleration_max",
+            "spring_preload",
+            ("lift_off_speed", ">speed"),
+            "servo_error",
+            "lift_error_worst",
+            "velocity_max",
+            "acceleration_max",
+        ),
+    )
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
     extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
     advises = False

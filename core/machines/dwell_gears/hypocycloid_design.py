@@ -53,6 +53,21 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     kind = "hypocycloid-dwell"
     spec: HypocycloidDwellSpec
+    keys = {
+        "analyze": (
+            ("dwell_carrier_angle", "dwell.angle"),
+            "dwell_ripple",
+            ("ripple_share", "<target.quality"),
+            "stroke",
+            "rod_length",
+            "tolerance_carrier_angle",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "dwell_time",
+            "slider_acceleration_max",
+            "velocity_max",
+            "acceleration_max",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (

@@ -76,6 +76,22 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     kind = "mutilated-gear-dwell"
     spec: MutilatedGearDwellSpec
+    keys = {
+        "analyze": (
+            ("motion_time", "target.motion_time"),
+            ("dwell_time", "target.dwell_time"),
+            ("motion_turns", "target.motion_turns"),
+            ("dwell_turns", "target.dwell_turns"),
+            ("?driven_turn", "target.driven_turn"),
+            "full_teeth",
+            "group_teeth",
+            "driven_teeth",
+            "center_distance",
+            "rocker_start_speed",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "rocker_swing",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (

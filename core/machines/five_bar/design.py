@@ -721,6 +721,27 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     kind = "geared-five-bar"
     spec: GearedFiveBarSpec
+    keys = {
+        "analyze": (
+            "structural_error",
+            "position_errors",
+            "path_deviation_max",
+            "path_deviation_rms",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "path_width",
+            "path_height",
+            "point_speed_max",
+            "point_acceleration_max",
+            "input_length",
+            "coupler_length",
+            "follower_length",
+            "output_length",
+            "frame_length",
+            "phase",
+            "speed_ratio_max",
+            "speed_ratio_min",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (

@@ -660,6 +660,48 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
 
     kind = "flatbed-press"
     spec: FlatbedPressSpec
+    keys = {
+        "press": (
+            ("sync_start", "sync.start"),
+            ("sync_end", "sync.end"),
+            "compensation",
+            "crank_length",
+            "initial_crank_angle",
+            ("min_transmission_angle_bed", ">limits.transmission_angle"),
+            ("min_transmission_angle_cylinder", ">limits.transmission_angle"),
+            "cam_sync_start",
+            "cam_sync_end",
+        ),
+        "analyze": (
+            ("sync_start", "sync.start"),
+            ("sync_end", "sync.end"),
+            "compensation",
+            "crank_length",
+            ("min_transmission_angle_bed", ">limits.transmission_angle"),
+            ("min_transmission_angle_cylinder", ">limits.transmission_angle"),
+            "bed_velocity_min",
+            "bed_acceleration_min",
+            "cylinder_acceleration_max",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+        ),
+        "cam": (
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            ("return_max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "return_min_curvature_radius",
+            "follower_stroke",
+            "compensation",
+            ("cam_base_radius", "cam.base_radius"),
+            "roller_center_distance",
+            "max_radius",
+            "min_radius",
+        ),
+        "crank": (
+            "crank_length",
+            "quick_return_ratio",
+            "max_stroke",
+        ),
+    }
     outlines = {
         "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.key_results import SHARED
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Remedy, Table
 from gearlink.core.base.results import cached_property
@@ -83,6 +84,9 @@ class GearPairDesign(GearQuantities, Design):
 
     kind = "gear-pair"
     spec: GearPairSpec
+    keys = {
+        "analyze": SHARED["gear"],
+    }
     outlines = {
         "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),

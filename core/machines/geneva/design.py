@@ -38,6 +38,22 @@ class GenevaDrive(RealSpeed, Design):
 
     kind = "geneva-drive"
     spec: GenevaDriveSpec
+    keys = {
+        "analyze": (
+            "motion_angle",
+            "motion_share",
+            ("steps_per_minute", "<limits.steps_per_minute"),
+            "crank_radius",
+            "wheel_radius",
+            "slot_bottom_radius",
+            "output_acceleration_max",
+            "contact_force_max",
+            "input_torque_max",
+            "locking_angle",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
+        ),
+    }
     outlines = {
         "analyze": Outline((*SIZES, *MOTION, *FORCES), ("locking", "shaft-clearance", "step-rate"), ("motion",))
     }

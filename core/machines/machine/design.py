@@ -178,6 +178,16 @@ def of_member(member: str, found: Check) -> Check:
 class Machine(OfMembers):
     """Several mechanisms on one main shaft."""
 
+    keys = {
+        "analyze": (
+            ("least_margin", ">limits.timing_margin"),
+            "limiting_relations",
+            "*.phase",
+            "*.phase_room",
+            "critical_speeds",
+            "cycle_turns",
+        ),
+    }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
     extra_tables = ("modes",)
     derived = frozenset(OWN)

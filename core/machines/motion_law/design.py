@@ -47,6 +47,21 @@ class MotionLawDesign(WithShapedLaws, Design):
 
     kind = "motion-law"
     spec: MotionLawSpec
+    keys = dict.fromkeys(
+        ("laws", "analyze"),
+        (
+            "peak_velocity",
+            "peak_acceleration",
+            "peak_jerk",
+            "residual_at_design",
+            "residual",
+            "lower_bound",
+            "gap",
+            "follower_velocity_max",
+            "follower_acceleration_max",
+            "peak_power",
+        ),
+    )
     outlines = {"laws": _OUTLINE, "analyze": _OUTLINE}
     extra_tables = (LAW_TABLE,)
     advises = False

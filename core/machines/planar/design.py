@@ -347,6 +347,28 @@ class PlanarMechanism(Design):
 
     kind = "planar-mechanism"
     spec: PlanarSpec
+    keys = {
+        "analyze": (
+            "degrees_of_freedom",
+            "grashof",
+            "free_range",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "*.swing",
+            "*.stroke",
+            "*.turns",
+            "*.path_length",
+            "*.speed_max",
+            "*.velocity_max",
+            "*.acceleration_max",
+            "*.speed_ratio_max",
+            "*.velocity_ratio_max",
+            "*.acceleration_ratio_max",
+            "*.x_max",
+            "*.x_min",
+            "*.y_max",
+            "*.y_min",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (*GENERAL, *generic()),

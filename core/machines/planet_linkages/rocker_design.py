@@ -177,6 +177,21 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
 
     kind = "geared-rocker"
     spec: GearedRockerSpec
+    keys = {
+        "analyze": (
+            ("output_swing", "target.swing"),
+            "crank_length",
+            "swing_multiple",
+            "rocker_swing",
+            "extreme_crank_angles",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "output_speed_max",
+            "output_acceleration_max",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
+            "contact_ratio",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (

@@ -116,6 +116,22 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     kind = "two-gear-four-bar"
     spec: TwoGearFourBarSpec
+    keys = {
+        "analyze": (
+            "motion",
+            ("tolerance_dwell_angle", "dwell_window"),
+            "back_step_angle",
+            "dwell_crank_angles",
+            "mean_ratio",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "output_acceleration_max",
+            "feed_per_turn",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "linkage_kind",
+            "acceleration_ratio_max",
+        ),
+    }
     outlines = {
         "analyze": Outline((*QUANTITIES, *OF_DWELL), ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),

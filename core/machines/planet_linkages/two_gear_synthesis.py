@@ -57,6 +57,22 @@ def candidates_table(design: TwoGearFourBar, _samples: int | None = None) -> Tab
 class MomentaryDwellSynthesis(TwoGearFourBar):
     """`synth momentary-dwell`: nothing else is given; the frame follows in closed form."""
 
+    keys = dict.fromkeys(
+        ("synth momentary-dwell", "analyze"),
+        (
+            "motion",
+            "dwell_crank_angles",
+            "frame_length",
+            "frame_length_interval",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "back_step_angle",
+            "mean_ratio",
+            "speed_ratio_max",
+            "output_acceleration_max",
+            "feed_per_turn",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS, ("motion",)))
     extra_tables, table_candidates = _TABLES, candidates_table
     seeks = True
@@ -69,6 +85,22 @@ class MomentaryDwellSynthesis(TwoGearFourBar):
 class BackStepSynthesis(TwoGearFourBar):
     """`synth back-step`: the back-step of the output is given."""
 
+    keys = dict.fromkeys(
+        ("synth back-step", "analyze"),
+        (
+            ("back_step_angle", "back_step.angle"),
+            "back_step_crank_angle",
+            "frame_length",
+            "frame_length_interval",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "back_step_angle",
+            "mean_ratio",
+            "speed_ratio_max",
+            "output_acceleration_max",
+            "feed_per_turn",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
     extra_tables, table_candidates = _TABLES, candidates_table
     seeks = True
@@ -108,6 +140,22 @@ class BackStepSynthesis(TwoGearFourBar):
 class DwellSynthesis(TwoGearFourBar):
     """`synth dwell`: a window, a tolerance, or both are given."""
 
+    keys = dict.fromkeys(
+        ("synth dwell", "analyze"),
+        (
+            ("tolerance_dwell_angle", "dwell.window"),
+            ("dwell_tolerance", "<dwell.tolerance"),
+            "frame_length",
+            "frame_length_interval",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "back_step_angle",
+            "mean_ratio",
+            "speed_ratio_max",
+            "output_acceleration_max",
+            "feed_per_turn",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis(
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
     )

@@ -67,6 +67,21 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     kind = "geared-six-bar"
     spec: GearedSixBarSpec
+    keys = {
+        "analyze": (
+            "output_swing",
+            "mean_ratio",
+            "dwell_crank_angles",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "output_speed_max",
+            "output_acceleration_max",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "acceleration_ratio_max",
+            ("gear_gap", ">limits.gear_gap"),
+            "center_distance",
+        ),
+    }
     outlines = {
         "analyze": Outline(
             (

@@ -54,6 +54,37 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     kind = "slider-crank"
     spec: SliderCrankSpec
+    keys = {
+        "crank": (
+            "crank_length",
+            "stroke",
+            ("quick_return_ratio", "quick_return_ratio"),
+            "rod_length",
+            "offset",
+            ("max_stroke", ">stroke"),
+            "dead_center_extended_at",
+            "dead_center_folded_at",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+        ),
+        "analyze": (
+            "crank_length",
+            "output_stroke",
+            "stroke",
+            ("quick_return_ratio", "quick_return_ratio"),
+            "rod_length",
+            "offset",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "slider_velocity_max",
+            "slider_velocity_min",
+            "slider_acceleration_max",
+            "slider_acceleration_min",
+            "*.contact_ratio",
+            "velocity_max",
+            "velocity_min",
+            "acceleration_max",
+            "acceleration_min",
+        ),
+    }
     outlines = {
         "crank": Outline((*_SIZES, *FOUND)),
         "analyze": Outline((*_SIZES, *FOUND, *_MOTION, *RACKS), ("transmission-angle", *RACK_CHECKS), ("motion",)),

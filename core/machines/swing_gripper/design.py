@@ -565,6 +565,40 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     kind = "swing-gripper"
     spec: SwingGripperSpec
+    keys = {
+        "gripper": (
+            "handover_speed",
+            "handover_mismatch",
+            ("total_swing", "total_swing"),
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "cam_center",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            ("lift_off_speed", ">speed"),
+            "closing_torque",
+            "handover_center",
+        ),
+        "analyze": (
+            "handover_speed",
+            "handover_mismatch",
+            ("total_swing", "total_swing"),
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            "output_velocity_max",
+            "output_acceleration_max",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            ("lift_off_speed", ">speed"),
+            "closing_torque",
+            "max_radius",
+        ),
+        "cam": (
+            "cam_center",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "min_radius",
+        ),
+    }
     outlines = {
         "gripper": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),

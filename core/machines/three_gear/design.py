@@ -132,6 +132,22 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
+    keys = {
+        "analyze": (
+            "motion",
+            ("tolerance_dwell_angle", "dwell_window"),
+            "back_step_angle",
+            "mean_ratio",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "output_acceleration_max",
+            "feed_per_turn",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            ("gear_gap", ">limits.gear_gap"),
+            "acceleration_ratio_max",
+            "dwell_angle",
+        ),
+    }
     outlines = {
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline((*MESH_QUANTITIES, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),

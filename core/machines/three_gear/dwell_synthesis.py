@@ -307,6 +307,25 @@ def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
 class DwellSynthesis(ThreeGearFourBar):
     """`synth dwell`: phi13 is given, or a window, a tolerance, or both."""
 
+    keys = dict.fromkeys(
+        ("synth dwell", "analyze"),
+        (
+            ("?tolerance_dwell_angle", "dwell.window", "?dwell.tolerance"),
+            ("?dwell_tolerance", "<dwell.tolerance"),
+            ("?dwell_angle", "dwell.angle"),
+            "idler_teeth",
+            "crank_length",
+            "frame_length",
+            "frame_length_interval",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            ("gear_gap", ">limits.gear_gap"),
+            "back_step_angle",
+            "output_acceleration_max",
+            "feed_per_turn",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis(
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))
     )

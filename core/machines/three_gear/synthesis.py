@@ -457,6 +457,24 @@ class BackStepTask(FamilyTask):
 class BackStepSynthesis(ThreeGearFourBar):
     """`synth back-step`: back-step of the output, crank angle phi12, or both are given."""
 
+    keys = dict.fromkeys(
+        ("synth back-step", "analyze"),
+        (
+            ("back_step_angle", "back_step.angle"),
+            ("back_step_crank_angle", "back_step.crank_angle"),
+            "dwell_angle",
+            "idler_teeth",
+            "crank_length",
+            "frame_length",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            ("gear_gap", ">limits.gear_gap"),
+            "back_step_angle",
+            "output_acceleration_max",
+            "feed_per_turn",
+            "speed_ratio_max",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("back-step-target", *CHECKS)))
     extra_tables, table_candidates = TABLES, candidates_table
 
@@ -516,6 +534,21 @@ class SpeedTask(FamilyTask):
 class VariableSpeedSynthesis(ThreeGearFourBar):
     """`synth variable-speed`: the output speed swings between two values, the input turns at their mean."""
 
+    keys = dict.fromkeys(
+        ("synth variable-speed", "analyze"),
+        (
+            ("speed_ratio_min", ".asked_ratio_min"),
+            ("speed_ratio_max", ".asked_ratio_max"),
+            "nonuniformity",
+            "input_speed",
+            "idler_teeth",
+            "crank_length",
+            "frame_length",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            ("gear_gap", ">limits.gear_gap"),
+            "output_acceleration_max",
+        ),
+    )
     outlines = with_analysis("synth variable-speed", Outline(QUANTITIES, CHECKS))
     extra_tables, table_candidates = TABLES, candidates_table
 
@@ -533,6 +566,16 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
         if wrong := other_speed(self.spec.input_speed, found):
             raise NoSolution(wrong, key="input_speed")
         return found
+
+    @property
+    def asked_ratio_min(self) -> float:
+        """The least output speed that is asked for, per input speed."""
+        return float(self.task.request.min) / self.input_speed
+
+    @property
+    def asked_ratio_max(self) -> float:
+        """The greatest output speed that is asked for, per input speed."""
+        return float(self.task.request.max) / self.input_speed
 
     def completion(self) -> Iterator[Found]:
         """The input speed besides the links."""
@@ -618,6 +661,22 @@ class MomentaryTask(Task):
 class MomentaryDwellSynthesis(ThreeGearFourBar):
     """`synth momentary-dwell`: any three gears and one length are given, the other is sought."""
 
+    keys = dict.fromkeys(
+        ("synth momentary-dwell", "analyze"),
+        (
+            "motion",
+            "dwell_crank_angles",
+            ("crank_length", "momentary.eccentricity"),
+            ("frame_length", "momentary.frame"),
+            "idler_teeth",
+            ("min_transmission_angle", ">limits.transmission_angle"),
+            ("gear_gap", "momentary.gap", ">limits.gear_gap"),
+            "mean_ratio",
+            "speed_ratio_max",
+            "output_acceleration_max",
+            "acceleration_ratio_max",
+        ),
+    )
     outlines = with_analysis("synth momentary-dwell", Outline((*QUANTITIES, *_STEPS), CHECKS))
     extra_tables, table_candidates = TABLES, candidates_table
 

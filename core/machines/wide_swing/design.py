@@ -468,6 +468,43 @@ class WideSwingDesign(Design):
 
     kind = "wide-swing-cam"
     spec: WideSwingSpec
+    keys = {
+        "swing": (
+            "force",
+            "spring_rate",
+            "slider_stroke",
+            ("min_pivot_ratio", "<unloader.pivot_ratio"),
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            ("lift_off_speed", ">speed"),
+            "contact_force",
+            "drive_torque_peak",
+            "max_radius",
+            "rocker_radius",
+            ("transition_zone", "<limits.transition_zone"),
+            "energy_parameter",
+        ),
+        "analyze": (
+            "force",
+            "spring_rate",
+            "slider_stroke",
+            "rocker_speed_max",
+            "rocker_acceleration_max",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            ("lift_off_speed", ">speed"),
+            "contact_force",
+            "drive_torque_peak",
+            "max_radius",
+            "rocker_radius",
+            ("transition_zone", "<limits.transition_zone"),
+            "energy_parameter",
+        ),
+        "cam": (
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "min_radius",
+        ),
+    }
     outlines = {
         "swing": Outline(tuple(LAW), _LAW_CHECKS, ("law", "balance")),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),

@@ -55,6 +55,7 @@ class RegisterDesign(Design):
             ("budget", "cycle"),
         )
     }
+    key_tables = ("budget",)
     extra_tables = ("sources",)
     advises = False
 

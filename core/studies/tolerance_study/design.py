@@ -44,6 +44,7 @@ class ToleranceStudy(Design):
             ("quantities", "requirements", "contributions"),
         )
     }
+    key_tables = ("requirements", "contributions")
     extra_tables = ("corners", "allocation", "band", "not_sampled")
     advises = False
 
