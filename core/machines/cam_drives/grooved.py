@@ -146,6 +146,20 @@ class CamGear(Grooved):
 
     kind = "cam-gear"
     spec: CamGearSpec
+    keys = {
+        "analyze": (
+            "lever_swing",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "min_radius",
+            "output_speed_max",
+            "output_acceleration_max",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "acceleration_ratio_max",
+        )
+    }
     outlines = {
         "analyze": Outline(
             ("lever_swing", *_GROOVE, *_OUTPUT, "carrier_length", "contact_ratio"), (*_CHECKS, *_TEETH),
@@ -257,6 +271,19 @@ class CamLinkage(Grooved):
 
     kind = "cam-linkage"
     spec: CamLinkageSpec
+    keys = {
+        "analyze": (
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "min_radius",
+            "output_speed_max",
+            "output_acceleration_max",
+            "speed_ratio_max",
+            "speed_ratio_min",
+            "acceleration_ratio_max",
+        )
+    }
     outlines = {"analyze": Outline((*_GROOVE, *_OUTPUT), _CHECKS, ("motion", "main_cam"))}
     ways = {
         "pressure-angle": either("links.coupler", "links.follower", "links.output", "links.input", "phase"),

@@ -31,6 +31,17 @@ class LinkedCams(RealSpeed, Design):
 
     kind = "linked-cams"
     spec: LinkedCamsSpec
+    keys = {
+        "analyze": (
+            "stroke",
+            ("max_pressure_angle", "<limits.pressure_angle"),
+            "min_curvature_radius",
+            "max_radius",
+            "min_radius",
+            "path_speed_max",
+            "path_speed_min",
+        )
+    }
     outlines = {
         "analyze": Outline(
             ("stroke", "max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius", "input_speed",

@@ -468,7 +468,6 @@ class BackStepSynthesis(ThreeGearFourBar):
             "frame_length",
             ("min_transmission_angle", ">limits.transmission_angle"),
             ("gear_gap", ">limits.gear_gap"),
-            "back_step_angle",
             "output_acceleration_max",
             "feed_per_turn",
             "speed_ratio_max",

@@ -56,7 +56,8 @@ def test_names_of_a_pair_break_at_an_underscore_or_not_at_all(
     gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int
 ) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
-    lines = [line.split()[0] for line in gearlink("gear", DESIGNS / "gear_pair.yaml").out.splitlines() if line.strip()]
+    shown = gearlink("gear", DESIGNS / "gear_pair.yaml", "--all").out
+    lines = [line.split()[0] for line in shown.splitlines() if line.strip()]
     whole = "tip_stress_correction_factor"
     at = next(i for i, word in enumerate(lines) if word.startswith("tip_stress"))
     broken = lines[at : at + 2] if width < 80 else lines[at : at + 1]
