@@ -236,9 +236,9 @@ def test_a_narrow_terminal_keeps_every_number(
     gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch, width: int
 ) -> None:
     monkeypatch.setenv("COLUMNS", "100")
-    usual = gearlink("gear", designs / "ring_pair.yaml").out
+    usual = gearlink("gear", designs / "ring_pair.yaml", "--all").out
     monkeypatch.setenv("COLUMNS", str(width))
-    narrow = gearlink("gear", designs / "ring_pair.yaml").out
+    narrow = gearlink("gear", designs / "ring_pair.yaml", "--all").out
     numbers = [word for word in usual.partition("checks:")[0].split() if word.lstrip("-").replace(".", "").isdigit()]
     assert len(numbers) > 60
     assert set(numbers) <= set(narrow.split())
@@ -418,7 +418,7 @@ def test_closed_streams(line: str, status: int) -> None:
 
 
 def test_a_fault_is_said_in_one_line(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
+    def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("planted")
 
     monkeypatch.setattr("gearlink.cli.commands.design.build", broken)
@@ -491,7 +491,7 @@ def test_the_least_memory_suffices(line: str, tmp_path: Path) -> None:
 
 
 def test_no_memory_is_no_fault_of_the_program(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
+    def broken(*_: object, **__: object) -> None:
         raise MemoryError
 
     monkeypatch.setattr("gearlink.cli.commands.design.build", broken)

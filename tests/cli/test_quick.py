@@ -23,6 +23,7 @@ WRITTEN = st.one_of(
     st.sampled_from(
         [
             "--plot",
+            "--all",
             "--strict",
             "--profile",
             "--suggest",
@@ -41,10 +42,38 @@ WRITTEN = st.one_of(
     WORDS,
     st.tuples(
         st.sampled_from(
-            ["--format", "-f", "--plot-format", "--out", "--set", "--quantity", "--table", "--samples", "--form"]
+            [
+                "--format",
+                "-f",
+                "--plot-format",
+                "--out",
+                "--set",
+                "--quantity",
+                "--table",
+                "--samples",
+                "--digits",
+                "--form",
+            ]
         ),
         st.sampled_from(
-            ["json", "md", "csv", "svg", "out", "a=1", "-q", "", "12", "1", "1e3", " 7", "10000001", "JSON"]
+            [
+                "json",
+                "md",
+                "csv",
+                "svg",
+                "out",
+                "a=1",
+                "-q",
+                "",
+                "12",
+                "1",
+                "1e3",
+                " 7",
+                "10000001",
+                "JSON",
+                "full",
+                "²",
+            ]
         ),
         st.booleans(),
     ).map(lambda t: f"{t[0]}={t[1]}" if t[2] else f"{t[0]}\0{t[1]}"),
@@ -162,6 +191,7 @@ def test_a_report_takes_its_own_options_alone(monkeypatch: pytest.MonkeyPatch) -
 
 def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
     texts = {"format": "md", "plot_format": "svg", "out": "pictures", "samples": "12", "round": "0.01", "dpi": "300"}
+    texts["digits"] = "5"
     for name, option in OPTIONS.items():
         for flag in option.flags:
             arguments = ["press", "x.yaml", flag, *([] if option.type is bool else [texts.get(name, "a=1")])]

@@ -84,7 +84,7 @@ def test_a_safety_alone_says_what_it_rests_on(lever, gearlink, designs):
 
 def test_each_mesh_has_its_columns_in_a_narrow_terminal(gearlink, designs, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    ended = gearlink("gear", designs / "drawn_feed.yaml", "--table", "drawing")
+    ended = gearlink("gear", designs / "drawn_feed.yaml", "--table", "drawing", "--all")
     lines = ended.out.splitlines()
     heads = [line.split() for line in lines if line.startswith(("crank_idler. ", "idler_output. "))]
     assert [head[0] for head in heads] == ["crank_idler.", "idler_output."]

@@ -23,7 +23,7 @@ def test_profile_names_what_was_computed_and_no_more(capsys: pytest.CaptureFixtu
 
 
 def test_results_are_steps_of_the_one_that_asked_for_them(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["press", "designs/ty460.yaml", "--profile", "-q"]) == 0
+    assert run(["press", "designs/ty460.yaml", "--all", "--profile", "-q"]) == 0
     lines = [line[22:] for line in capsys.readouterr().err.splitlines()]
     depth = {line.strip(): (len(line) - len(line.lstrip())) // 2 for line in lines}
     assert depth["compute"] < depth["PressMotion.sync_start"] < depth["PressMotion.cylinder"]
