@@ -61,36 +61,30 @@ def _lines(report: Report, options: Options) -> list[str]:
     scale = scales(report)
     values = [visible(drawn(quiet(q.value, scale.get(q.unit, 0.0)), q.unit, options.digits)) for q, *_ in report.key]
     columns = get_terminal_size((80, 24)).columns
-    laid = [_laid(report.key, values, longest) for longest in _LONGEST]
-    lines = next((lines for lines in laid if all(len(whole) <= columns for whole, _ in lines)), laid[-1])
-    return [whole if len(whole) <= columns else plain for whole, plain in lines]
+    laid = [_laid(report.key, values, longest, columns >= _WIDE) for longest in _LONGEST]
+    lines = next((lines for lines in laid if all(len(named) <= columns for _, named, _ in lines)), laid[-1])
+    return [next((form for form in forms if len(form) <= columns), forms[-1]) for forms in lines]
 
 
-def _laid(key: Sequence[KeyResult], values: Sequence[str], longest: int) -> list[tuple[str, str]]:
-    """Each line with and without what stands behind it, the values below each other but for those that are longer."""
+def _laid(key: Sequence[KeyResult], values: Sequence[str], longest: int, wide: bool) -> list[tuple[str, str, str]]:
+    """Each line with meaning and name, with the name, and without; values below each other but for longer ones."""
     tails = [_tail(each) for each in key]
-    names = max(len(each.title) for each in key)
+    names = [each.quantity.name if each.title != each.quantity.name else "" for each in key]
+    titles = max(len(each.title) for each in key)
     width = max((len(value) for value in values if len(value) <= longest), default=0)
-    behind = max((len(tail) for each, tail in zip(key, tails, strict=True) if _aside(each)), default=0)
-    plain = [
-        f"{visible(each.title):<{names}}  {value:>{width}} {tail:<{behind}}"
-        for each, value, tail in zip(key, values, tails, strict=True)
-    ]
-    return [(f"{line}  {_aside(each)}".rstrip(), line.rstrip()) for line, each in zip(plain, key, strict=True)]
+    behind = max((len(tail) for tail, name in zip(tails, names, strict=True) if name or wide), default=0)
+    lines = []
+    for each, value, tail, name in zip(key, values, tails, names, strict=True):
+        plain = f"{visible(each.title):<{titles}}  {value:>{width}} {tail:<{behind}}"
+        meaning = ": ".join(filter(None, (name, each.quantity.words))) if wide else name
+        lines.append((f"{plain}  {meaning}".rstrip(), f"{plain}  {name}".rstrip(), plain.rstrip()))
+    return lines
 
 
 def _tail(each: KeyResult) -> str:
     """Unit, and what was asked for."""
     unit = "" if each.quantity.unit == "1" else each.quantity.unit
     return f"{unit} ({each.how} {number(each.asked, 6)})".lstrip() if each.asked is not None else unit
-
-
-def _aside(each: KeyResult) -> str:
-    """The name of a result that is called otherwise, in a wide terminal the meaning as well."""
-    name = each.quantity.name if each.title != each.quantity.name else ""
-    if get_terminal_size((80, 24)).columns < _WIDE:
-        return name
-    return f"{name}: {each.quantity.words}" if name else each.quantity.words
 
 
 def _more(report: Report) -> str:
