@@ -8,6 +8,7 @@ for commands.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import Any
 
 _COMMAND = r":(?=:)|#(?=#)"
@@ -23,6 +24,11 @@ def visible(text: str, encoding: str = "utf-8") -> str:
     if text.isascii() and text.isprintable() and "::" not in text and "##" not in text:
         return text
     return "".join(glyphs(text, encoding))
+
+
+def visible_lines(lines: Iterable[str]) -> str:
+    """Lines made visible, each on its own."""
+    return "\n".join(map(visible, lines))
 
 
 def glyphs(text: str, encoding: str = "utf-8") -> list[str]:

@@ -62,9 +62,9 @@ class Outcome:
     @property
     def findings(self) -> list[str]:
         """Every error, or everything to repair, the worst first."""
-        errors = [f"{error.line}:{error.column} {error.code}: {error.as_sentence}" for error in self.errors]
+        errors = [f"{error.line}:{error.column} {error.code}: " + "\n".join(error.lines) for error in self.errors]
         worst_first = sorted(self.to_repair, key=lambda check: check.status != "fail")
-        return errors + [f"{check.code} {check.name}: {check.message}" for check in worst_first]
+        return errors + ["\n".join((f"{c.code} {c.name}: {c.lines[0]}", *c.lines[1:])) for c in worst_first]
 
     @property
     def to_repair(self) -> list[Check]:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.batch.outcome import Fix, Outcome, summary
-from gearlink.cli.printable import json_text, visible
+from gearlink.cli.printable import json_text, visible, visible_lines
 from gearlink.cli.render.json_report import FORMAT, as_plain
 from gearlink.cli.texts.codes import explanations
 from gearlink.core.base.wording import amount
@@ -121,7 +121,7 @@ def _show(results: Sequence[Outcome], options: BatchOptions) -> None:
             command = outcome.command or "not read"
             console.print(Text(f"\n{visible(outcome.file)} ({command}), {outcome.verdict}:", style="bold"))
         for finding in outcome.findings:
-            console.print(Text(visible(finding)))
+            console.print(Text(visible_lines(finding.split("\n"))))
     style = max((outcome.verdict for outcome in results), key=list(_STYLE).index, default="pass")
     console.print(Text(f"\n{_counts(results)}", style=_STYLE[style]))
 
@@ -148,9 +148,9 @@ _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
 def _findings(outcome: Outcome) -> Iterator[tuple[str, str, str, str, int, int]]:
     """Status, code, name, message, line, column of everything to repair."""
     for error in outcome.errors:
-        yield "fail", error.code, "input", error.as_sentence, error.line, error.column
+        yield "fail", error.code, "input", "\n".join(error.lines), error.line, error.column
     for check, (line, column) in zip(outcome.to_repair, outcome.places, strict=True):
-        yield check.status, check.code, check.name, check.message, line, column
+        yield check.status, check.code, check.name, "\n".join(check.lines), line, column
 
 
 def as_junit(results: Sequence[Outcome]) -> str:
@@ -279,7 +279,7 @@ def as_github(results: Sequence[Outcome]) -> str:
 
 
 def _data(text: str) -> str:
-    return visible(text).replace("%", "%25")
+    return "%0A".join(visible(line).replace("%", "%25") for line in text.split("\n"))
 
 
 def _property(text: str) -> str:

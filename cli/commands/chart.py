@@ -229,20 +229,26 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     if design.crank_teeth != design.output_teeth:
         with at_key("gears.output"):
             raise NoSolution(
-                f"the charts hold for I = 1, equal teeth of crank and output gear: this design has {design.crank_teeth}"
-                f" and {design.output_teeth}; set gears.output to {design.crank_teeth}, or use analyze"
+                (
+                    "the charts hold for I = 1, equal teeth of crank and output gear: this design has "
+                    f"{design.crank_teeth} and {design.output_teeth}"
+                ),
+                fix=f"set gears.output to {design.crank_teeth}, or use analyze",
             )
     place = chart.place(design)
     if place is None and chart.y.name == "tolerance_dwell_angle":
         raise NoSolution(
-            f"this design names no tolerance of its dwell, so it has no place in the chart {chart.name}: give "
-            "dwell_tolerance",
+            (f"this design names no tolerance of its dwell, so it has no place in the chart {chart.name}"),
             key="dwell_tolerance",
+            fix="give dwell_tolerance",
         )
     if place is None:
         raise NoSolution(
-            f"the output of this design never steps back (least speed ratio {design.speed_ratio_min:.6g}), so it has "
-            f"no place in the chart {chart.name}: shorten the frame, or take the chart nonuniformity"
+            (
+                "the output of this design never steps back (least speed ratio "
+                f"{design.speed_ratio_min:.6g}), so it has no place in the chart {chart.name}"
+            ),
+            fix="shorten the frame, or take the chart nonuniformity",
         )
     family = design.crank_length * math.sqrt(0.5 * (1.0 + design.frame_ratio**2))
     names = ("i3", "frame_ratio", "back_step_crank_angle", "back_step_angle", "nonuniformity")

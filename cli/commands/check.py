@@ -131,11 +131,14 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
 def _place(loaded: LoadedFile, check: Check) -> Diagnostic:
     """The check as a diagnostic at the key that it is about."""
     diagnostic = loaded.report(check.code, check.message, parse_path(key_of(loaded.data, check)) or ("kind",))
-    return replace(diagnostic, severity=check.status)
+    return replace(diagnostic, severity=check.status, fix=check.fix or "", note=check.note)
 
 
 _STATUSES = ("pass", "warn", "fail", "error", "fault")
-_HEADS = ("file", "line", "column", "key", "status", "code", "check", "command", "value", "limit", "unit", "message")
+_HEADS = (
+    "file", "line", "column", "key", "status", "code", "check", "command", "value", "limit", "unit", "message", "fix",
+    "note",
+)  # fmt: skip
 
 
 def show_findings(found: Sequence[Finding], designs: int, options: Options, *, ok: bool, verbose: bool) -> None:
@@ -150,7 +153,10 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     if options.format is Format.CSV:
         from gearlink.cli.render.csv_report import write_rows
 
-        rows = [list(_plain(finding).values()) for finding in shown]
+        rows = [
+            [*list(_plain(finding).values())[:-2], finding.place.fix, "; ".join(finding.place.note)]
+            for finding in shown
+        ]
         write_rows([_HEADS, *rows], sys.stdout)
         return
     words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing wrong"
@@ -173,7 +179,8 @@ def _plain(finding: Finding) -> dict[str, Any]:
     measured = (check.name, check.value, check.limit, check.unit) if check else ("", None, None, "")
     name, value, limit, unit = measured
     values = (place["file"], place["line"], place["column"], place["key"], finding.status, place["code"], name)
-    return dict(zip(_HEADS, (*values, finding.command, value, limit, unit, place["message"]), strict=True))
+    fix, note = finding.place.fix or None, list(finding.place.note)
+    return dict(zip(_HEADS, (*values, finding.command, value, limit, unit, place["message"], fix, note), strict=True))
 
 
 def _as_text(shown: Sequence[Finding], verdict: str) -> str:
@@ -196,5 +203,5 @@ def _as_markdown(shown: Sequence[Finding], verdict: str) -> str:
     for finding in shown:
         plain = _plain(finding)
         place = f"{plain['file']}:{plain['line']}:{plain['column']}"
-        rows.append((place, finding.status, plain["code"], plain["check"], plain["message"]))
+        rows.append((place, finding.status, plain["code"], plain["check"], "\n".join(finding.place.lines)))
     return (markdown_table(heads, rows) + "\n\n" if rows else "") + verdict

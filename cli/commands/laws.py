@@ -76,7 +76,7 @@ def run_laws(names: Sequence[str], options: Options) -> int:
         try:
             chosen.append(_law(name))
         except NoSolution as error:
-            wrong.append(Diagnostic("GL115", error.message, _WHERE, key="law", source=name))
+            wrong.append(Diagnostic("GL115", error.message, _WHERE, key="law", source=name, help=error.fix))
         except DesignFileError as error:
             wrong += error.diagnostics
     if wrong:

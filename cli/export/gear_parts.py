@@ -119,8 +119,8 @@ def rack_of(
         NoSolution - for a rack that no tool leaves, and for one of more teeth than a file should hold
     """
     if teeth > _MOST_RACK_TEETH:
-        text = f"a file holds a rack of at most {_MOST_RACK_TEETH} teeth, not {teeth}: give rack_teeth"
-        raise NoSolution(text, key="rack_teeth")
+        text = f"a file holds a rack of at most {_MOST_RACK_TEETH} teeth, not {teeth}"
+        raise NoSolution(text, key="rack_teeth", fix="give rack_teeth")
     profile, pair = rack.profile, rack.pair
     half = [(piece, *rest) for piece, rest in zip(_RACK_NAMES, profile.pieces(), strict=True)]
     half = [piece for piece in half if _length(*piece[1:]) > 1e-14 * profile.pitch]

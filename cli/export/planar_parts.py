@@ -27,7 +27,7 @@ def makers(design: Any) -> Makers:
     points = [name for name in design.spec.shown if len(moved(structure, name)) == 2]
     found: Makers = {**{f"PATH-{name}": partial(_path, design, name) for name in points}, **_gears(design)}
     if not found:
-        raise MissingSection("no path to export: name a point of a link in outputs", key="outputs")
+        raise MissingSection("no path to export", key="outputs", fix="name a point of a link in outputs")
     return found
 
 

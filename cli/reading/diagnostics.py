@@ -18,7 +18,10 @@ _BREAK = re.compile(r"\r\n?|\n")
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One error of a design file; line and column count from 1, `source` is the whole line they lie in."""
+    """One error of a design file; line and column count from 1, `source` is the whole line they lie in.
+
+    An error has `help` where it is known, the finding of a check its fix and its notes.
+    """
 
     code: str
     message: str
@@ -29,11 +32,14 @@ class Diagnostic:
     source: str = ""
     help: str = ""
     severity: str = "error"
+    fix: str = ""
+    note: tuple[str, ...] = ()
 
     @property
-    def as_sentence(self) -> str:
-        """Message and remedy in one line, for lists of findings."""
-        return f"{self.message}; {self.help}" if self.help else self.message
+    def lines(self) -> tuple[str, ...]:
+        """Message, help or fix, and notes, each to stand on a line of its own."""
+        after = (("help", self.help), ("fix", self.fix), *(("note", each) for each in self.note))
+        return (self.message, *(f"{word}: {text}" for word, text in after if text))
 
     def as_json(self) -> dict[str, str | int]:
         """The record as it stands in the `errors` of a JSON result; with `help` where a remedy is known."""
@@ -55,8 +61,7 @@ class Diagnostic:
         rows = [visible(headline, encoding)]
         if self.source.strip():
             rows += _excerpt(self.source, self.column - 1, encoding)
-        if self.help:
-            rows.append(f"  help: {visible(self.help, encoding)}")
+        rows += [f"  {visible(line, encoding)}" for line in self.lines[1:]]
         return "\n".join(rows)
 
 

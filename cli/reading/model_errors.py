@@ -351,11 +351,13 @@ class _Wording:
         return text_remedy(value) if kinds == {"string_type"} else ""
 
     def _own(self, finding: _Finding) -> Diagnostic:
-        """An error that a model raised with a code of ours; its context may name a key below the model's own."""
+        """An error that a model raised with a code of ours, what would help on a line of its own; its context may name a
+        key below the model's own."""
         below = parse_path(str(finding.context.get("key", ""))) or ()
         path = finding.path + below
-        help = str(finding.context.get("help", ""))
-        return self.loaded.report(finding.kind, finding.text, path, help=help, of_several=True)
+        text, _, help = finding.text.partition("\n")
+        help = str(finding.context.get("help", help))
+        return self.loaded.report(finding.kind, text, path, help=help, of_several=True)
 
     def _missing(self, finding: _Finding) -> Diagnostic:
         *parent, last = finding.path

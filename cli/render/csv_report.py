@@ -43,8 +43,11 @@ def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
         ]
     if report.checks:
         yield [
-            ("code", "check", "status", "value", "limit", "unit", "message"),
-            *((c.code, c.name, c.status, c.value, c.limit, c.unit, c.message) for c in report.checks),
+            ("code", "check", "status", "value", "limit", "unit", "message", "fix", "note"),
+            *(
+                (c.code, c.name, c.status, c.value, c.limit, c.unit, c.message, c.fix or "", "; ".join(c.note))
+                for c in report.checks
+            ),
         ]
     for table in report.tables:
         yield table_rows(table)

@@ -16,7 +16,7 @@ from gearlink.cli.render.json_report import FORMAT
 from gearlink.core.base.errors import NoSolution
 
 _NARROWEST = 40
-_MESSAGE = r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: "  # the source line and its caret stay
+_MESSAGE = r"\S.*: (error|fail|warn|pass|fault) GL\d|  (help|fix|note): "  # the source line and its caret stay
 
 
 def errors_as_json(diagnostics: Sequence[Diagnostic]) -> str:
@@ -41,7 +41,7 @@ def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str,
     if isinstance(error, DesignFileError):
         show_errors(error.diagnostics, options)
     elif isinstance(error, NoSolution):
-        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key)], options)
+        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key, help=error.fix)], options)
     else:
         show_errors([Diagnostic("GL116", str(error), file=source)], options)
     return ExitCode.WRONG_INPUT

@@ -36,6 +36,8 @@ def plain_check(check: Check) -> dict[str, Any]:
         "limit": check.limit,
         "unit": check.unit,
         "message": check.message,
+        "fix": check.fix,
+        "note": list(check.note),
     }
     if check.remedy:
         plain["remedy"] = [{"key": key, "value": value} for key, value in check.remedy]

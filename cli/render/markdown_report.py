@@ -17,7 +17,7 @@ def as_markdown(report: Report) -> str:
         ]
         parts.append(markdown_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
     if report.checks:
-        checks = [(c.status, c.code, c.name, c.message) for c in report.checks]
+        checks = [(c.status, c.code, c.name, "\n".join(c.lines)) for c in report.checks]
         parts.append(markdown_table(("status", "code", "check", "finding"), checks))
     for table in report.tables:
         heads = [
@@ -51,4 +51,9 @@ def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(inline(cell).replace("|", "\\|") for cell in cells) + " |"
+    return "| " + " | ".join(_cell(cell) for cell in cells) + " |"
+
+
+def _cell(text: str) -> str:
+    """Text of a table's cell, whose lines stand below each other."""
+    return "<br>".join(inline(line).replace("|", "\\|") for line in text.split("\n"))

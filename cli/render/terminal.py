@@ -18,7 +18,7 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from gearlink.cli.options import Options
-from gearlink.cli.printable import visible
+from gearlink.cli.printable import visible, visible_lines
 from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.core.base.report import Check, Quantity, Report, Table
 
@@ -27,8 +27,6 @@ _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 _NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
 _ALONE: Mapping[str, float] = MappingProxyType({})
-_NOMINAL = ", nominal: "
-"""What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
 _SYMBOLS_FROM = 56  # columns of a terminal, below which names stand without their symbols
 _LEAST_TEXT = 24  # columns that words keep beside numbers, however narrow the terminal
@@ -62,8 +60,8 @@ def show_findings(report: Report, console: Console, *, passed: bool = True) -> N
     if passes and passed:
         console.print()
         show_grid(_passes(passes, scales(report), console), console)
-        for proviso in dict.fromkeys(c.message.partition(_NOMINAL)[2] for c in passes if _NOMINAL in c.message):
-            console.print(Text(f"safety{_NOMINAL}{proviso}"))
+        for note in dict.fromkeys(each for check in passes for each in check.note):
+            console.print(Text(f"note: {visible(note)}"))
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
@@ -212,13 +210,13 @@ def _below_each_other(value: Any, unit: str, digits: int | str | None) -> Text:
 
 
 def _findings(checks: Sequence[Check], console: Console) -> Grid:
-    """Failures and warnings with their whole message, failures first."""
+    """Failures and warnings, each with its fix and notes, failures first."""
     grid = grid_for(console)
     for head in ("check", "code", "status"):
         grid.add_column(head, no_wrap=True)
     grid.add_column("finding", overflow="fold")
     for c in sorted(checks, key=lambda check: check.status != "fail"):
-        grid.add_row(c.name, c.code, Text(c.status, style=_STYLE[c.status]), c.message)
+        grid.add_row(c.name, c.code, Text(c.status, style=_STYLE[c.status]), Text(visible_lines(c.lines)))
     return grid
 
 

@@ -44,16 +44,23 @@ def named(text: str) -> str:
 class NoSolution(GearlinkError):
     """No mechanism exists for the given numbers.
 
-    `message` names the value, the limit and the remedy. `key` is the dotted path of the design file's key to
-    change; kernels, which know no design files, leave it empty and the design class adds it with `at_key`.
+    `message` names the value and the limit, `fix` the change that would help, in the imperative. `key` is the dotted
+    path of the design file's key to change; kernels, which know no design files, leave it empty and the design class
+    adds it with `at_key`.
     """
 
     code = "GL112"
 
-    def __init__(self, message: str, *, key: str = "") -> None:
+    fix = ""
+
+    def __init__(self, message: str, *, key: str = "", fix: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.key = key
+        self.fix = fix
+
+    def __str__(self) -> str:
+        return f"{self.message}; {self.fix}" if self.fix else self.message
 
 
 class MissingSection(NoSolution):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from gearlink.core.base.design_axis import Findings
-    from gearlink.core.base.report import Check, Rule, Side
+    from gearlink.core.base.report import Check, Rule
 
 
 class Judged(NamedTuple):
@@ -26,11 +26,10 @@ class Judged(NamedTuple):
     warns: Any
     unit: str
 
-    def check(self, text: str, remedy: str = "", *, name: str = "", side: Side | None = None) -> Check:
-        """The finding of one design, with a remedy where it does not pass."""
+    def check(self, what: str, fix: str = "", **parts: Any) -> Check:
+        """The finding of one design, of the words of `Rule.check`, with a fix where it does not pass."""
         status: Any = "fail" if self.fails else "warn" if self.warns else "pass"
-        text += remedy if self.fails or self.warns else ""
-        return self.rule.check(status, text, self.value, self.limit, self.unit, name=name, side=side)
+        return self.rule.check(status, what, self.value, self.limit, self.unit, fix=fix, **parts)
 
     def of(self, count: int) -> Findings:
         """The findings of so many designs."""

@@ -25,7 +25,10 @@ def report_as_html(report: Report) -> str:
         parts.append(_grid(("quantity", "symbol", "value", "unit"), rows))
     if report.checks:
         parts.append(
-            _grid(("status", "check", "finding"), ((c.status, f"{c.code} {c.name}", c.message) for c in report.checks))
+            _grid(
+                ("status", "check", "finding"),
+                ((c.status, f"{c.code} {c.name}", "\n".join(c.lines)) for c in report.checks),
+            )
         )
     return "\n".join(chain(parts, map(table_as_html, report.tables)))
 
@@ -51,4 +54,4 @@ def _cell(value: Any) -> str:
         return ", ".join(map(_cell, value))
     if isinstance(value, float):
         return f"{value:.9g}"
-    return "" if value is None else escape(str(value))
+    return "" if value is None else escape(str(value)).replace("\n", "<br>")

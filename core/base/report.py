@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
+from gearlink.core.base.wording import DIGITS, apart, compared, directed, in_unit, plain, short
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -35,19 +37,110 @@ class Quantity:
     words: str
 
 
+class Shown(NamedTuple):
+    """What a message compares, where that is not the value and limit that are judged.
+
+    Fields
+        value : float, text or None - None: the message states no number
+        limit : float or None
+        unit : str
+        side : how a value that passes stands to the limit
+        word : str - what the limit is called
+    """
+
+    value: float | str | None = None
+    limit: float | None = None
+    unit: str = "1"
+    side: Side = ">="
+    word: str = "limit"
+
+
+NO_NUMBER = Shown()
+"""Of a finding that is a statement without a number."""
+_MOST_CHARACTERS = 240
+"""Of a message, before its fix."""
+
+
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One finding: `status` follows from comparing `value` with `limit`; the message says what would repair it."""
+    """One finding: `status` follows from comparing `value` with `limit`; the message is formed from its parts.
+
+    WHAT: value unit (limit op limit unit; aside) at PLACE
+
+    Fields
+        what : str - what was measured, or a statement where no number is shown
+        remedy : the change of the file that was tried
+        at : str - where in the cycle, with its unit
+        advice : str - what would repair it in general; shown as the fix where none was found by trial
+        note : what is to be known besides, such as warnings that a remedy leaves
+        shown : what the message compares in place of value and limit
+        aside : str - what stands behind the limit in its parentheses
+        relaxes : bool - the remedy asks less of the machine
+    """
 
     code: str
     name: str
     status: Status
-    message: str
+    what: str
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
     remedy: Remedy = ()
     side: Side = ">="
+    at: str = ""
+    advice: str = ""
+    note: tuple[str, ...] = ()
+    shown: Shown | None = None
+    aside: str = ""
+    relaxes: bool = False
+
+    @property
+    def message(self) -> str:
+        """What was found, in at most 240 characters and without the fix."""
+        for aside in (self.aside, ""):
+            text = self._worded(aside)
+            if len(text) <= _MOST_CHARACTERS:
+                return text
+        return f"{text[: _MOST_CHARACTERS - 3]}..."
+
+    def _worded(self, aside: str) -> str:
+        shown = self.shown or Shown(self.value, self.limit, self.unit, self.side)
+        value, bound = self._compared(shown)
+        text = f"{self.what}: {in_unit(value, shown.unit)}" if value else self.what
+        inside = "; ".join(part for part in (bound, aside) if part)
+        text += f" ({inside})" if inside else ""
+        return f"{text} at {self.at}" if self.at else text
+
+    def _compared(self, shown: Shown) -> tuple[str, str]:
+        """Value and condition in words; no condition that a finding meets which does not pass."""
+        value, limit = shown.value, shown.limit
+        if value is None or isinstance(value, str):
+            return value or "", ""
+        if limit is None or math.isnan(value):
+            return short(value), ""
+        passes = self.status == "pass"
+        if not shown.side:
+            now, bound = apart(value, limit)
+            return now, f"required {in_unit(bound, shown.unit)}"
+        met = value >= limit if shown.side == ">=" else value <= limit
+        if met is not passes and value != limit:
+            return short(value), ""
+        side = shown.side if passes or value != limit else shown.side[0]
+        now, bound = compared(value, limit, shown.side, met)
+        return now, f"{shown.word} {side} {in_unit(bound, shown.unit)}"
+
+    @property
+    def fix(self) -> str | None:
+        """The one change that repairs it: the one that was tried, else general advice; None where there is none."""
+        if self.remedy:
+            return remedy_words(self.remedy) + (" (relaxes the requirement)" if self.relaxes else "")
+        return self.advice or None
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The message, its fix and its notes, each to stand on a line of its own."""
+        fix = self.fix
+        return (self.message, *((f"fix: {fix}",) if fix else ()), *(f"note: {each}" for each in self.note))
 
 
 class Rule(NamedTuple):
@@ -83,41 +176,68 @@ class Rule(NamedTuple):
     def check(
         self,
         status: Status,
-        message: str,
+        what: str,
         value: float | None = None,
         limit: float | None = None,
         unit: str = "1",
         *,
         name: str = "",
         side: Side | None = None,
+        at: str = "",
+        fix: str = "",
+        note: str = "",
+        shown: Shown | None = None,
+        aside: str = "",
+        recommended: float | None = None,
+        overlap: str = "",
     ) -> Check:
-        """A finding of the rule; `name` where it has several checks, `side` where it passes on another than the rule's.
+        """A finding of the rule; its message is formed from the parts: see `Check`.
 
+        Parameters
+            status, value, limit, unit : as they are judged
+            what : str - what was measured ("transmission angle of the bed chain"), no number, no advice
+            name : str - of the check, where the rule has several
+            side : how a value that passes stands to the limit, where that is not the rule's
+            at : str - where in the cycle: "input angle 40 deg"
+            fix : str - one change that would repair it in general, in the imperative; of no use where it passes
+            note : str - what is to be known besides
+            shown : what the message compares in place of value and limit
+            aside : str - what stands beside the limit
+            recommended : float - the limit at which it warns, where that is not the one at which it fails
+            overlap : str - what a value below 0 is called, which is shown without its sign
         Raises
             ArithmeticError - where what passes is not a number: that no comparison holds is no reason to pass
+        Example
+            >>> angle = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
+            >>> angle.check("fail", "transmission angle", 21.34, 40.0, "deg", at="input angle 40 deg").message
+            'transmission angle: 21.34 deg (limit >= 40 deg) at input angle 40 deg'
         """
         if status == "pass" and value is not None and math.isnan(value):
             raise ArithmeticError(f"{self.code} {name or self.name} judges what is not a number")
+        side = self.side if side is None else side
+        if shown is None and overlap and value is not None and value < 0.0:
+            what, shown = overlap, Shown(-value, max(0.0, -(limit or 0.0)), unit, "<=")
+        elif shown is None and recommended is not None and status == "warn":
+            shown = Shown(value, recommended, unit, side, "recommended")
+        advice = "" if status == "pass" else fix
+        notes = (note,) if note else ()
         return Check(
-            self.code, name or self.name, status, message, value, limit, unit, side=self.side if side is None else side
+            self.code, name or self.name, status, what, value, limit, unit, (), side, at, advice, notes, shown, aside
         )
 
-    def below(self, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
+    def below(
+        self, value: float, limit: float, warn: float, unit: str, what: str, fix: str, *, at: str = "", note: str = ""
+    ) -> Check:
         """A finding that fails where `value` < `limit` and warns where it is below `warn`.
 
         Example
             >>> angle = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
-            >>> angle.below(42.0, 40.0, 45.0, "deg", "least angle", "lengthen l4").status
-            'warn'
+            >>> found = angle.below(42.0, 40.0, 45.0, "deg", "transmission angle", "lengthen l4")
+            >>> found.lines
+            ('transmission angle: 42 deg (recommended >= 45 deg)', 'fix: lengthen l4')
         """
         status: Status = "fail" if value < limit else "warn" if value < warn else "pass"
-        text = f"{subject} is {value:.6g} {unit}".removesuffix(" 1")
-        bound = f"{limit:g} {unit}".removesuffix(" 1")
-        if status == "fail":
-            text += f", below the limit {bound}: {remedy}"
-        elif status == "warn":
-            text += f", little above the limit {bound}: {remedy}"
-        return self.check(status, text, value, limit, unit)
+        return self.check(status, what, value, limit, unit, fix=fix, recommended=warn, at=at, note=note)
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,12 +365,12 @@ def remedy_words(remedy: Remedy) -> str:
     """A remedy in words.
 
     Example
-        >>> remedy_words((("gears.crank", 42), ("gears.output", 42)))
-        'set gears.crank to 42 and gears.output to 42'
+        >>> remedy_words((("gears.crank", 42), ("gears.output", 42), ("sync.end", None)))
+        'set gears.crank to 42 and gears.output to 42 and remove sync.end'
     """
     sets = [f"{key} to {_shown(value)}" for key, value in remedy if value is not None]
     verbs = [f"set {' and '.join(sets)}"] if sets else []
-    return " and ".join((*verbs, *(f"leave {key} out" for key, value in remedy if value is None)))
+    return " and ".join((*verbs, *(f"remove {key}" for key, value in remedy if value is None)))
 
 
 def _shown(value: float | str) -> str:
@@ -270,30 +390,21 @@ def without_noise(value: float, scale: float) -> float:
     return value if abs(value) > 8.0 * math.ulp(scale) else 0.0
 
 
-def safely_below(value: float, digits: int = 5) -> str:
+def safely_below(value: float, digits: int = DIGITS) -> str:
     """A recommended upper bound, rounded down to so many digits: applied as printed, it holds.
 
     Example
         >>> safely_below(16.41765), safely_below(0.000123456, 3)
-        ('16.417', '0.000123')
+        ('16.41', '0.000123')
     """
-    return _directed(value, digits, math.floor)
+    return plain(directed(value, -1, digits))
 
 
-def safely_above(value: float, digits: int = 5) -> str:
+def safely_above(value: float, digits: int = DIGITS) -> str:
     """A recommended lower bound, rounded up to so many digits: applied as printed, it holds.
 
     Example
         >>> safely_above(2.52430607), safely_above(3.0)
-        ('2.5244', '3')
+        ('2.525', '3')
     """
-    return _directed(value, digits, math.ceil)
-
-
-def _directed(value: float, digits: int, way: Callable[[float], int]) -> str:
-    if value == 0.0 or not math.isfinite(value):
-        return f"{value:g}"
-    places = digits - 1 - math.floor(math.log10(abs(value)))
-    if places < 0:
-        return f"{way(value)}"
-    return f"{way(value * 10**places) / 10**places:.{digits}g}"
+    return plain(directed(value, 1, digits))

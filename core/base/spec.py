@@ -184,6 +184,6 @@ def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
     if abs(offset) >= rod:
         raise PydanticCustomError(
             "GL111",
-            "offset {offset} mm is not below the rod's {rod} mm: lengthen the rod or bring the slide line nearer",
+            "offset {offset} mm is not below the rod's {rod} mm\nlengthen the rod or bring the slide line nearer",
             {"key": key, "offset": f"{offset:g}", "rod": f"{rod:g}"},
         )

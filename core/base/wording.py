@@ -1,6 +1,8 @@
-"""Words of numbers, as messages need them."""
+"""Words of numbers, as messages need them: four significant digits, and a comparison that never rounds to another."""
 
 from __future__ import annotations
+
+import math
 
 
 def amount(count: float, one: str, many: str = "", spec: str = "") -> str:
@@ -15,3 +17,96 @@ def amount(count: float, one: str, many: str = "", spec: str = "") -> str:
         ('1 input', '2 inputs', '1 tooth', '1,200 rows')
     """
     return f"{count:{spec}} {one if count == 1 else many or one + 's'}"
+
+
+DIGITS = 4
+"""Significant digits of a number in a message."""
+_TYPED, _NOISE = 6, 1e-12
+"""A limit of no more digits, but for rounding, is one that somebody wrote, and is shown as it stands."""
+
+
+def short(value: float, digits: int = DIGITS) -> str:
+    """A number to so many significant digits, the nearest.
+
+    Example
+        >>> short(221.4577), short(10412.8), short(-0.5), short(3e-9)
+        ('221.5', '10410', '-0.5', '3e-09')
+    """
+    return plain(directed(value, 0, digits))
+
+
+def plain(value: float) -> str:
+    """A rounded number without needless zeros."""
+    return f"{value + 0.0:.12g}"
+
+
+def directed(value: float, way: int, digits: int = DIGITS) -> float:
+    """A number rounded to so many significant digits.
+
+    Parameters
+        way : int - -1: down; 1: up; 0: to the nearest
+    Example
+        >>> directed(39.99999, -1), directed(40.00001, 1), directed(1.1, 1), directed(10412.8, -1)
+        (39.99, 40.01, 1.1, 10410.0)
+    """
+    if value == 0.0 or value - value != 0.0:
+        return value
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    whole, power = int(mantissa.replace(".", "")), int(exponent) - digits + 1
+    near = float(f"{whole}e{power}")
+    if near != value and (near > value) is (way < 0):
+        whole += way
+    return float(f"{whole}e{power}")
+
+
+def compared(value: float, limit: float, side: str, met: bool) -> tuple[str, str]:
+    """A value and the limit that it meets or not, rounded to the safe side so that what is shown says the same.
+
+    Parameters
+        side : str - ">=" or "<=", how a value that passes stands to the limit
+    Example
+        >>> compared(39.999999, 40.0, ">=", False), compared(40.00004, 40.00002, ">=", True)
+        (('39.99', '40'), ('40.00004', '40.00002'))
+    """
+    way = -1 if side == ">=" else 1
+    bound = float(f"{limit:.{_TYPED}g}")
+    if limit != bound and math.isclose(limit, bound, rel_tol=_NOISE) and (value >= bound) is (value >= limit):
+        limit = bound
+    for digits in range(DIGITS, 17):
+        low = directed(value, way, digits)
+        high = limit if bound == limit else directed(limit, -way, digits)
+        if (low >= high if side == ">=" else low <= high) is met:
+            return plain(low) if digits < 12 else repr(low), plain(high) if digits < 12 else repr(high)
+    return repr(value), repr(limit)
+
+
+def apart(one: float, other: float) -> tuple[str, str]:
+    """Two numbers to as many digits as tell them apart, at least four.
+
+    Example
+        >>> apart(1.0, 1.00001), apart(2.5, 2.5)
+        (('1', '1.00001'), ('2.5', '2.5'))
+    """
+    for digits in range(DIGITS, 17):
+        if one == other or short(one, digits) != short(other, digits):
+            return short(one, digits), short(other, digits)
+    return repr(one), repr(other)
+
+
+def within(low: float, high: float, unit: str) -> str:
+    """A range rounded inwards, to as many digits as leave one, at least four.
+
+    Example
+        >>> within(114.6512, 115.2338, "mm"), within(1.000011, 1.000019, "mm")
+        ('114.7 to 115.2 mm', '1.000012 to 1.000018 mm')
+    """
+    for digits in range(DIGITS, 17):
+        ends = directed(low, 1, digits), directed(high, -1, digits)
+        if ends[0] < ends[1]:
+            return f"{plain(ends[0])} to {in_unit(plain(ends[1]), unit)}"
+    return f"{low!r} to {in_unit(repr(high), unit)}"
+
+
+def in_unit(number: str, unit: str) -> str:
+    """A number with its unit; one without a dimension alone."""
+    return number if unit == "1" else f"{number} {unit}"

@@ -77,7 +77,7 @@ class DesignChart:
         x = np.linspace(low, high, samples)
         found = [self.values(x, parameter) for parameter in (curves or (None,))]
         if all(bool(np.all(np.isnan(column))) for column in found):
-            raise NoSolution(f"the chart {self.name} has no values there: widen the range, or take other curves")
+            raise NoSolution(f"the chart {self.name} has no values there", fix="widen the range, or take other curves")
         return Table(
             self.name,
             (self.x.name, *self.columns(curves)),

@@ -173,7 +173,7 @@ def _results(report: Report) -> Iterator[str]:
     if report.checks:
         order = ("fail", "warn", "pass")
         found = sorted(report.checks, key=lambda check: order.index(check.status))
-        findings = ((c.status, f"{c.code} {c.name}", c.message) for c in found)
+        findings = ((c.status, f"{c.code} {c.name}", "\n".join(c.lines)) for c in found)
         yield "<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True)
     for each in report.tables:
         yield _data(each, scales(report))
@@ -196,12 +196,19 @@ def _data(given: Table, scale: Mapping[str, float]) -> str:
     return f"<h3>{title}</h3>{note}" + table(heads, cells, numeric=range(len(heads)))
 
 
+def _broken(text: str) -> str:
+    """Text of a cell, whose lines stand below each other."""
+    return escape(text).replace("\n", "<br>")
+
+
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Iterable[int], marked: bool = False) -> str:
     """An HTML table that scrolls within itself; with `marked` the first cell of a row is its style."""
     right = set(numeric)
 
     def cells(tag: str, row: Sequence[str]) -> str:
-        return "".join(f"<{tag}{' class=n' if i in right else ''}>{escape(cell)}</{tag}>" for i, cell in enumerate(row))
+        return "".join(
+            f"<{tag}{' class=n' if i in right else ''}>{_broken(cell)}</{tag}>" for i, cell in enumerate(row)
+        )
 
     lines = [f"<tr{f' class={row[0]}' if marked else ''}>{cells('td', row)}</tr>" for row in rows]
     body = "\n".join(lines)

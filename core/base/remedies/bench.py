@@ -32,7 +32,7 @@ from gearlink.core.base.remedies.ways import (
     steps_to_limit,
     warned,
 )
-from gearlink.core.base.report import Check, Remedy, remedy_words
+from gearlink.core.base.report import Check, Remedy
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed, number_at
 
@@ -62,10 +62,8 @@ def _with(bench: Bench, found: Check, index: int) -> Check:
     if not remedy:
         return found
     left = bench.warnings_left(remedy, found, index)
-    price = ["by asking for less"] if bench.asks_less(key for key, _ in remedy) else []
-    price += [f"with a warning left ({', '.join(left)})"] if left else []
-    words = f"{', '.join(price)}: {remedy_words(remedy)}" if price else remedy_words(remedy)
-    return replace(found, message=f"{found.message}; {words}", remedy=remedy)
+    notes = (f"warnings that remain: {', '.join(left)}",) if left else ()
+    return replace(found, remedy=remedy, relaxes=bench.asks_less(key for key, _ in remedy), note=(*found.note, *notes))
 
 
 class Bench:

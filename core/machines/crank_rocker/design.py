@@ -110,7 +110,8 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             try:
                 check_linkage(linkage)
             except NoSolution as error:
-                raise NoSolution(f"{error.message}; or give the range in which the crank moves", key="links") from error
+                fix = error.fix if linkage.kind() == "impossible" else "give the range in which the crank moves"
+                raise NoSolution(error.message, key="links", fix=fix) from error
         return linkage
 
     def _without_links(self) -> str:
@@ -294,7 +295,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             self.min_transmission_angle,
             self.spec.limits.transmission_angle,
             self.remedy,
-            f"the least transmission angle over {over}",
+            f"minimum transmission angle over {over}",
         )
 
     remedy = "shorten the crank, or bring coupler and rocker nearer to a right angle"
@@ -311,6 +312,6 @@ def inner_places(start: float, end: float) -> list[float]:
         [1.0, 3.142, 6.283, 7.0]
     """
     if not end > start:
-        raise NoSolution("the range has no length: give a greater end")
+        raise NoSolution("the range has no length", fix="give a greater end")
     first, last = math.ceil(start / math.pi), math.floor(end / math.pi)
     return sorted({start, end, *(k * math.pi for k in range(first, last + 1))})

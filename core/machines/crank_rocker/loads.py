@@ -36,8 +36,8 @@ class CrankRockerLoads(LoadsDesign):
         found = made(self.spec)
         if found.crank_range is not None:
             key = "range" if self.spec.range is not None else "function.pairs"
-            message = "loads are those of whole turns at even speed: leave range out, with links whose crank turns"
-            raise NoSolution(message, key=key)
+            message = "loads are those of whole turns at even speed"
+            raise NoSolution(message, key=key, fix="leave range out, with links whose crank turns")
         return found
 
     @property

@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key, section_of
 from gearlink.core.base.remedies.ways import down, either
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.crank_rocker.codes import FULL_TURN
 from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
 from gearlink.core.numerics.roots import bracketed_root
@@ -82,7 +83,7 @@ def best_ratios(p: float, q: float) -> Ratios:
         return ((t2 * x + 2.0) * x - 1.0) * x - (1.0 + 1.0 / t2) * turned
 
     if not cubic(1.0) > 0.0:
-        raise NoSolution(_nowhere(p, q))
+        raise _nowhere(p, q)
     if turned == 0.0:  # of q = p the root x = 0 is none of a linkage
         return ratios_of(math.sqrt(1.0 + math.sqrt(1.0 + t2)), p, q)
     return ratios_of(1.0 / math.sqrt(bracketed_root(cubic, 0.0, 1.0)), p, q)
@@ -110,19 +111,19 @@ def ratios_with_frame(frame: float, p: float, q: float) -> Ratios:
     if room <= 0.0 or turn == 0.0:
         least = abs(math.cos(q - p)) / math.sin(q)
         raise NoSolution(
-            f"frame over crank is {frame:.6g}; with this swing and ratio it is above {least:.6g}: shorten the crank, "
-            "or lengthen the frame"
+            f"frame over crank is {frame:.6g}; with this swing and ratio it is above {safely_above(least)}",
+            fix="shorten the crank, or lengthen the frame",
         )
     found = ratios_of(math.sqrt(room) / turn, p, q)
     return found._replace(frame=frame)
 
 
-def _nowhere(p: float, q: float) -> str:
+def _nowhere(p: float, q: float) -> NoSolution:
     alpha = math.degrees(2.0 * abs(p))
-    return (
-        f"no crank-rocker swings by {math.degrees(2.0 * q):.6g} deg with strokes of {180.0 + alpha:.6g} and "
-        f"{180.0 - alpha:.6g} deg of the crank: ask for a quick_return_ratio nearer to 1, another swing, or the other "
-        "slow_stroke"
+    return NoSolution(
+        f"no crank-rocker swings by {short(math.degrees(2.0 * q))} deg with strokes of {short(180.0 + alpha)} and "
+        f"{short(180.0 - alpha)} deg of the crank",
+        fix="take a quick_return_ratio nearer to 1, another swing, or the other slow_stroke",
     )
 
 
@@ -138,7 +139,7 @@ def require_task(linkage: FourBar, swing: float, ratio: float, same: bool) -> No
         sense = ratio == 1.0 or dead.same is same
         if sense and abs(dead.swing - swing) <= _FIT * swing and abs(dead.ratio - ratio) <= _FIT * ratio:
             return
-    raise NoSolution(_nowhere(p, q))
+    raise _nowhere(p, q)
 
 
 # Three pairs of angles
@@ -184,17 +185,23 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
     a, c = frame / k1, frame / k2
     square = math.fsum((a * a, c * c, frame * frame, -2.0 * a * c * k3))
     if not square > 0.0 or math.isinf(square):
-        raise NoSolution("no linkage goes through these pairs: its coupler would have no real length; move one of them")
+        raise NoSolution(
+            "no linkage goes through these pairs: its coupler would have no real length", fix="move one of them"
+        )
     b = math.sqrt(square)
     sides = set()
     for number, (phi, psi) in enumerate(pairs, 1):
         pin, joint = cmath.rect(a, phi), frame + cmath.rect(c, psi)
         across = ((joint - pin).conjugate() * (joint - frame)).imag / (b * abs(c))
         if abs(across) < _IN_LINE:
-            raise NoSolution(f"coupler and rocker are in line at pair {number}, which then is a dead point: move it")
+            raise NoSolution(
+                f"coupler and rocker are in line at pair {number}, which then is a dead point", fix="move it"
+            )
         sides.add(across > 0.0)
     if len(sides) > 1:
-        raise NoSolution("the pairs lie on different assemblies of their linkage, which cannot pass over: move one")
+        raise NoSolution(
+            "the pairs lie on different assemblies of their linkage, which cannot pass over", fix="move one"
+        )
     crank_offset, rocker_offset = (math.pi if length < 0.0 else 0.0 for length in (a, c))
     return ThroughPairs(abs(a), b, abs(c), crank_offset, rocker_offset, 1 if sides.pop() else -1)
 
@@ -216,8 +223,11 @@ def _constants(pairs: Sequence[Sequence[float]]) -> tuple[float, float, float]:
     )
     if small:
         raise NoSolution(
-            "these pairs give no linkage of finite length: two of them are alike, or rocker and crank turn in "
-            "proportion; move one of them"
+            (
+                "these pairs give no linkage of finite length: two of them are alike, or rocker and "
+                "crank turn in proportion"
+            ),
+            fix="move one of them",
         )
     k1, k2 = over / det, under / det
     return k1, k2, math.cos(phi - psi) - k1 * math.cos(psi) + k2 * math.cos(phi)
@@ -292,9 +302,9 @@ class SwingSynthesis(_Synthesis):
                 found, crank = ratios_with_frame(task.frame / task.crank, p, q), task.crank
         elif p == 0.0:
             raise NoSolution(
-                "with a quick_return_ratio of 1 the transmission angle only gets better the shorter the crank is: "
-                "give crank and frame, or a ratio above 1",
+                ("with a quick_return_ratio of 1 the transmission angle only gets better the shorter the crank is"),
                 key="swing.quick_return_ratio",
+                fix="give crank and frame, or a ratio above 1",
             )
         else:
             with at_key("swing"):
@@ -390,7 +400,7 @@ class FunctionSynthesis(_Synthesis):
         if self._turns:
             return None
         if self._between is None:
-            raise NoSolution(f"{_APART}: move one of them", key="function.pairs")
+            raise NoSolution(_APART, key="function.pairs", fix="move one of the pairs")
         return self._between
 
     def check_full_turn(self) -> Check:
@@ -398,11 +408,11 @@ class FunctionSynthesis(_Synthesis):
         kind = self.linkage.kind()
         if self._turns:
             return FULL_TURN.check("pass", f"the linkage is a {kind}: its crank turns fully")
-        text = f"the linkage is a {kind}, its crank cannot turn fully"
+        what = f"the linkage is a {kind}, its crank cannot turn fully"
         if self._between is None:
-            return FULL_TURN.check("warn", f"{text}, and {_APART}: move one of them")
-        start, end = (math.degrees(angle) for angle in self._between)
-        return FULL_TURN.check("warn", f"{text}: it moves from {start:.6g} to {end:.6g} deg")
+            return FULL_TURN.check("warn", f"{what}, and {_APART}", fix="move one of the pairs")
+        start, end = (short(math.degrees(angle)) for angle in self._between)
+        return FULL_TURN.check("warn", what, aside=f"it moves from {start} to {end} deg")
 
 
 _APART = "it opens between the pairs, which it reaches only when it is put together anew"

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.cycloidal.codes import INTERFERENCE, SHORTENING
 from gearlink.core.parts.gears.codes import PITTING, UNDERCUT
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
@@ -313,16 +314,16 @@ class CycloidalReducer(RealSpeed, Design):
         radius, least = self.spec.pin_radius, self.min_curvature_radius
         share = radius / least
         status: Status = "fail" if share >= 1.0 else "warn" if share > _NEAR else "pass"
-        text = f"the pin's radius is {share:.4g} of the least convex radius {least:.6g} mm of the pitch curve"
-        text += ": take thinner pins, or a smaller eccentricity" if status != "pass" else ""
-        return UNDERCUT.check(status, text, radius, least, "mm", side="<=")
+        what, fix = "pin radius against the minimum convex radius of the pitch curve", "take thinner pins"
+        most = _NEAR * least
+        return UNDERCUT.check(status, what, radius, least, "mm", side="<=", recommended=most, fix=fix)
 
     def check_gear_collision(self) -> Check:
         """GL301: ring pins beside each other."""
         gap = 2.0 * (self.spec.pin_circle_radius * math.sin(math.pi / self.spec.pins) - self.spec.pin_radius)
-        text = f"{gap:.6g} mm are left between two ring pins"
-        text += ": take thinner pins or a larger pin circle" if gap <= 0.0 else ""
-        return GEAR_COLLISION.check("fail" if gap <= 0.0 else "pass", text, gap, 0.0, "mm")
+        what, overlap, fix = "gap between two ring pins", "overlap of two ring pins", "take a larger pin circle"
+        status: Status = "fail" if gap <= 0.0 else "pass"
+        return GEAR_COLLISION.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: webs between the holes for the output pins, to the bearing's bore and to the root of the lobes."""
@@ -337,27 +338,27 @@ class CycloidalReducer(RealSpeed, Design):
         if self.spec.bearing_radius is not None:
             webs.append(("between these holes and the bearing", pins.circle_radius - hole - self.spec.bearing_radius))
         for where, web in webs:
-            text = f"the web {where} is {web:.6g} mm"
-            text += ": take thinner output pins, or another circle for them" if web <= 0.0 else ""
-            yield SHAFT_CLEARANCE.check("fail" if web <= 0.0 else "pass", text, web, 0.0, "mm")
+            status: Status = "fail" if web <= 0.0 else "pass"
+            overlap, fix = f"overlap {where}", "take thinner output pins"
+            yield SHAFT_CLEARANCE.check(status, f"web {where}", web, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_interference(self) -> Iterator[Check]:
         """GL342."""
         if self.tightest is None:
             return
         gap = self.tightest.value
-        text = f"the least gap between disc and pins is {gap:.6g} mm"
-        text += ": raise modification.offset" if gap < 0.0 else ""
-        yield INTERFERENCE.check("fail" if gap < 0.0 else "pass", text, gap, 0.0, "mm")
+        what, overlap = "minimum gap between disc and pins", "interference of disc and pins"
+        fix = "raise modification.offset"
+        status: Status = "fail" if gap < 0.0 else "pass"
+        yield INTERFERENCE.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_shortening(self) -> Check:
         """GL343."""
         k, (low, high) = self.shortening, _USUAL
         limit = low if k < low else high
-        text = f"the shortening coefficient e Z/R is {k:.6g}"
-        inside = low <= k <= high
-        text += "" if inside else f", outside {low:g} to {high:g}: change the eccentricity"
-        return SHORTENING.check("pass" if inside else "warn", text, k, limit)
+        what, aside, fix = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}", "change the eccentricity"
+        status: Status = "pass" if low <= k <= high else "warn"
+        return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 
     def check_pitting(self) -> Iterator[Check]:
         """GL210: what the material bears over the greatest contact stress."""
@@ -366,6 +367,5 @@ class CycloidalReducer(RealSpeed, Design):
             return
         safety, limit = bears / stress, self.spec.limits.safety_pitting
         status: Status = "fail" if safety < limit else "pass"
-        text = f"contact stress {stress:.5g} N/mm^2, safety {safety:.4g}"
-        text += f", below {limit:g}: widen the discs or enlarge the pin circle" if status == "fail" else ""
-        yield PITTING.check(status, text, safety, limit)
+        aside, fix = f"contact stress {short(stress)} N/mm^2", "widen the discs"
+        yield PITTING.check(status, "pitting safety S_H", safety, limit, aside=aside, fix=fix)

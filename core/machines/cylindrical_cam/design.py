@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import at_key
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import NO_NUMBER, Check, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
@@ -144,15 +145,17 @@ class CylindricalCamDesign(OfFollower, Design):
         """GL401, at the bottom of the track."""
         value, limit = math.degrees(self.steepest.value), self.spec.limits.pressure_angle
         over = value > limit + _FIT
-        text = f"the pressure angle at the bottom of the track reaches {value:.6g} deg"
-        text += f" at cam angle {math.degrees(self.steepest.place):.5g} deg"
-        text += f", above the limit {limit:g} deg: enlarge the drum, or give the motion more cam angle" if over else ""
-        return PRESSURE_ANGLE.check("fail" if over else "pass", text, value, limit, "deg")
+        what, fix = "pressure angle at the bottom of the track", "enlarge the drum, or give the motion more cam angle"
+        at = f"cam angle {short(math.degrees(self.steepest.place))} deg"
+        return PRESSURE_ANGLE.check("fail" if over else "pass", what, value, limit, "deg", at=at, fix=fix)
 
     def check_cam_undercut(self) -> Check:
         """GL402: a wall is regular where its factor is positive."""
         value, place = self.thinnest
         status: Status = "fail" if value <= 0.0 else "warn" if value < _THIN else "pass"
-        text = f"least wall factor {value:.6g} at cam angle {math.degrees(place):.5g} deg"
-        text += ": take a smaller roller, or enlarge the drum" if status != "pass" else ""
-        return CAM_UNDERCUT.check(status, text, value, 0.0, side=">=")
+        what, at = "minimum wall factor", f"cam angle {short(math.degrees(place))} deg"
+        shown = None
+        if value < 0.0:
+            what, shown = "the wall of the track is undercut", NO_NUMBER
+        fix = "take a smaller roller, or enlarge the drum"
+        return CAM_UNDERCUT.check(status, what, value, 0.0, side=">=", shown=shown, recommended=_THIN, at=at, fix=fix)

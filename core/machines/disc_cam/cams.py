@@ -124,8 +124,8 @@ class FollowerCams:
         height = least_cam.height_at(lines, offset)
         height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius, offset, self.sense))
         if height + self.lifts[0] <= 0.0:
-            message = "these limits ask for no cam at all, the motion being so slow: give cam.prime_radius"
-            raise NoSolution(message, key="cam.size")
+            message = "these limits ask for no cam at all, the motion being so slow"
+            raise NoSolution(message, key="cam.size", fix="give cam.prime_radius")
         return Place(math.hypot(offset, height), offset)
 
     def _rocking_place(self) -> Place:
@@ -145,11 +145,12 @@ class FollowerCams:
     def _triangle(self, arm: float, distance: float, radius: float) -> Place:
         share = (distance**2 + arm**2 - radius**2) / (2.0 * distance * arm)
         if not -1.0 < share < 1.0:
-            message = (
-                f"arm {arm:g} mm, center_distance {distance:g} mm and prime_radius {radius:g} mm make no triangle: "
-                f"take a prime_radius between {abs(distance - arm):.6g} and {distance + arm:.6g} mm"
+            message = f"arm {arm:g} mm, center_distance {distance:g} mm and prime_radius {radius:g} mm make no triangle"
+            raise NoSolution(
+                message,
+                key="cam.prime_radius",
+                fix=f"take a prime_radius between {abs(distance - arm):.6g} and {distance + arm:.6g} mm",
             )
-            raise NoSolution(message, key="cam.prime_radius")
         return Place(radius, 0.0, distance, math.acos(share))
 
     def _room(self, start: float, distance: float | None) -> float:

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.base.report import Check, Status, safely_above
+from gearlink.core.base.report import NO_NUMBER, Check, Status, safely_above, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam import codes
 from gearlink.core.parts.cams.checks import hub_checks, undercut_checks
 from gearlink.core.parts.cams.codes import (
@@ -33,9 +34,8 @@ def pressure_angle(design: DiscCamDesign) -> Iterator[Check]:
     known = [(math.degrees(value), limit, stroke) for value, limit, stroke in found if value is not None]
     value, limit, stroke = max(known, key=lambda each: each[0] - each[1])
     over = value > limit + _FIT
-    text = f"the pressure angle of the {stroke} reaches {value:.6g} deg"
-    text += f", above the limit {limit:g} deg: {_LARGER}" if over else ""
-    yield PRESSURE_ANGLE.check("fail" if over else "pass", text, value, limit, "deg")
+    status: Status = "fail" if over else "pass"
+    yield PRESSURE_ANGLE.check(status, f"pressure angle of the {stroke}", value, limit, "deg", fix=_LARGER)
 
 
 def cam_undercut(design: DiscCamDesign) -> Iterator[Check]:
@@ -50,12 +50,13 @@ def cam_undercut(design: DiscCamDesign) -> Iterator[Check]:
         limit = 0.0
     room = 1e-9 * max(limit, abs(least.value))
     status: Status = "fail" if least.value <= 0.0 else "warn" if least.value < limit - room else "pass"
-    text = (
-        f"least curvature radius {least.value:.6g} mm of the profile at cam angle {math.degrees(least.place):.5g} deg"
-    )
-    if status != "pass":
-        text += f": raise cam.base_radius by {max(limit, 0.0) - least.value:.4g} mm or more"
-    yield CAM_UNDERCUT.check(status, text, least.value, limit, "mm", side=">=")
+    if least.value < 0.0:
+        what, shown = "minimum curvature radius of the profile: it is undercut", NO_NUMBER
+    else:
+        what, shown = "minimum curvature radius of the profile", None
+    at = f"cam angle {short(math.degrees(least.place))} deg"
+    fix = f"raise cam.base_radius by {safely_above(max(limit, 0.0) - least.value)} mm"
+    yield CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", shown=shown, at=at, fix=fix)
 
 
 def _given(design: DiscCamDesign) -> set[str]:
@@ -66,7 +67,7 @@ def shaft_clearance(design: DiscCamDesign) -> Iterator[Check]:
     """GL302: the profile against its shaft."""
 
     def farther(by: float) -> str:
-        return f"set the base circle {by:.4g} mm or more larger"
+        return f"enlarge the base circle by {safely_above(by)} mm"
 
     yield from hub_checks(SHAFT_CLEARANCE, design.profiles, design.spec.cam.shaft_radius, farther)
 
@@ -83,10 +84,10 @@ def constant_sum(design: DiscCamDesign) -> Iterator[Check]:
     # along the travel: with an offset the radii themselves do not add up
     along = np.abs(cams.start_height + lift) + np.abs(cams.start_height + lift - distance)
     off, limit = float(np.abs(along - distance).max()), 1e-9 * distance
-    text = f"the rollers stand {distance:.6g} mm apart on both sides of the cam axis within {off:.2g} mm"
-    if off > limit:
-        text += ": the return roller would pass the cam axis; raise return_roller.distance"
-    yield CONSTANT_SUM.check("fail" if off > limit else "pass", text, off, limit, "mm")
+    what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
+    status: Status = "fail" if off > limit else "pass"
+    fix = "raise return_roller.distance: the return roller passes the cam axis"
+    yield CONSTANT_SUM.check(status, what, off, limit, "mm", aside=aside, fix=fix)
 
 
 def face_length(design: DiscCamDesign) -> Iterator[Check]:
@@ -97,11 +98,14 @@ def face_length(design: DiscCamDesign) -> Iterator[Check]:
     low, high = design.cams.flat.contact_places
     least, most = (face[0], face[1]) if design.spec.oscillates else (-face[0], face[1])
     beyond = max(least - low, high - most)
-    text = f"the contact runs from {low:.6g} to {high:.6g} mm on a face from {least:g} to {most:g} mm"
+    aside = f"contact {short(low)} to {short(high)} mm, face {short(least)} to {short(most)} mm"
+    what = "contact beyond the end of the face"
     if beyond > 1e-9:
-        yield codes.FACE_LENGTH.check("fail", f"{text}: {beyond:.4g} mm are missing", beyond, 0.0, "mm")
+        fix = f"lengthen follower.face by {safely_above(beyond)} mm"
+        yield codes.FACE_LENGTH.check("fail", what, beyond, 0.0, "mm", aside=aside, fix=fix)
     else:
-        yield codes.FACE_LENGTH.check("pass", text, beyond, 0.0, "mm")
+        what = "the contact stays on the face"
+        yield codes.FACE_LENGTH.check("pass", what, beyond, 0.0, "mm", shown=NO_NUMBER, aside=aside)
 
 
 def outer_wall(design: DiscCamDesign) -> Iterator[Check]:
@@ -110,15 +114,14 @@ def outer_wall(design: DiscCamDesign) -> Iterator[Check]:
         return
     roller, hollow = design.cams.main.roller_radius, design.cams.hollow
     if hollow is None:
-        yield codes.OUTER_WALL.check("pass", "the pitch curve is convex: the outer wall is whole", 0.0, roller, "mm")
+        what = "the pitch curve is convex: the outer wall is whole"
+        yield codes.OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
         return
     least = hollow[0] - roller
-    place = f"{math.degrees(hollow[1]):.5g} deg"
-    text = f"roller radius {roller:g} mm against the least hollow radius {least:.6g} mm at {place}"
+    at = f"cam angle {short(math.degrees(hollow[1]))} deg"
     status: Status = "fail" if roller >= least else "pass"
-    if status == "fail":
-        text += f": {_LARGER}, or take a smaller roller"
-    yield codes.OUTER_WALL.check(status, text, roller, least, "mm")
+    what = "roller radius against the minimum concave radius of the outer wall"
+    yield codes.OUTER_WALL.check(status, what, roller, least, "mm", at=at, fix=_LARGER)
 
 
 def cutter_radius(design: DiscCamDesign) -> Iterator[Check]:
@@ -130,13 +133,13 @@ def cutter_radius(design: DiscCamDesign) -> Iterator[Check]:
     least = min((each for each in (found if isinstance(found, list) else [found]) if each is not None), default=None)
     if least is None:
         yield codes.CUTTER_RADIUS.check(
-            "pass", "the profile has no hollow flank: any cutter serves", cutter, None, "mm"
+            "pass", "the profile has no concave flank: any cutter fits", cutter, None, "mm", shown=NO_NUMBER
         )
         return
-    text = f"cutter radius {cutter:g} mm against the least hollow radius {least:.6g} mm of the profile"
-    over = cutter >= least
-    text += ": take a smaller cutter" if over else ""
-    yield codes.CUTTER_RADIUS.check("fail" if over else "pass", text, cutter, least, "mm")
+    what = "cutter radius against the minimum concave radius of the profile"
+    status: Status = "fail" if cutter >= least else "pass"
+    fix = f"take a cutter of less than {safely_below(least)} mm"
+    yield codes.CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix)
 
 
 def lift_off(design: DiscCamDesign) -> Iterator[Check]:
@@ -147,11 +150,15 @@ def lift_off(design: DiscCamDesign) -> Iterator[Check]:
         return
     speed = closing.lift_off_speed
     if speed is None:
-        yield LIFT_OFF.check("pass", "no inertia ever unloads the follower", None, spec.speed, "1/min")
+        yield LIFT_OFF.check("pass", "no speed lifts the follower off its cam", None, spec.speed, "1/min")
         return
     status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
-    text = f"the follower leaves its cam at {speed:.6g} 1/min, at cam angle {math.degrees(found.place):.5g} deg"
+    fix = ""
     if status != "pass":
-        more = safely_above(closing.preload_for(_RESERVE * closing.speed), 5)
-        text += f": raise spring.preload to {more} for a tenth of speed in reserve, or lower the speed"
-    yield LIFT_OFF.check(status, text, speed, spec.speed, "1/min")
+        more = safely_above(closing.preload_for(_RESERVE * closing.speed))
+        fix = f"raise spring.preload to {more} N (10 % speed margin)"
+    at = f"cam angle {short(math.degrees(found.place))} deg"
+    most = _RESERVE * spec.speed
+    yield LIFT_OFF.check(
+        status, "lift-off speed of the follower", speed, spec.speed, "1/min", recommended=most, at=at, fix=fix
+    )

@@ -66,7 +66,7 @@ class DiscCamLoads(CamLoadsDesign):
     def given_speed(self) -> float:
         """Speed of the cam [1/min]."""
         if self.spec.speed is None:
-            raise MissingSection("`loads` needs the speed of the cam: give speed", key="speed")
+            raise MissingSection("`loads` needs the speed of the cam", key="speed", fix="give speed")
         return self.spec.speed
 
     @cached_property
@@ -88,8 +88,8 @@ class DiscCamLoads(CamLoadsDesign):
 
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and self.spec.spring is None:
-            message = "without a mass, a spring or a force there is no load: give follower.mass or spring"
-            raise MissingSection(message, key="follower")
+            message = "without a mass, a spring or a force there is no load"
+            raise MissingSection(message, key="follower", fix="give follower.mass or spring")
         made = Machine(
             self.moving, self.masses, sources, gravity_of(self.section), self.speed, self.turns, self.friction,
             tuple(self.own_joints),

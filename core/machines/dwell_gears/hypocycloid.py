@@ -60,8 +60,8 @@ class HypocycloidSlider:
                 else ""
             )
             raise NoSolution(
-                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.9g} mm away from the slide "
-                f"line: make it longer than that{usual}"
+                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.6g} mm away from the slide line",
+                fix=f"make it longer than that{usual}",
             )
 
     @cached_property
@@ -220,7 +220,7 @@ class HypocycloidSlider:
                 edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
                 return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
             low, high = min(low, value), max(high, value)
-        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole turn: ask for less")
+        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole turn", fix="ask for less")
 
 
 def require_cusps(planet_radius: float, cusps: int) -> None:
@@ -235,8 +235,11 @@ def require_cusps(planet_radius: float, cusps: int) -> None:
         raise NoSolution(f"planet radius is {planet_radius:g} mm; it must be positive and finite")
     if cusps < 3:
         raise NoSolution(
-            f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight line, with 1 it "
-            "stands: take 3 times or more"
+            (
+                f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
+                "line, with 1 it stands"
+            ),
+            fix="take 3 times or more",
         )
 
 
@@ -281,8 +284,8 @@ def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None)
     y, rise = _point(planet_radius, cusps, half).imag, _advance(planet_radius, cusps, half)
     if rise <= 0.0 or half <= 0.0:
         raise NoSolution(
-            f"no circle touches the arc over {math.degrees(2.0 * half):.6g} deg of the carrier: take at most the "
-            f"whole arc, {360.0 / cusps:.6g} deg"
+            f"no circle touches the arc over {math.degrees(2.0 * half):.6g} deg of the carrier",
+            fix=f"take at most the whole arc, {360.0 / cusps:.6g} deg",
         )
     return (rise * rise + y * y) / (2.0 * rise)
 

@@ -10,9 +10,10 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, either, up
-from gearlink.core.base.report import Check, Remedy, Table
+from gearlink.core.base.report import Check, Remedy, Shown, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
+from gearlink.core.base.wording import short
 from gearlink.core.machines.dwell_gears import hypocycloid, hypocycloid_rod
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
@@ -183,9 +184,12 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if ring % planet:
             near = max(3, round(ring / planet))
             raise NoSolution(
-                f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close in one turn "
-                f"of the carrier; take a whole multiple, for example {near * planet}",
+                (
+                    f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close "
+                    "in one turn of the carrier"
+                ),
                 key="gears.ring",
+                fix=f"take a whole multiple, for example {near * planet}",
             )
         with at_key("gears.ring"):
             hypocycloid.require_cusps(self.point_radius, ring // planet)
@@ -405,12 +409,15 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if tolerance is None or reached is None:
             return
         wanted, found = math.degrees(self.dwell_carrier_angle), math.degrees(reached)
-        text = f"the slider stays within +-{tolerance:g} mm for {found:.6g} deg of the carrier, {wanted:.6g} deg wanted"
-        if found >= wanted - 1e-9:
-            yield DWELL_QUALITY.check("pass", text, found, wanted, "deg")
-            return
-        text += f"; over that angle it moves {self.dwell_ripple:.6g} mm"
-        yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
+        met = found >= wanted - 1e-9
+        aside = f"within +-{short(tolerance)} mm"
+        if not met:
+            aside += f"; the slider moves {short(self.dwell_ripple)} mm over the required angle"
+        what, fix = "dwell of the slider", "allow a larger dwell.tolerance"
+        shown = Shown(found, min(wanted, found) if met else wanted, "deg", ">=")
+        yield DWELL_QUALITY.check(
+            "pass" if met else "fail", what, found, wanted, "deg", shown=shown, aside=aside, fix=fix
+        )
 
     def _arm_quality(self) -> Iterator[Check]:
         asked, reached, tolerance = self.spec.dwell.angle, self.tolerance_dwell_angle, self.spec.dwell.tolerance

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, osculating, tangent_circle, widest_offset
 from gearlink.core.numerics.roots import maximum
 
@@ -93,8 +94,11 @@ def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: f
     """Rod of the greatest quality, sought over its curvature 1/L from well below to well above the named circles."""
     if angle is not None and not 0.0 < angle <= 2.0 * math.pi / cusps * (1.0 + 1e-12):
         raise NoSolution(
-            f"the dwell of {math.degrees(angle):.6g} deg is not on one arc: ask for more than 0 and at most "
-            f"{360.0 / cusps:.6g} deg of the carrier, or for the widest dwell of a tolerance"
+            f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
+            fix=(
+                f"ask for more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
+                "widest dwell of a tolerance"
+            ),
         )
     named = (tangent_circle(radius, cusps, angle), osculating(radius, cusps))
     shortest = max(0.7 * min(named), 1.001 * widest_offset(radius, cusps))

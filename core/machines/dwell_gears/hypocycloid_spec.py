@@ -44,7 +44,7 @@ class Rod(Spec):
         if self.length is None and self.rule is None:
             raise PydanticCustomError("GL106", "give length or rule", {"key": "rule"})
         if self.length is not None and self.rule is not None:
-            raise PydanticCustomError("GL111", "length and rule exclude each other: give one", {"key": "rule"})
+            raise PydanticCustomError("GL111", "length and rule exclude each other\ngive one", {"key": "rule"})
         return self
 
 
@@ -120,7 +120,7 @@ class HypocycloidDwellSpec(DrivenSpec):
             raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})
         if self.rod is not None and self.target is not None:
             raise PydanticCustomError(
-                "GL111", "rod and target exclude each other: leave rod out to have it found", {"key": "rod"}
+                "GL111", "rod and target exclude each other\nleave rod out to have it found", {"key": "rod"}
             )
         wants_tolerance = self.target is not None and self.target.quality == "widest-dwell"
         if wants_tolerance and self.dwell.tolerance is None:

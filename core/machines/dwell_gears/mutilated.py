@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import amount, short
 
 LEAST_DRIVEN, MOST_DRIVEN = 17, 120
 
@@ -54,8 +54,11 @@ def teeth_for_times(
     if not found:
         of = f"{driven} teeth" if driven is not None else f"{LEAST_DRIVEN} to {MOST_DRIVEN} teeth"
         raise NoSolution(
-            f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.9g')} in {share:.6g} of a cycle with a "
-            f"wheel of at most {most_teeth} teeth: raise most_teeth, take fewer groups, or another driven_turn"
+            (
+                f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.9g')} in {share:.6g} "
+                f"of a cycle with a wheel of at most {most_teeth} teeth"
+            ),
+            fix="raise most_teeth, take fewer groups, or another driven_turn",
         )
     _, full, n, z = min(found)
     return full, n, z, z // math.gcd(z, n)
@@ -108,8 +111,9 @@ class MutilatedGear:
         most = (self.full_teeth - 1) // self.groups
         remedy = f"at most {_teeth(most)} in a group" if most else f"fewer than {amount(self.full_teeth, 'group')}"
         raise NoSolution(
-            f"{amount(self.groups, 'group')} of {_teeth(self.group_teeth)} would fill the wheel of "
-            f"{_teeth(self.full_teeth)}, so that the driven gear never stands: {remedy}, or more full teeth than {used}"
+            f"{amount(self.groups, 'group')} of {_teeth(self.group_teeth)} fill the wheel of "
+            f"{_teeth(self.full_teeth)}: the driven gear never stops",
+            fix=f"take {remedy}, or more full teeth than {used}",
         )
 
     def _require_locking(self) -> None:
@@ -118,9 +122,11 @@ class MutilatedGear:
         needed = self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
         step = self.driven_teeth // math.gcd(self.driven_teeth, self.stops)
         raise NoSolution(
-            f"a group of {_teeth(self.group_teeth)} turns the driven gear of {self.driven_teeth} by "
-            f"{self.group_teeth / self.driven_teeth:.6g} turn, which does not lead from one of its {self.stops} "
-            f"locking arcs to another: take {amount(needed, 'stop')}, or a multiple of {_teeth(step)} in a group"
+            (
+                f"{_teeth(self.group_teeth)} advance the driven gear {short(self.group_teeth / self.driven_teeth)} "
+                f"revolutions; it must stop at a locking arc ({self.stops} of them)"
+            ),
+            fix=f"set gears.group_teeth to a multiple of {step}, or take {amount(needed, 'stop')}",
         )
 
     @property

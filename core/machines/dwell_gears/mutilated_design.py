@@ -10,9 +10,10 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, down, either, up
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Shown, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
+from gearlink.core.base.wording import short
 from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
 from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.machines.dwell_gears.mutilated import MutilatedGear, teeth_for_times
@@ -298,41 +299,43 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         for name, asked, got in pairs:
             off = got / asked - 1.0
             bad = abs(off) > target.tolerance
-            text = f"the {name} takes {got:.6g} input turns, {asked:.6g} were asked for"
-            if bad:
-                text += f", {100.0 * off:.3g} % off: raise target.most_teeth, or leave gears.driven out"
-            yield TARGET.check("fail" if bad else "pass", text, abs(off), target.tolerance)
+            yield TARGET.check(
+                "fail" if bad else "pass",
+                f"deviation of the {name} from that required",
+                abs(off),
+                target.tolerance,
+                shown=Shown(100.0 * abs(off), 100.0 * target.tolerance, "%", "<="),
+                aside=f"{short(got)} input revolutions, required {short(asked)}",
+                fix="raise target.most_teeth",
+            )
 
     def check_start_shock(self) -> Check:
         """GL310: the driven gear starts at once at full speed, and the model ends at the pitch circles."""
         ratio = self.driven_speed_ratio
-        text = (
-            f"the driven gear starts and stops at once with {ratio:.6g} of the input speed; pitch circles do not show "
-            "the cut tips of the first and last tooth, nor the locking arcs: draw them, and add entry cams or springs"
-        )
-        if self.hardest_start is not None:
-            text += f"; {self._start_in_words(self.hardest_start)}"
-        return START_SHOCK.check("warn", text, ratio, 0.0)
+        what = "speed ratio at which the driven gear starts and stops at once"
+        note = "" if self.hardest_start is None else self._start_in_words(self.hardest_start)
+        fix = "add entry cams or springs; pitch circles do not show locking arcs and cut tips"
+        return START_SHOCK.check("warn", what, ratio, 0.0, fix=fix, note=note)
 
     def _start_in_words(self, start: Start) -> str:
         if abs(start.rocker_speed) <= _AT_REST * self.driven_speed_ratio:
             which = "" if self.cycles_to_repeat == 1 else " in every cycle"
             return f"the rocker itself starts from rest, at a dead centre{which}"
-        text = f"the rocker starts with {start.rocker_speed:.4g} of the input speed"
+        text = f"the rocker starts with {short(start.rocker_speed)} of the input speed"
         if self.cycles_to_repeat == 1:
-            return f"{text}: leave start_angle out, at a dead centre it would start from rest"
+            return f"{text}; without start_angle it starts from rest, at a dead centre"
         return (
-            f"{text} where the crank stands at {math.degrees(start.crank_angle) % 360.0:.6g} deg: only a group of "
-            f"{self.driven_teeth} teeth, a whole turn of the driven gear, starts from a dead centre every time"
+            f"{text} at crank angle {short(math.degrees(start.crank_angle) % 360.0)} deg; only a group of "
+            f"{self.driven_teeth} teeth starts from a dead centre every time"
         )
 
     def check_gap(self) -> Check:
         """GL316: how long no tooth is in contact."""
         free, subject = (
             self.mutilated.gap - self.mesh.contact_ratio,
-            "the way of the wheel without contact [pitches]",
+            "travel of the wheel without contact, in pitches",
         )
-        remedy = "the locking arc needs it: take fewer teeth in a group or more full teeth"
+        remedy = "take fewer teeth in a group: the locking arc needs it"
         return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -48,7 +48,7 @@ class MutilatedGearLoads(LoadsDesign):
     def linkage(self) -> FourBar:
         """The four-bar on the driven shaft."""
         if self.design.linkage is None:
-            raise MissingSection("`loads` needs the four-bar on the driven shaft: give links", key="links")
+            raise MissingSection("`loads` needs the four-bar on the driven shaft", key="links", fix="give links")
         return self.design.linkage
 
     @property
@@ -68,11 +68,11 @@ class MutilatedGearLoads(LoadsDesign):
         turns = (cycles * self.design.cycles_to_repeat).numerator
         if not cycles or turns > _MOST_MOTIONS * cycles:
             raise NoSolution(
-                f"the linkage starts more than {_MOST_MOTIONS} times until it and the input come home together: round "
-                "the reduction, or give a larger one",
+                f"the motion repeats only after more than {_MOST_MOTIONS} starts: not computed",
                 key="reduction",
+                fix="take a reduction of small whole numbers",
             )
-        return homecoming(turns, "input and linkage come home together", "reduction", "round the reduction")
+        return homecoming(turns, "input and linkage return to their start", "reduction", "round the reduction")
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:

@@ -128,7 +128,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
         if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
             raise PydanticCustomError(
-                "GL111", "D_radius goes with the four-bar: give links, or leave it out", {"key": "shafts.D_radius"}
+                "GL111", "D_radius goes with the four-bar\ngive links, or leave it out", {"key": "shafts.D_radius"}
             )
         return self
 

@@ -19,7 +19,7 @@ from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
@@ -312,8 +312,11 @@ def five_bar_for_positions(
     found = [bar for candidate in _candidates(start, positions) for bar in _moving(candidate, positions)]
     if not found:
         raise NoSolution(
-            f"no five-bar was found that meets the {len(positions)} positions in one unbroken motion: leave one out, "
-            "bring them nearer to each other, or start from other links (coupler, follower, output, frame, phase)"
+            f"no five-bar was found that meets the {len(positions)} positions in one unbroken motion",
+            fix=(
+                "leave one out, bring them nearer to each other, or start from other links (coupler, "
+                "follower, output, frame, phase)"
+            ),
         )
     return max(found, key=lambda bar: _quality(bar, positions, transmission_angle))
 
@@ -321,7 +324,8 @@ def five_bar_for_positions(
 def _require(positions: Positions) -> None:
     if not 2 <= len(positions) <= MOST_POSITIONS:
         raise NoSolution(
-            f"{amount(len(positions), 'position')}: give two to {MOST_POSITIONS}, as many as there are links to choose"
+            f"{amount(len(positions), 'position')}",
+            fix=f"give two to {MOST_POSITIONS}, as many as there are links to choose",
         )
     for (one, _), (other, _) in pairwise(positions):
         if not one < other:
@@ -528,9 +532,9 @@ class FiveBarParts(Meshed):
         fixed = given is not None and self.spec.gears.profile_shift is None
         if fixed and abs(given - distance) > _LINK_TOLERANCE * distance:
             raise NoSolution(
-                f"{name} {given:.9g} mm is not the centre distance of the gears, {distance:.9g} mm: leave it out, or "
-                "change module or teeth",
+                f"{name} {given:.6g} mm is not the centre distance of the gears, {distance:.6g} mm",
                 key=f"links.{name}",
+                fix="leave it out, or change module or teeth",
             )
         return distance
 
@@ -542,9 +546,12 @@ class FiveBarParts(Meshed):
         frame, (first, second) = links.frame or 0.0, self.center_distance
         if not abs(first - second) < frame < first + second:
             raise NoSolution(
-                f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the frame must "
-                f"lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}: change the idler",
+                (
+                    f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the "
+                    f"frame must lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}"
+                ),
                 key="links.frame",
+                fix="change the idler",
             )
         return frame
 
@@ -1021,32 +1028,27 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         bar = self.bar
         links = (bar.coupler, bar.follower) if self.is_path else (bar.follower, bar.output)
         room = min(sum(links) - self.span_max, self.span_min - abs(links[0] - links[1]))
-        low, high = math.degrees(self.span_min_at), math.degrees(self.span_max_at)
-        text = (
-            f"the five-bar stays closed: its dyad spans {self.span_min:.6g} mm (at {low:.5g} deg) to "
-            f"{self.span_max:.6g} mm (at {high:.5g} deg) of the possible "
-            f"{abs(links[0] - links[1]):.6g} to {sum(links):.6g} mm"
-        )
-        return CLOSURE.check("pass", text, room, 0.0, "mm")
+        possible = f"{short(abs(links[0] - links[1]))} to {short(sum(links))} mm"
+        aside = f"dyad spans {short(self.span_min)} to {short(self.span_max)} mm of {possible}"
+        return CLOSURE.check("pass", "margin to the limits of the dyad", room, 0.0, "mm", aside=aside)
 
     def check_target(self) -> Iterator[Check]:
         """GL307, where the file asks for points (with a tolerance) or positions."""
         if self.position_errors is not None:
             worst = math.degrees(max(self.position_errors, key=abs))
-            yield target_check("the output angle of a position", worst, _POSITION_TOLERANCE, "deg")
+            yield target_check("the output angle from a position", worst, _POSITION_TOLERANCE, "deg")
         asked = None if self.spec.target is None else self.spec.target.function
         if asked is not None and asked.tolerance is not None and self.structural_error is not None:
             yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg")
         target, worst_point = self.spec.target, self.path_deviation_max
         if worst_point is not None and target is not None and target.tolerance is not None:
-            yield target_check("a point of the path", worst_point, target.tolerance, "mm")
+            yield target_check("the path from a point", worst_point, target.tolerance, "mm")
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: input and output gear with an idler between them."""
         for pair in self.layout.gear_pairs:
-            tips = f"{pair.one.outer:.6g} and {pair.other.outer:.6g}"
-            why = f"their axes are {pair.distance:.6g} mm apart, their tips reach {tips} mm"
-            remedy = "lengthen the frame, as far as the idler reaches, or take smaller gears"
+            why = f"axes {short(pair.distance)} mm apart"
+            remedy = "lengthen the frame, as far as the idler reaches"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
@@ -1057,8 +1059,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
-        place = math.degrees(self.min_transmission_angle_at)
-        remedy = (
-            f"at input angle {place:.5g} deg; lengthen the two links of the dyad, or bring them nearer to each other"
+        limit, at = (
+            self.spec.limits.transmission_angle,
+            f"input angle {short(math.degrees(self.min_transmission_angle_at))} deg",
         )
-        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+        return transmission_check(self.min_transmission_angle, limit, "lengthen the two links of the dyad", at=at)

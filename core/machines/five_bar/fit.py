@@ -229,7 +229,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
         thesis 2.2.1, figure 2-1; own derivation
     """
     if targets.size < 3:
-        raise NoSolution(f"{amount(targets.size, 'point')}: give at least three for a path")
+        raise NoSolution(f"{amount(targets.size, 'point')}", fix="give at least three for a path")
     scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
     if not scale > 0.0:
         raise NoSolution("all points are the same: a path needs at least two different ones")
@@ -241,8 +241,8 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
         raise NoSolution(
-            "none of the starts closes over a whole turn with the transmission angle that is asked for: start from "
-            "links that do (longer coupler and follower), or lower limits.transmission_angle"
+            ("none of the starts closes over a whole turn with the transmission angle that is asked for"),
+            fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return min(found + given, key=lambda fit: fit.rms)
 

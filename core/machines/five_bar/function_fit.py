@@ -83,8 +83,8 @@ def fit_function(
             break
     if best is None:
         raise NoSolution(
-            "no five-bar was found that generates this function with the transmission angle that is asked for: lower "
-            "limits.transmission_angle, take less input_swing or output_swing, or other gears"
+            ("no five-bar was found that generates this function with the transmission angle that is asked for"),
+            fix="lower limits.transmission_angle, take less input_swing or output_swing, or other gears",
         )
     return replace(best, rounds=tuple(rounds))
 

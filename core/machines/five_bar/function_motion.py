@@ -145,15 +145,19 @@ class FunctionFiveBar:
         longest, shortest = self.follower + self.output, abs(self.follower - self.output)
         if greatest >= longest:
             raise NoSolution(
-                f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are {greatest:.9g} mm apart, "
-                f"follower and output together only {longest:.9g} mm; lengthen them by more than "
-                f"{safely_above(greatest - longest, 4)} mm together{_or('shorten the coupler', free)}"
+                (
+                    f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are "
+                    f"{greatest:.6g} mm apart, follower and output together only {longest:.6g} mm"
+                ),
+                fix=f"lengthen them by more than {safely_above(greatest - longest, 4)} mm together{_or('shorten the coupler', free)}",
             )
         if least <= shortest:
             raise NoSolution(
-                f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.9g} mm apart, "
-                f"follower and output differ by {shortest:.9g} mm; make them more equal by more than "
-                f"{safely_above(shortest - least, 4)} mm{_or('lengthen the frame', free)}"
+                (
+                    f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.6g} "
+                    f"mm apart, follower and output differ by {shortest:.6g} mm"
+                ),
+                fix=f"make them more equal by more than {safely_above(shortest - least, 4)} mm{_or('lengthen the frame', free)}",
             )
         return (low, least), (high, greatest)
 

@@ -43,7 +43,7 @@ class FiveBarLoads(LoadsDesign):
     def own_links(self) -> tuple[str, ...]:
         """The links that this design has."""
         if not self.has_idler and self.section.links.idler is not None:
-            raise NoSolution("this five-bar has no idler: leave its mass out", key="loads.links.idler")
+            raise NoSolution("this five-bar has no idler", key="loads.links.idler", fix="leave its mass out")
         return self.links if self.has_idler else self.links[:-1]
 
     @property
@@ -64,7 +64,8 @@ class FiveBarLoads(LoadsDesign):
             bar.closure(0.0, 2.0 * math.pi * self.turns, free=False)
         except NoSolution as error:
             message = f"loads are those of the whole period, whatever the range: {error.message}"
-            raise NoSolution(message, key="range" if self.spec.range is not None else "links") from error
+            key = "range" if self.spec.range is not None else "links"
+            raise NoSolution(message, key=key, fix=error.fix) from error
         return bar
 
     @property

@@ -116,15 +116,25 @@ class PathFiveBar:
         turn = 360 * self.period_turns
         if greatest >= longest:
             raise NoSolution(
-                f"the five-bar opens: at input angle {math.degrees(high):.6g} deg (of {turn}) B and D are "
-                f"{greatest:.9g} mm apart, coupler and follower together only {longest:.9g} mm; lengthen them "
-                f"by more than {safely_above(greatest - longest, 4)} mm together, or shorten input or output"
+                (
+                    f"the five-bar opens: at input angle {math.degrees(high):.6g} deg (of {turn}) B and D are "
+                    f"{greatest:.6g} mm apart, coupler and follower together only {longest:.6g} mm"
+                ),
+                fix=(
+                    f"lengthen them by more than {safely_above(greatest - longest, 4)} mm together, or "
+                    "shorten input or output"
+                ),
             )
         if least <= shortest:
             raise NoSolution(
-                f"the five-bar opens: at input angle {math.degrees(low):.6g} deg (of {turn}) B and D are {least:.9g} "
-                f"mm apart, coupler and follower differ by {shortest:.9g} mm; make them more equal by more than "
-                f"{safely_above(shortest - least, 4)} mm, or shorten input or output"
+                (
+                    f"the five-bar opens: at input angle {math.degrees(low):.6g} deg (of {turn}) B and D are "
+                    f"{least:.6g} mm apart, coupler and follower differ by {shortest:.6g} mm"
+                ),
+                fix=(
+                    f"make them more equal by more than {safely_above(shortest - least, 4)} mm, or shorten "
+                    "input or output"
+                ),
             )
 
     def min_transmission_angle(self) -> tuple[float, float]:

@@ -124,7 +124,7 @@ class WantedFunction(Spec):
         if (self.name == "power") != (self.exponent is not None):
             raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
         if self.x[0] == self.x[1]:
-            raise PydanticCustomError("GL111", "x is the same at both ends: give an interval", {"key": "x[1]"})
+            raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
         if self.output_swing == 0.0:
             raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
         return self

@@ -77,8 +77,8 @@ def fit_timed(
             break
     if best is None:
         raise NoSolution(
-            "none of the starts closes over a whole turn with the transmission angle that is asked for: start from "
-            "links that do (longer coupler and follower), or lower limits.transmission_angle"
+            ("none of the starts closes over a whole turn with the transmission angle that is asked for"),
+            fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return TimedFit(best.fit, best.first_angle, tuple(rounds))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.report import Check
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import codes
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance.bodies import LEAST_SHAFT_MODULES
@@ -37,13 +37,17 @@ def crank_axes(design: FlatbedPress) -> Iterator[Check]:
     for name, own, other, part in cranks:
         reach = part.double_crank.crank
         gap = apart - reach - least
-        text = f"the crank {name} ({reach:g} mm) keeps {gap:.6g} mm from the thinnest shaft at {other}"
-        if gap >= 0.0:
-            yield SHAFT_CLEARANCE.check("pass", text, gap, 0.0, "mm", name=_NAME)
-            continue
-        text = f"the crank {name} ({reach:g} mm about {own}) passes the axis {other}, {apart:.6g} mm away: that shaft"
-        text += " must end before the plane of the crank (be overhung), or raise input_gears.horizontal_distance"
-        yield SHAFT_CLEARANCE.check("warn", text, gap, 0.0, "mm", name=_NAME)
+        yield SHAFT_CLEARANCE.check(
+            "pass" if gap >= 0.0 else "warn",
+            f"crank {name} to the minimum shaft at {other}",
+            gap,
+            0.0,
+            "mm",
+            name=_NAME,
+            overlap=f"overlap of the crank {name} and the minimum shaft at {other}",
+            aside=f"axes {short(apart)} mm apart",
+            fix=f"end the shaft at {other} before the plane of the crank (overhung)",
+        )
 
 
 def return_overlap(design: FlatbedPress) -> Iterator[Check]:
@@ -72,8 +76,7 @@ def return_overlap(design: FlatbedPress) -> Iterator[Check]:
         beneath = places[(passed > 0.0) & (passed < length)]
         if beneath.size:
             low, high = (math.degrees(end) % 360.0 for end in beneath[[0, -1]])
-            text = f"the cylinder makes {amount(turns, 'turn', spec='g')} per sheet: its print passes the forme again"
-            text += f" between input angles {low:.4g} and {high:.4g} deg: lift the cylinder there, or take a"
-            text += " cylinder.gear_ratio of 1"
-            yield codes.REGISTER.check("warn", text, float(turns), 1.0)
+            what, aside = "revolutions of the cylinder per sheet", "the printed area passes the forme again"
+            at, fix = f"input angles {short(low)} to {short(high)} deg", "set cylinder.gear_ratio to 1"
+            yield codes.REGISTER.check("warn", what, float(turns), 1.0, aside=aside, at=at, fix=fix)
             return

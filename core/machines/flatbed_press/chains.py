@@ -13,7 +13,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.loop import rocker_and_rate, rocker_rate
@@ -278,10 +280,19 @@ def _require_drag_link(linkage: FourBar, chain: str) -> None:
     kind = linkage.kind()
     if kind == "drag-link":
         return
-    lengths = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
+    shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
+    excess = math.fsum((shortest, longest, -p, -q))
+    wrong, changes = [], []
+    if excess >= 0.0:
+        wrong.append(f"{short(shortest)} + {short(longest)} {'=' if excess == 0.0 else '>'} {short(p)} + {short(q)}")
+        by = f", by more than {safely_above(excess)} mm" if excess > 0.0 else ""
+        changes.append(f"shorten the longest link, {short(longest)} mm{by}")
+    if linkage.frame > shortest:
+        wrong.append(f"frame {short(linkage.frame)} mm is not the shortest link")
+        changes.append("make the frame the shortest link")
+    found = "the four links cannot be assembled" if kind == "impossible" else f"a {kind}"
     with at_key(f"{chain}.double_crank"):
         raise NoSolution(
-            f"the {chain} chain is a {kind}, but both its cranks must turn fully (drag link): the frame "
-            f"{linkage.frame:g} mm must be the shortest link, and shortest + longest = {lengths[0] + lengths[3]:g} mm "
-            f"less than the other two together, {lengths[1] + lengths[2]:g} mm"
+            f"{chain} drive: {found}, not a drag link, both of whose cranks turn fully ({', '.join(wrong)})",
+            fix=", and ".join(changes),
         )

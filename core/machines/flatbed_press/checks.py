@@ -23,9 +23,9 @@ from gearlink.core.base.remedies.ways import (
     shared,
     up,
 )
-from gearlink.core.base.report import Check, Rule, safely_above
+from gearlink.core.base.report import Check, Rule, Shown, Status, safely_above, safely_below
 from gearlink.core.base.spec_paths import changed
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import codes
 from gearlink.core.machines.flatbed_press.bodies import return_overlap
 from gearlink.core.machines.flatbed_press.zone import zone_end
@@ -56,11 +56,11 @@ def transmission_angle(design: FlatbedPress) -> Iterator[Check]:
         yield transmission_check(
             angle,
             limit,
-            f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer coupler)",
-            f"the least transmission angle of the {chain} chain",
+            f"shorten {chain}.double_crank.frame, or lengthen its coupler",
+            f"minimum transmission angle of the {chain} drive",
         )
-    subject = "the least angle between the rod EF and the normal of its slide line"
-    yield transmission_check(motion.min_rod_angle, limit, "lengthen bed.rod, or bring the slide line nearer", subject)
+    subject = "minimum angle of the rod EF to the normal of its slide line"
+    yield transmission_check(motion.min_rod_angle, limit, "lengthen bed.rod", subject)
 
 
 def sync_speed(design: FlatbedPress) -> Iterator[Check]:
@@ -69,22 +69,24 @@ def sync_speed(design: FlatbedPress) -> Iterator[Check]:
     ahead = design.motion.compensation
     if design.spec.cam is None and abs(ahead) > _ROUNDING * design.motion.zone_length:
         side = "ahead of" if ahead > 0.0 else "behind"
-        text = f"over the zone the bed runs {side} the cylinder by {abs(ahead):.6g} mm, and no cam makes that good"
-        yield codes.SYNC_SPEED.check("warn", f"{text}: give the section cam", abs(ahead), 0.0, "mm")
+        what = f"travel of the bed {side} the cylinder over the zone, without a compensation cam"
+        yield codes.SYNC_SPEED.check("warn", what, abs(ahead), 0.0, "mm", fix="give the section cam")
 
 
 def _start_speed(design: FlatbedPress) -> Check:
     """What the speeds differ by at the start of the zone, where a jump would be a blow."""
     gap, cylinder = _speed_gap(design)
     share, limit = abs(gap / cylinder), 1e-3
-    text = f"at the start of the zone bed and cylinder differ by {gap * design.motion.input_speed:.3g} mm/s"
-    if share < _ROUNDING:
-        text = "at the start of the zone bed and cylinder run equally fast"
-    elif share > limit:
-        text += f", {100 * share:.3g} % of the speed: start the zone where the speeds are equal (leave sync.start out)"
-        if design.spec.cam is not None:
-            text += ", or take the difference up before the zone (cam.lead_in)"
-    return codes.SYNC_SPEED.check("fail" if share > limit else "pass", text, share, limit)
+    status: Status = "fail" if share > limit else "pass"
+    return codes.SYNC_SPEED.check(
+        status,
+        "speed difference of bed and cylinder at the start of the zone",
+        share,
+        limit,
+        shown=Shown(100.0 * share if share >= _ROUNDING else 0.0, 100.0 * limit, "%", "<="),
+        aside=f"{short(abs(gap) * design.motion.input_speed, 3)} mm/s" if share >= _ROUNDING else "",
+        fix="remove sync.start, so that the zone starts where the speeds are equal",
+    )
 
 
 def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
@@ -107,8 +109,9 @@ def sync_length(design: FlatbedPress) -> Iterator[Check]:
     yield from _turning_back(design)
     asked, room = design.spec.sync.print_length, math.tau * design.spec.cylinder.radius
     if asked > room:
-        text = f"the print of {asked:g} mm is longer than the cylinder's circumference, {room:.6g} mm: print less"
-        yield codes.SYNC_LENGTH.check("fail", f"{text}, or enlarge cylinder.radius", room, asked, "mm")
+        what, aside = "circumference of the cylinder", "print length"
+        fix = f"set sync.print_length to at most {safely_below(room)} mm"
+        yield codes.SYNC_LENGTH.check("fail", what, room, asked, "mm", aside=aside, fix=fix)
 
 
 def _turning_back(design: FlatbedPress) -> Iterator[Check]:
@@ -116,30 +119,30 @@ def _turning_back(design: FlatbedPress) -> Iterator[Check]:
     turning = motion.bed_turns_back
     if turning is not None:
         at, end = (math.degrees(angle) for angle in (turning, motion.sync_end))
-        text = f"the bed turns back at input angle {at:.6g} deg, within the zone, which ends at {end:.6g} deg: end it"
-        yield codes.SYNC_LENGTH.check("fail", f"{text} before (sync.length, or sync.end)", at, end, "deg")
+        what, aside, fix = "input angle at which the bed reverses", "end of the zone", "reduce sync.length"
+        yield codes.SYNC_LENGTH.check("fail", what, at, end, "deg", aside=aside, fix=fix)
 
 
 def _zone_length(design: FlatbedPress) -> Check:
     length, asked = design.motion.zone_length, design.spec.sync.print_length
     if asked == 0.0:
-        text = f"the zone is {length:.6g} mm long; no print_length is given"
-        return codes.SYNC_LENGTH.check("pass", text, length, 0.0, "mm")
+        what, aside = "length of the synchronous zone", "no print_length given"
+        return codes.SYNC_LENGTH.check("pass", what, length, 0.0, "mm", shown=Shown(length, None, "mm"), aside=aside)
     if design.spec.sync.end is None:
         remedy = "raise sync.length"
     else:
-        remedy = "raise sync.end, or leave it out and give sync.length"
-    return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
+        remedy = "raise sync.end"
+    return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "travel of the cylinder in the zone", remedy)
 
 
 def register(design: FlatbedPress) -> Iterator[Check]:
     """GL506: the cylinder makes whole turns per sheet, and of several prints in one alone."""
     ratio = design.spec.cylinder.ratio
     off = abs(ratio - max(1, round(ratio)))
-    text = f"the cylinder makes {amount(ratio, 'turn', spec='g')} per sheet"
-    if off > 1e-9:
-        text += ", so it does not come home: make cylinder.gear_ratio a whole number"
-    yield codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)
+    shown = Shown(ratio, None, "per sheet")
+    what, fix = "revolutions of the cylinder", f"set cylinder.gear_ratio to {max(1, round(ratio))}"
+    aside = "a whole number is required" if off > 1e-9 else ""
+    yield codes.REGISTER.check("fail" if off > 1e-9 else "pass", what, off, 1e-9, shown=shown, aside=aside, fix=fix)
     yield from return_overlap(design)
 
 
@@ -152,10 +155,10 @@ def pressure_angle(design: FlatbedPress) -> Iterator[Check]:
 
     limit = design.spec.limits.pressure_angle
     if design.cams.refusal is not None:
-        yield impossible("no cam pair can bear this compensation", design.cams.refusal, limit)
+        yield impossible("no cam pair is possible", design.cams.refusal, limit)
         return
     over = design.advises and max(cam.max_pressure_angle.value for cam in design.cams.discs) > math.radians(limit) > 0.0
-    remedy = f"{_larger(design, limit)}, or raise cam.return_angle" if over else ""
+    remedy = _larger(design, limit) if over else ""
     yield from pressure_angle_checks(design.cams.discs, limit, remedy)
 
 
@@ -173,7 +176,7 @@ def _with_base_radius(design: FlatbedPress, radius: float) -> str:
     """In words, the least base radius [mm], where a press with such a cam can be built."""
     if can_be_built(design.spec, (("cam.base_radius", radius),), greatest_length(design.spec)):
         return f"set cam.base_radius to at least {safely_above(radius)} mm"
-    return f"a cam.base_radius of {safely_above(radius)} mm would do, more than can be built: allow more"
+    return f"allow a larger pressure angle (a cam.base_radius of {safely_above(radius)} mm is more than can be built)"
 
 
 def cam_undercut(design: FlatbedPress) -> Iterator[Check]:
@@ -210,13 +213,13 @@ def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:
 
 def velocity_step(design: FlatbedPress) -> Check:
     """GL403 at every joint of the lift."""
-    remedy = "let the zone start where bed and cylinder have the same speed (leave sync.start out)"
+    remedy = "remove sync.start, so that the zone starts where the speeds are equal"
     return _steps(design, VELOCITY_STEP, "first", "mm/rad", "fail", remedy)
 
 
 def acceleration_step(design: FlatbedPress) -> Check:
     """GL404 at every joint of the lift."""
-    remedy = "a lead_in before the zone, transition quartic and return_law cycloidal take the jumps away"
+    remedy = "give a cam.lead_in before the zone, transition quartic and return_law cycloidal"
     return _steps(design, ACCELERATION_STEP, "second", "mm/rad^2", "warn", remedy)
 
 
@@ -234,7 +237,7 @@ def _steps(design: FlatbedPress, rule: Rule, derivative: str, unit: str, bad: An
 
 
 def _joint(joint: Joint) -> str:
-    return f"{joint.before}/{joint.after} at {math.degrees(joint.cam_angle):.5g} deg"
+    return f"the joint {joint.before}/{joint.after}, {short(math.degrees(joint.cam_angle))} deg"
 
 
 def constant_sum(design: FlatbedPress) -> Check:
@@ -245,10 +248,9 @@ def constant_sum(design: FlatbedPress) -> Check:
     radii = [np.abs(cam.points(theta)[0]) for cam in design.cams.discs]
     off = float(np.abs(radii[0] + radii[1] - distance).max())
     limit = 1e-9 * distance
-    text = f"the two pitch radii in contact add up to {distance:.6g} mm within {off:.2g} mm"
-    if off > limit:
-        text += ": the return cam's roller would pass the cam axis; raise cam.base_radius"
-    return CONSTANT_SUM.check("fail" if off > limit else "pass", text, off, limit, "mm")
+    what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
+    fix = "raise cam.base_radius: the return cam's roller passes the cam axis"
+    return CONSTANT_SUM.check("fail" if off > limit else "pass", what, off, limit, "mm", aside=aside, fix=fix)
 
 
 _LEAD_IN = 10.0

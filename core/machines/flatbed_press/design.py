@@ -49,7 +49,7 @@ def input_gears(design: FlatbedPress) -> Table:
     """The modules of ISO 54 about the file's own, each with as many teeth as fit."""
     gears = design.spec.input_gears
     if gears is None:
-        raise MissingSection("candidates are the input gears: give the section input_gears", key="input_gears")
+        raise MissingSection("candidates are the input gears", key="input_gears", fix="give the section input_gears")
     near = sorted({*MODULES, gears.module}, key=lambda module: abs(module / gears.module - 1.0))[:7]
     keys = {"input_gears.module": ("module", "mm")}
     rows, teeth = [(module,) for module in sorted(near)], {"teeth": lambda trial: trial.gear_pair.teeth[0]}
@@ -268,9 +268,9 @@ class PressMotion:
         if math.radians(given) <= self.sync_start:
             start = math.degrees(self.sync_start)
             raise NoSolution(
-                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg: set sync.end above "
-                f"{safely_above(start, 6)} deg, or leave it out and give sync.length",
+                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg",
                 key="sync.end",
+                fix=f"set sync.end above {safely_above(start)} deg, or leave it out and give sync.length",
             )
         return math.radians(given)
 
@@ -466,9 +466,9 @@ class PressCams(DiscCams):
             low, high = high, 2.0 * high
             if high > 1000.0 * (roller + self.follower_stroke):
                 raise NoSolution(
-                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm: raise "
-                    "cam.return_angle, or take a smaller roller",
+                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm",
                     key="cam.roller_radius",
+                    fix="raise cam.return_angle, or take a smaller roller",
                 )
         return high if high == low else bracketed_root(room, low, high)
 
@@ -797,8 +797,9 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         teeth = math.floor(distance / transverse * (1.0 + 1e-12))
         if teeth < 1:
             raise NoSolution(
-                f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm: make it smaller",
+                f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm",
                 key="input_gears.module",
+                fix="make it smaller",
             )
         with in_section("input_gears"):
             return pair_at(gears, (teeth, teeth), distance)

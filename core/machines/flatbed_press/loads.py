@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.base.errors import MissingSection
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import mechanism
 from gearlink.core.machines.flatbed_press.codes import PLACE
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
@@ -67,9 +68,8 @@ def cylinder_place(design: PressLoads) -> Iterator[Check]:
     for name, axis in at.axes.items():
         room = abs(at.cylinder - axis) - radius
         if room < 0.0:
-            text = f"with loads.cylinder_direction {direction:g} the cylinder reaches"
-            text += f" {-room:.5g} mm over the axis {name}: its shaft cannot pass there"
-            yield PLACE.check("warn", text, room, 0.0, "mm")
+            what, fix = f"overlap of the cylinder and the axis {name}", "turn loads.cylinder_direction"
+            yield PLACE.check("warn", what, room, 0.0, "mm", overlap=what, fix=fix)
 
 
 def _beside_bed(design: PressLoads, at: _Places, direction: float) -> Check:
@@ -77,19 +77,19 @@ def _beside_bed(design: PressLoads, at: _Places, direction: float) -> Check:
     of the cylinder, both run the same way."""
     radius = design.spec.cylinder.radius
     room = at.pitch_line - at.cylinder.real - radius
-    text = f"with loads.cylinder_direction {direction:g} the cylinder"
+    fix = _DRAWN if design.section.bed_side > 0 else _clear(design, at, direction)
+    what = "cylinder to the pitch line of the bed's rack"
+    shown: Shown | None = NO_NUMBER
     if at.cylinder.real >= at.pitch_line:
-        text += " lies on the side of the bed on which its surface runs against the bed's: "
+        what = "the surface of the cylinder runs against the bed"
     elif design.section.bed_side > 0:
         over = at.cylinder.real + radius > at.slide
-        text += f" lies on the side of the pinion{', over the slide line' if over else ''}: "
-    elif room < 0.0:
-        text += f" reaches {-room:.5g} mm through the pitch line of the bed's rack: "
+        what = f"the cylinder lies on the side of the pinion{', over the slide line' if over else ''}"
     else:
-        text += f" runs with the bed, {room:.5g} mm clear of the pitch line of its rack"
-        return PLACE.check("pass", text, room, 0.0, "mm")
-    help_ = _DRAWN if design.section.bed_side > 0 else _clear(design, at, direction)
-    return PLACE.check("warn", text + help_, room, 0.0, "mm")
+        shown = None
+    status: Status = "warn" if shown or room < 0.0 else "pass"
+    overlap = "overlap of the cylinder and the pitch line of the bed's rack"
+    return PLACE.check(status, what, room, 0.0, "mm", shown=shown, overlap=overlap, fix=fix)
 
 
 def _clear(design: PressLoads, at: _Places, direction: float) -> str:
@@ -98,10 +98,10 @@ def _clear(design: PressLoads, at: _Places, direction: float) -> str:
     n = at.cylinder.real - distance * math.cos(math.radians(direction))
     share = (at.pitch_line - design.spec.cylinder.radius - n) / distance
     if share < -1.0:
-        return f"no direction does, the gears are {distance:.5g} mm apart and {-share * distance:.5g} are needed"
+        return f"set the gears at least {safely_above(-share * distance)} mm apart"
     least = math.degrees(math.acos(share))
     low, high = math.ceil(10.0 * least) / 10.0, math.floor(10.0 * (360.0 - least)) / 10.0
-    return f"from {low:g} to {high:g} deg it runs with the bed, clear of its rack"
+    return f"set loads.cylinder_direction from {low:g} to {high:g} deg"
 
 
 def gear_direction(design: PressLoads) -> Iterator[Check]:
@@ -112,14 +112,9 @@ def gear_direction(design: PressLoads) -> Iterator[Check]:
     across, up = gears.horizontal_distance, bed.double_crank.frame - bed.offset
     wanted = math.degrees(math.atan2(across, up))
     off = min(abs(math.remainder(given - side * wanted, 360.0)) for side in (1.0, -1.0))
-    text = (
-        f"loads.gear_1_direction {given:g} is {off:.3g} deg from where the axes stand: horizontal_distance "
-        f"{across:g} mm, and G on the height of the slide line"
-    )
-    name = PLACE.checks[1]
-    if off > _NEAR:
-        text += f", is {wanted:.5g} deg, or {-wanted:.5g} deg as drawn"
-    yield PLACE.check("warn" if off > _NEAR else "pass", text, off, _NEAR, "deg", name=name, side="<=")
+    what, fix = "loads.gear_1_direction against the direction of the axes", f"set it to {short(wanted)} deg"
+    status: Status = "warn" if off > _NEAR else "pass"
+    yield PLACE.check(status, what, off, _NEAR, "deg", name=PLACE.checks[1], side="<=", fix=fix)
 
 
 _TURN = 2.0 * math.pi

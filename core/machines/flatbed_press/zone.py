@@ -50,12 +50,11 @@ def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = 
     end = forward_stroke_end(bed)
     root = _first_root(bed, cylinder, end)
     if root is None:
-        text = "bed and cylinder never have the same speed on the forward stroke, so there is no synchronous zone "
-        text += "without a jolt"
         shift = _shift_that_helps(bed, cylinder, end) if advise else ""
         if shift or not advise:
-            raise NoSolution(f"{text}: {shift}" if shift else text, key="cylinder.initial_crank_angle")
-        raise _sizes_that_help(text, bed, cylinder, end)
+            text = "bed and cylinder never have the same speed on the forward stroke: no synchronous zone"
+            raise NoSolution(text, key="cylinder.initial_crank_angle", fix=shift)
+        raise _sizes_that_help(bed, cylinder, end)
     return root
 
 
@@ -71,9 +70,9 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     most = cylinder.turn
     if length >= most:
         raise NoSolution(
-            f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm: set "
-            f"sync.length below {safely_below(most)} mm",
+            (f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm"),
             key="sync.length",
+            fix=f"set sync.length below {safely_below(most)} mm",
         )
 
     def left(phi: float) -> tuple[float, float]:
@@ -149,24 +148,23 @@ def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str
             shifted = replace(cylinder, initial_angle=cylinder.initial_angle + math.radians(sign * degrees))
             if _first_root(bed, shifted, end) is not None:
                 value = math.degrees(math.remainder(shifted.initial_angle, _TURN))
-                return f"they meet with initial_crank_angle {value:.9g} deg ({sign * degrees:+d} deg)"
+                return f"set cylinder.initial_crank_angle to {value:.9g} deg ({sign * degrees:+d} deg)"
     return ""
 
 
-def _sizes_that_help(text: str, bed: BedChain, cylinder: CylinderChain, end: float) -> NoSolution:
+def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> NoSolution:
     """The refusal, with the greatest radius of the cylinder and the least stroke of the bed for which they meet."""
     fastest = _greatest(bed.speed, end)
     least = -_greatest(lambda phi: -cylinder.speed(phi), _TURN)
-    text += (
-        f": the bed makes {fastest:.5g} mm per radian of the input at most, the cylinder {least:.5g} at least, "
-        "whatever its initial crank angle: "
+    text = (
+        f"the bed (max. {safely_above(fastest)} mm/rad) never reaches the cylinder speed (min. {safely_below(least)} "
+        "mm/rad): no synchronous zone"
     )
     stroke = _least_stroke(bed, cylinder)
-    radius = f"cylinder.radius to at most {safely_below(cylinder.radius * _share(bed, cylinder))} mm"
     if stroke is None:
-        return NoSolution(f"{text}set {radius}", key="cylinder.radius")
-    words = f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}"
-    return NoSolution(text + words, key="bed.stroke")
+        radius = safely_below(cylinder.radius * _share(bed, cylinder))
+        return NoSolution(text, key="cylinder.radius", fix=f"set cylinder.radius to at most {radius} mm")
+    return NoSolution(text, key="bed.stroke", fix=f"set bed.stroke to at least {safely_above(stroke)} mm")
 
 
 def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:

@@ -238,9 +238,9 @@ class GenevaDrive(RealSpeed, Design):
         if abs(abs(turns) * self.spec.slots - 1.0) > _SAME:
             message = (
                 f"the linkage moves its output by {360.0 * turns:.6g} deg per turn, this wheel by "
-                f"{math.degrees(self.drive.step):.6g} deg: choose teeth with crank/output 1/{self.spec.slots}"
+                f"{math.degrees(self.drive.step):.6g} deg"
             )
-            raise NoSolution(message, key="compare.gears")
+            raise NoSolution(message, key="compare.gears", fix=f"choose teeth with crank/output 1/{self.spec.slots}")
         return found
 
     def table_comparison(self, _samples: int | None = None) -> Table:
@@ -255,7 +255,7 @@ class GenevaDrive(RealSpeed, Design):
 
         step, half, pitch = self.drive.step, math.radians(self.spec.compare_tolerance), TURN / self.spec.pins
         if half >= 0.5 * step:
-            raise NoSolution("the tolerance takes in the whole step: give a smaller one", key="compare_tolerance")
+            raise NoSolution("the tolerance takes in the whole step", key="compare_tolerance", fix="give a smaller one")
         sine, share, other = law("modified-sine"), self.motion_angle, self.compared
         left = bracketed_root(lambda x: sine.evaluate(x, 0)[0] - half / step, 0.0, 0.5)
         rows = [
@@ -287,16 +287,16 @@ class GenevaDrive(RealSpeed, Design):
         lip = self.lip_thickness
         if lip is not None:
             status: Status = "fail" if lip <= 0.0 else "pass"
-            text = f"the lip between locking arc and slot is {lip:.6g} mm thick"
-            text += ": take a smaller locking_radius or pin_radius" if status == "fail" else ""
-            yield LOCKING.check(status, text, lip, 0.0, "mm")
+            what, overlap = "thickness of the lip between locking arc and slot", "overlap of locking arc and slot"
+            fix = "take a smaller locking_radius or pin_radius"
+            yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
         if self.drive.sign > 0.0:
             bottom = self.drive.distance - self.crank_radius
             web = 2.0 * (bottom * self.drive.ratio - self.spec.pin_radius)
             status = "fail" if web <= 0.0 else "pass"
-            text = f"the web between the bottoms of two slots is {web:.6g} mm thick"
-            text += ": take a thinner pin or a larger center_distance" if status == "fail" else ""
-            yield LOCKING.check(status, text, web, 0.0, "mm")
+            what, overlap = "web between the bottoms of two slots", "overlap of the bottoms of two slots"
+            fix = "take a smaller pin_radius, or a larger center_distance"
+            yield LOCKING.check(status, what, web, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the crank's shaft beside an external wheel, and the wheel's hub within the bottoms of its slots."""
@@ -310,9 +310,9 @@ class GenevaDrive(RealSpeed, Design):
             if radius is None:
                 continue
             fails = place <= radius
-            text = f"the {what} leave {place:.6g} mm for the {body} of radius {radius:g} mm"
-            text += f": lower {key}, or enlarge center_distance" if fails else ""
-            yield SHAFT_CLEARANCE.check("fail" if fails else "pass", text, place, radius, "mm")
+            subject, aside = f"space left by the {what}", f"radius of the {body}"
+            fix = f"lower {key}, or enlarge center_distance"
+            yield SHAFT_CLEARANCE.check("fail" if fails else "pass", subject, place, radius, "mm", aside=aside, fix=fix)
 
     def check_step_rate(self) -> Iterator[Check]:
         """GL345."""
@@ -320,6 +320,5 @@ class GenevaDrive(RealSpeed, Design):
         if rate is None:
             return
         over = rate > limit
-        text = f"{rate:.6g} steps in a minute"
-        text += f", above the limit {limit:g}: run slower, or compare with a gear linkage" if over else ""
-        yield STEP_RATE.check("warn" if over else "pass", text, rate, limit, "1/min")
+        fix = "run slower, or compare with a gear linkage"
+        yield STEP_RATE.check("warn" if over else "pass", "step rate", rate, limit, "1/min", fix=fix)

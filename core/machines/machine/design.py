@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.design import Design, Found, Outline, UnknownName, in_unit
 from gearlink.core.base.errors import MissingSection, at_key, in_section
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.report import Check, Quantity, Status, Table
+from gearlink.core.base.report import Check, Quantity, Shown, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 
@@ -172,7 +173,7 @@ class OfMembers(Design):
 def of_member(member: str, found: Check) -> Check:
     """A finding of a member as one of the machine."""
     remedy = tuple((f"members.{member}.design.{key}", value) for key, value in found.remedy)
-    return replace(found, message=f"{member}: {found.message}", remedy=remedy)
+    return replace(found, what=f"{member}: {found.what}", remedy=remedy)
 
 
 class Machine(OfMembers):
@@ -416,8 +417,12 @@ class Machine(OfMembers):
             limit = 0.0 if of_value else self.spec.limits.timing_margin
             status = self.status_of(relation, margin)
             unit = self._unit_of_value(relation) if of_value else "deg"
-            text = f"{relation.text}: margin {margin:.5g}{'' if unit == '1' else f' {unit}'}"
-            yield codes.TIMING.check(status, text + self._against(relation, status), margin, limit, unit)
+            what, limiting = f"{relation.text}, margin", self._limiting(relation, status)
+            fix = "shift a phase that is given" if self.spec.free else "shift a phase, or give phase: free"
+            note = f"no phases do better: these limit each other: {', '.join(limiting)}" if limiting else ""
+            if limiting:
+                fix = "relax one of the requirements that limit each other"
+            yield codes.TIMING.check(status, what, margin, limit, unit, fix=fix, note=note)
 
     def _unit_of_value(self, relation: Any) -> str:
         from gearlink.core.machines.machine.relations import VALUES
@@ -426,13 +431,10 @@ class Machine(OfMembers):
         order, unit = VALUES.index(relation.quantity), self.timing.place(relation.of).course.unit
         return "deg" if unit == "rad" and order == 0 else unit_of(unit, order)
 
-    def _against(self, relation: Any, status: Status) -> str:
-        if status == "pass":
-            return ""
+    def _limiting(self, relation: Any, status: Status) -> tuple[str, ...]:
+        """Relations that limit each other, where one does not hold that is among them."""
         limiting = self.solution.limiting if self.spec.free else ()
-        if relation.text in limiting:
-            return f"; no phases do better: these limit each other: {', '.join(limiting)}"
-        return "; shift a phase, or give phase: free" if not self.spec.free else "; shift a phase that is given"
+        return tuple(limiting) if status != "pass" and relation.text in limiting else ()
 
     def check_member_speed(self) -> Iterator[Check]:
         """GL531: speeds of members' own files."""
@@ -443,12 +445,13 @@ class Machine(OfMembers):
                 continue
             for each in given:
                 off = abs(abs(each.speed or 0.0) / abs(wanted) - 1.0)
-                text = f"{name}: {each.key} is {each.value:.10g}, the machine turns its input with"
-                text += f" {abs(wanted) / each.per:.10g}"
-                if off > _SAME_SPEED:
-                    text += ": the machine's holds here; give the member that, or leave it out"
+                speed = abs(wanted) / each.per
                 status: Status = "fail" if off > _SAME_SPEED else "pass"
-                yield codes.MEMBER_SPEED.check(status, text, off, _SAME_SPEED)
+                what, shown = f"{name}: {each.key}", Shown(each.value, speed, "1", "")
+                fix, note = f"remove {each.key} of the member", ""
+                if off > _SAME_SPEED:
+                    note = "the speed of the machine holds here"
+                yield codes.MEMBER_SPEED.check(status, what, off, _SAME_SPEED, shown=shown, fix=fix, note=note)
 
     def check_critical_speed(self) -> Iterator[Check]:
         """GL532 of the first order; with `loads` of every harmonic of the torque."""
@@ -457,8 +460,9 @@ class Machine(OfMembers):
         for f in self.critical_speeds or ():
             off = abs(self.spec.speed / f - 1.0)
             status: Status = "warn" if off < 0.1 else "pass"
-            text = f"the main shaft swings by itself once a turn at {f:.5g} rev/min, it turns at {self.spec.speed:g}"
-            yield codes.CRITICAL_SPEED.check(status, text, off, 0.1)
+            what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 10.0, "%", ">=")
+            aside, fix = f"critical speed {short(f)} rev/min", "change the speed, or stiffen the main shaft"
+            yield codes.CRITICAL_SPEED.check(status, what, off, 0.1, shown=shown, aside=aside, fix=fix)
 
     def require_named(self) -> None:
         """Refuse what the file names and the machine does not have."""

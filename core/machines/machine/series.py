@@ -121,14 +121,16 @@ class OnShaft:
         with in_section(f"members.{self.name}"):
             if self.driver is None:
                 if self.period is None:
-                    raise NoSolution("its input has a range and does not turn: give it a driver by input", key="input")
+                    raise NoSolution(
+                        "its input has a range and does not turn", key="input", fix="give it a driver by input"
+                    )
                 return self._whole(abs(self.ratio) * TURN / self.period)
             gained = gain(self.driver.motion, self._driving) * self._driver_periods
             if abs(gained) < _WHOLE:
                 return self.driver.turns
             if self.period is None:
-                message = "its driver turns on and on, its own input has a range: take a driver that swings"
-                raise NoSolution(message, key="input")
+                message = "its driver turns on and on, its own input has a range"
+                raise NoSolution(message, key="input", fix="take a driver that swings")
             return self.driver.turns * self._whole(abs(self._step * gained) / self.period)
 
     @property
@@ -158,7 +160,8 @@ class OnShaft:
         if abs(float(found) - share) > _WHOLE * max(1.0, share):
             message = f"at ratio {self.ratio:.12g} its input never repeats with the machine within {_LARGEST} turns"
             period = "" if self.period is None else f", its own period being {math.degrees(self.period):.6g} deg"
-            raise NoSolution(f"{message}{period}: give a ratio of whole numbers, with all its digits", key="ratio")
+            fix = "give a ratio of whole numbers, with all its digits"
+            raise NoSolution(f"{message}{period}", key="ratio", fix=fix)
         return found.denominator
 
     @property
@@ -382,6 +385,6 @@ class Members:
         for name in self.spec.members:
             found = math.lcm(found, self[name].turns)
             if found > MOST_TURNS:
-                message = f"the machine repeats only after {found} turns, more than {MOST_TURNS}: take simpler ratios"
-                raise NoSolution(message, key=f"members.{name}.ratio")
+                message = f"the machine repeats only after {found} turns, more than {MOST_TURNS}"
+                raise NoSolution(message, key=f"members.{name}.ratio", fix="take simpler ratios")
         return found

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import amount
 from gearlink.core.machines.mobility import freedom as mobility
 from gearlink.core.machines.mobility.freedom import common_links, pin_names
 from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
@@ -318,9 +317,9 @@ class GearTrainMobility(Design):
         for i, train in enumerate(self.spec.trains, start=1):
             reasons = self._reasons[i - 1]
             if i in self._held:
-                reasons = ["its gears cannot turn: what they are fixed to holds them; put it on other pins"]
-            for reason in reasons:
-                yield TRAIN_FIT.check("fail", f"train {i}: {reason}")
+                reasons = [("its gears cannot turn: what they are fixed to holds them", "put it on other pins")]
+            for reason, fix in reasons:
+                yield TRAIN_FIT.check("fail", f"train {i}: {reason}", fix=fix)
             if not reasons:
                 yield TRAIN_FIT.check("pass", f"train {i} fits: {_words(train)}")
 
@@ -328,16 +327,16 @@ class GearTrainMobility(Design):
         """GL309: degrees of freedom against those that are wanted."""
         found, wanted = self.mobility, self.spec.mobility
         terms = "".join(f" {change:+d}" for change in self.mobility_changes)
-        free = amount(found, "degree of freedom", "degrees of freedom")
-        text = f"{free}: linkage {self.linkage_mobility}, trains{terms or ' none'}"
-        if found == wanted:
-            return self._general(text) or MOBILITY.check("pass", text, float(found), float(wanted))
-        text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
-        return MOBILITY.check("fail", text, float(found), float(wanted))
+        aside = f"linkage {self.linkage_mobility}, gear trains{terms or ' none'}"
+        if found == wanted and (general := self._general()):
+            return general
+        fix = "" if found == wanted else self._mobility_remedy(found - wanted)
+        status: Status = "pass" if found == wanted else "fail"
+        return MOBILITY.check(status, "mobility F", float(found), float(wanted), side="", aside=aside, fix=fix)
 
     @cached_property
-    def _reasons(self) -> list[list[str]]:
-        """Why each train does not fit, one by one."""
+    def _reasons(self) -> list[list[tuple[str, str]]]:
+        """Why each train does not fit, and what would make it fit, one by one."""
         return [[*self._fixing(train), *self._meshes(train)] for train in self.spec.trains]
 
     @cached_property
@@ -349,20 +348,16 @@ class GearTrainMobility(Design):
     def _held(self) -> frozenset[int]:
         return frozenset(() if self._constraints is None else self._constraints.held())
 
-    def _general(self, text: str) -> Check | None:
+    def _general(self) -> Check | None:
         """GL309 where constraints that repeat others leave more freedom than is counted; None where they do not."""
         found, wanted = self._constraints, self.spec.mobility
         if found is None or found.freedom == wanted:
             return None
         again = " and ".join(found.repeated)
-        text += (
-            f"; but {again} {'says' if len(found.repeated) == 1 else 'say'} again what other parts say: what is held "
-        )
-        text += (
-            f"twice cannot move, all together have {amount(found.freedom, 'degree', 'degrees')} of freedom; put it on "
-        )
-        text += "other pins or links"
-        return MOBILITY.check("fail", text, float(found.freedom), float(wanted))
+        what = "mobility F by the constraints"
+        aside = f"{again} {'repeats' if len(found.repeated) == 1 else 'repeat'} the constraint of other parts"
+        fix, free = "put it on other pins or links", float(found.freedom)
+        return MOBILITY.check("fail", what, free, float(wanted), side="", aside=aside, fix=fix)
 
     def _mobility_remedy(self, excess: int) -> str:
         """What brings the degrees of freedom to those that are wanted, by the rule of composition."""
@@ -377,65 +372,67 @@ class GearTrainMobility(Design):
         ends = "both ends of every train and " if free else ""
         return f"fix {ends}both ends of {more} more {'train' if more == 1 else 'trains'}, each of which takes 1 away"
 
-    def _fixing(self, train: Train) -> Iterator[str]:
-        """Why the fixing of the gears does not fit."""
+    def _fixing(self, train: Train) -> Iterator[tuple[str, str]]:
+        """Why the fixing of the gears does not fit, and what would."""
         for j, gear in enumerate(train.gears, start=1):
             if gear.fixed_to is None:
                 continue
             if 1 < j < len(train.gears):
                 yield (
-                    f"gear {j} stands between others and is fixed to {gear.fixed_to}; only end gears may be: end the "
-                    "train there and begin the next with the same gear"
+                    f"gear {j} is between others and fixed to {gear.fixed_to}; only end gears may be fixed",
+                    "end the train there and begin the next with the same gear",
                 )
             if gear.at not in self.links[gear.fixed_to]:
                 able = " or ".join(name for name, pins in self.links.items() if gear.at in pins)
-                yield f"gear {j} sits on pin {gear.at}, which {gear.fixed_to} does not carry: fix it to {able}"
+                yield f"gear {j} is on pin {gear.at}, which {gear.fixed_to} does not carry", f"fix it to {able}"
         first, last = train.gears[0].fixed_to, train.gears[-1].fixed_to
         if first is not None and first == last and all(gear.at in self.links[first] for gear in train.gears):
             yield (
-                f"both ends are fixed to {first}, which carries the whole train: it cannot turn against it and takes "
-                "no freedom away, free one end or fix it to another link"
+                f"both ends are fixed to {first}, which carries the whole train: it takes no freedom away",
+                "free one end",
             )
 
-    def _meshes(self, train: Train) -> Iterator[str]:
-        """Why neighbours cannot stay in mesh."""
+    def _meshes(self, train: Train) -> Iterator[tuple[str, str]]:
+        """Why neighbours cannot stay in mesh, and what would let them."""
         for j, (one, other) in enumerate(pairwise(train.gears), start=1):
             if one.at == other.at:
-                yield f"gears {j} and {j + 1} sit on the same pin {one.at}: neighbours need a link between their pins"
+                yield f"gears {j} and {j + 1} are on the same pin {one.at}", "put them on two pins of one link"
                 continue
             common = mobility.common_links(self.links, one.at, other.at)
             if not common:
                 yield (
-                    f"no link carries both pin {one.at} and pin {other.at}, so gears {j} and {j + 1} do not keep their "
-                    "distance: put them on two pins of one link"
+                    f"no link carries both pin {one.at} and pin {other.at} of gears {j} and {j + 1}",
+                    "put them on two pins of one link",
                 )
                 continue
             yield from self._distance(train.module, one, other, common[0], f"gears {j} and {j + 1}")
 
-    def _distance(self, module: float | None, one: Gear, other: Gear, link: str, which: str) -> Iterator[str]:
+    def _distance(
+        self, module: float | None, one: Gear, other: Gear, link: str, which: str
+    ) -> Iterator[tuple[str, str]]:
         """Why the centre distance is not the link's length or another mesh's, where the file tells them."""
         distance, length = _distance(module, one, other), self.spec.links[link].length
         if distance is None or module is None:
             return
         if one.ring and other.ring:
-            yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
+            yield f"{which} are both internal gears, which cannot mesh", "remove ring at one of them"
             return
         ring, inner = (one, other) if one.ring else (other, one)
         if ring.ring and ring.teeth is not None and inner.teeth is not None and ring.teeth <= inner.teeth:
-            yield f"{which}: a ring of {ring.teeth} teeth does not take a gear of {inner.teeth}, it needs more"
+            yield f"{which}: internal gear of {ring.teeth} teeth, pinion of {inner.teeth}", "give the ring more teeth"
             return
         if length is not None:
             if abs(distance - length) > _DISTANCE_TOLERANCE * module:
                 yield (
-                    f"{which} mesh at {distance:.9g} mm, but links.{link}.length is {length:.9g} mm: the two must be "
-                    "the same"
+                    f"{which} mesh at {distance:.9g} mm, links.{link}.length is {length:.9g} mm",
+                    f"set links.{link}.length to {distance:.9g} mm",
                 )
             return
         first, apart = self._first_distance[frozenset((one.at, other.at))]
         if abs(distance - apart) > _DISTANCE_TOLERANCE * module:
             yield (
-                f"{which} mesh at {distance:.9g} mm, but train {first} holds {one.at} and {other.at} {apart:.9g} mm "
-                "apart: change module or teeth of one of the two"
+                f"{which} mesh at {distance:.9g} mm, train {first} holds {one.at} and {other.at} {apart:.9g} mm apart",
+                "change module or teeth of one of the two",
             )
 
     @cached_property

@@ -29,7 +29,7 @@ def linkage_mobility(links: Mapping[str, Sequence[str]]) -> int:
     """
     for name, pins in links.items():
         if len(set(pins)) < len(pins):
-            raise NoSolution(f"link {name} names the same pin twice ({', '.join(pins)}): give each pin once")
+            raise NoSolution(f"link {name} names the same pin twice ({', '.join(pins)})", fix="give each pin once")
     _require_one_piece(links)
     meeting = [sum(pin in pins for pins in links.values()) for pin in pin_names(links)]
     return 3 * (len(links) - 1) - 2 * sum(k - 1 for k in meeting)
@@ -67,8 +67,8 @@ def train_change(fixed: int) -> int:
     """
     if not 0 <= fixed <= MOST_FIXED_ENDS:
         raise NoSolution(
-            f"{fixed} gears of one train are fixed to links; only its two end gears may be: split the train at the "
-            "gears between, each of which ends one train and begins the next"
+            f"{fixed} gears of one train are fixed to links; only its two end gears may be",
+            fix="split the train at the gears between, each of which ends one train and begins the next",
         )
     return 1 - fixed
 
@@ -99,6 +99,6 @@ def _require_one_piece(links: Mapping[str, Sequence[str]]) -> None:
     lost = [name for name in names if name not in reached]
     if lost:
         raise NoSolution(
-            f"the linkage falls into parts: {', '.join(lost)} shares no pin with {', '.join(sorted(reached))}; "
-            "name the pin at which they meet in both"
+            (f"the linkage falls into parts: {', '.join(lost)} shares no pin with {', '.join(sorted(reached))}"),
+            fix="name the pin at which they meet in both",
         )

@@ -97,7 +97,7 @@ class _Refusals:
 
     def starts_dead(self) -> NoSolution:
         return NoSolution(
-            "the mechanism starts in a dead centre, where its motion is not certain: change start", key="start"
+            "the mechanism starts in a dead centre, where its motion is not certain", key="start", fix="change start"
         )
 
     def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
@@ -110,17 +110,17 @@ class _Refusals:
             free = f"between {low:.6g} and {high:.6g} {unit}"
         ways = "keep range: {start, end}" if ranged else "let the input swing"
         return NoSolution(
-            f"the mechanism meets a dead centre at input {here:.6g} {unit}, where it jams: {ways} {free}"
-            f"{'' if ranged else ' (range: {start, end})'}, or change the lengths",
+            f"the mechanism jams in a dead centre at input {here:.6g} {unit}",
             key="range",
+            fix=f"{ways} {free}{'' if ranged else ' (range: {start, end})'}",
         )
 
     def never_home(self) -> NoSolution:
         key = "drive.with" if self.course.structure.spec.drive.others else "meshes"
         return NoSolution(
-            f"the mechanism does not come home within {MOST_TURNS} turns of the input: take ratios and teeth with "
-            "common factors, or give range: {start, end}",
+            f"the mechanism does not come home within {MOST_TURNS} turns of the input",
             key=key,
+            fix="take ratios and teeth with common factors, or give range: {start, end}",
         )
 
 
@@ -348,10 +348,12 @@ class Start:
         freedoms, drives = structure.freedoms, len(structure.drives)
         if freedoms > drives:
             raise NoSolution(
-                f"the mechanism has {freedoms} degrees of freedom and {_count(drives, 'drive')}: give "
-                f"{_count(freedoms - drives, 'more drive')} (drive.with), or join its links by "
-                f"{_count(freedoms - drives, 'more mesh', 'more meshes')} or slots",
+                f"the mechanism has {freedoms} degrees of freedom and {_count(drives, 'drive')}",
                 key="drive",
+                fix=(
+                    f"give {_count(freedoms - drives, 'more drive')} (drive.with), or join its links by "
+                    f"{_count(freedoms - drives, 'more mesh', 'more meshes')} or slots"
+                ),
             )
         starts = {each.name: self._exact(each.name) for each in structure.drives}
         rows = joint_rows(structure, {}) + drive_rows(structure, starts) + self._mesh_rows()
@@ -369,9 +371,9 @@ class Start:
                 if structure.freedoms < len(structure.drives):  # which says more
                     continue
                 raise NoSolution(
-                    f"the gears of {name} and their carrier are driven or tied by meshes before: leave the mesh or a "
-                    "drive out",
+                    f"the gears of {name} and their carrier are driven or tied by meshes before",
                     key=f"meshes.{name}",
+                    fix="leave the mesh or a drive out",
                 )
             slide = structure.slides.get(own)
             body = mesh.line.other if isinstance(mesh, RackJoint) else mesh.first
@@ -394,10 +396,13 @@ class Start:
         excess = drives - freedoms
         times = "once" if excess == 1 else f"{excess} times"
         return NoSolution(
-            f"the joints {', '.join(joints)} hold the mechanism {times} more than it can take, "
-            f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for {_count(drives, 'drive')}: leave one "
-            "link or one joint out",
+            (
+                f"the joints {', '.join(joints)} hold the mechanism {times} more than it can take, "
+                f"{_count(freedoms, 'degree of freedom', 'degrees of freedom')} for "
+                f"{_count(drives, 'drive')}"
+            ),
             key="links",
+            fix="leave one link or one joint out",
         )
 
     def _require_matching(self, system: System) -> None:
@@ -410,9 +415,12 @@ class Start:
         rows = np.flatnonzero(np.abs(left[:, rank:]).max(axis=1) > _SHARE).tolist()
         free = sorted(set((np.flatnonzero(np.abs(right[rank:]).max(axis=0) > _SHARE) // 3 + 1).tolist()))
         raise NoSolution(
-            f"the joints {', '.join(self.joints_of(system, rows))} hold their links more than once, while "
-            f"{' and '.join(self.structure.names[body] for body in free)} can still move: change how they are joined",
+            (
+                f"the joints {', '.join(self.joints_of(system, rows))} hold their links more than once, "
+                f"while {' and '.join(self.structure.names[body] for body in free)} can still move"
+            ),
             key="links",
+            fix="change how they are joined",
         )
 
     def joints_of(self, system: System, rows: Iterable[int]) -> list[str]:
@@ -532,9 +540,12 @@ class Start:
         links = [self.structure.names[body] for body in sorted({int(column) // 3 + 1 for column in columns})]
         joints = self.joints_of(system, block.rows)
         raise NoSolution(
-            f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} open "
-            f"by {gap:.4g} mm at the rough directions): change start, or the lengths",
+            (
+                f"{_listed(links)} {'do' if len(links) > 1 else 'does'} not close at the start ({', '.join(joints)} "
+                f"open by {gap:.4g} mm at the rough directions)"
+            ),
             key="start",
+            fix="change start, or the lengths",
         )
 
     def _choose(self, system: System, block: Block, dyad: Dyad, y: Reals) -> None:

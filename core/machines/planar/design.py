@@ -17,6 +17,7 @@ from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import tables
 from gearlink.core.machines.planar.codes import ASSEMBLY
 from gearlink.core.machines.planar.extremes import turning_points
@@ -605,13 +606,9 @@ class PlanarMechanism(Design):
         """GL305: joints that are closed at every row."""
         largest = self.structure.largest
         share = self.closure_error / largest
-        text = f"the joints close to {self.closure_error:.2g} mm over the rows"
-        if share > _CLOSED:
-            text += (
-                f", more than {_CLOSED:g} of the largest length {largest:.6g} mm: stay away from a dead centre (range)"
-            )
         status: Status = "fail" if share > _CLOSED else "pass"
-        return CLOSURE.check(status, text, self.closure_error, _CLOSED * largest, "mm", side="<=")
+        what, limit, fix = "closure error of the joints", _CLOSED * largest, "keep range away from a dead centre"
+        return CLOSURE.check(status, what, self.closure_error, limit, "mm", side="<=", fix=fix)
 
     def check_assembly(self) -> Iterator[Check]:
         """GL318: rough start directions against those that were found."""
@@ -621,18 +618,16 @@ class PlanarMechanism(Design):
                 continue
             _, t = self.course.at_start.closed
             found = math.degrees(float(t[self.structure.numbers[name]]))
-            text = (
-                f"{name} stands at {found:.6g} deg at the start, {off:.4g} deg off the {self.spec.start[name]:g} deg "
-                f"of start.{name}: another assembly may be meant"
-            )
-            yield ASSEMBLY.check("warn", text, off, _FAR_OFF, "deg")
+            what, fix = f"{name} at the start against start.{name}", f"set start.{name} nearer to the assembly meant"
+            aside = f"found {short(found)} deg, start.{name} {short(self.spec.start[name])} deg"
+            yield ASSEMBLY.check("warn", what, off, _FAR_OFF, "deg", side="<=", aside=aside, fix=fix)
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303: the least of all dyads."""
         if self.min_transmission_angle is not None:
-            remedy = "change the lengths so that the two links that close a dyad come nearer to a right angle"
+            remedy = "bring the two links that close a dyad nearer to a right angle"
             limit = self.spec.limits.transmission_angle
-            yield transmission_check(self.min_transmission_angle, limit, remedy, "the least transmission angle")
+            yield transmission_check(self.min_transmission_angle, limit, remedy)
 
     @cached_property
     def layout(self) -> Layout | None:
@@ -643,8 +638,8 @@ class PlanarMechanism(Design):
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears that do not mesh."""
         for pair in () if self.layout is None else self.layout.gear_pairs:
-            why = f"their centres are {pair.distance:.6g} mm apart"
-            remedy = "take a smaller module or fewer teeth, or set the centres farther apart"
+            why = f"centres {short(pair.distance)} mm apart"
+            remedy = "set the centres farther apart, or take fewer teeth"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

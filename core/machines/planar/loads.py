@@ -76,20 +76,20 @@ class PlanarLoads(LoadsDesign):
     def section(self) -> Section:
         """The section `loads`, refused where it asks for what a pass over a range or a slide as drive has not."""
         if self.spec.drive.slide is not None:
-            words = "`loads` is of a link that the input turns: drive a link in place of a slide"
-            raise MissingSection(words, key="drive.slide")
+            words = "`loads` is of a link that the input turns"
+            raise MissingSection(words, key="drive.slide", fix="drive a link in place of a slide")
         found: Section | None = self.spec.loads
         if found is None:
             raise MissingSection(self._first_section(), key="loads")
         if self.spec.range is not None:
             for key in ("flywheel", "motor", "vibration"):
                 if getattr(found, key) is not None:
-                    words = f"over a range nothing repeats, so there is no {key}: leave it out, or range"
-                    raise MissingSection(words, key=f"loads.{key}")
+                    words = f"over a range nothing repeats, so there is no {key}"
+                    raise MissingSection(words, key=f"loads.{key}", fix="leave it out, or range")
             for name, bearing in found.bearings.items():
                 if bearing.life is not None:
-                    words = "over a range nothing repeats, so there is no life: leave it out, or range"
-                    raise MissingSection(words, key=f"loads.bearings.{name}.life")
+                    words = "over a range nothing repeats, so there is no life"
+                    raise MissingSection(words, key=f"loads.bearings.{name}.life", fix="leave it out, or range")
         return found
 
     @cached_property

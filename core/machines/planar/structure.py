@@ -204,9 +204,12 @@ class Structure:
         cosine = nominal * math.cos(alpha) / distance  # of the working pressure angle: base circles stay
         if cosine >= 1.0:
             raise NoSolution(
-                f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {distance:.6g} mm, their base "
-                f"circles alone ask for more: take module {2.0 * distance / abs(z1 + z2):.6g} mm, or leave it out",
+                (
+                    f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {distance:.6g} "
+                    "mm, their base circles alone ask for more"
+                ),
                 key=f"meshes.{name}.module",
+                fix=f"take module {2.0 * distance / abs(z1 + z2):.6g} mm, or leave it out",
             )
         tangent = math.sqrt(1.0 - cosine * cosine) / cosine
         radii = distance * z1 / (z1 + z2), distance * z2 / (z1 + z2)

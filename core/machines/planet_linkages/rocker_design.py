@@ -138,9 +138,11 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
         greatest = max(greatest, below_low)
     reach = math.degrees(greatest + swing)
     raise NoSolution(
-        f"no crank gives a swing of {math.degrees(swing):.6g} deg: with these links and gears the output reaches "
-        f"{math.floor(reach * 10.0) / 10.0:g} deg at most; ask for less, or take more teeth on the coupler gear (now "
-        f"z2/z5 = {abs(ratio):.6g})"
+        (
+            f"no crank gives a swing of {math.degrees(swing):.6g} deg: with these links and gears the "
+            f"output reaches {math.floor(reach * 10.0) / 10.0:g} deg at most"
+        ),
+        fix=f"ask for less, or take more teeth on the coupler gear (now z2/z5 = {abs(ratio):.6g})",
     )
 
 
@@ -153,8 +155,8 @@ def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -
     crank = limit * _SMALLEST
     if (over := excess(crank)) >= 0.0:
         raise NoSolution(
-            f"a swing of {math.degrees(swing):.6g} deg is next to a standstill: ask for "
-            f"{safely_above(math.degrees(over + swing), 3)} deg or more"
+            f"a swing of {math.degrees(swing):.6g} deg is next to a standstill",
+            fix=f"ask for {safely_above(math.degrees(over + swing), 3)} deg or more",
         )
     return crank
 
@@ -303,16 +305,16 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         given = rocker if links.rocker is None or self.spec.gears.profile_shift is not None else links.rocker
         if abs(given - rocker) > _LINK_TOLERANCE * rocker:
             raise NoSolution(
-                f"rocker {given:.9g} mm is not the centre distance of the gears, {rocker:.9g} mm: leave it out, "
-                "or change module or teeth",
+                f"rocker {given:.6g} mm is not the centre distance of the gears, {rocker:.6g} mm",
                 key="links.rocker",
+                fix="leave it out, or change module or teeth",
             )
         with at_key("links"):
             linkage = FourBar(self.crank_length, links.coupler, rocker, links.frame, self.spec.assembly)
             if check_linkage(linkage) != "crank-rocker":
                 raise NoSolution(
-                    f"the frame {links.frame:.6g} mm is the shortest link, so that the rocker goes all the way round: "
-                    f"make it longer than the crank, {self.crank_length:.6g} mm"
+                    (f"the frame {links.frame:.6g} mm is the shortest link, so that the rocker goes all the way round"),
+                    fix=f"make it longer than the crank, {self.crank_length:.6g} mm",
                 )
         return linkage
 

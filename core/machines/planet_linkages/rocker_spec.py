@@ -65,7 +65,7 @@ class GearedRockerSpec(DrivenSpec):
         if self.links.crank is not None and self.target is not None:
             raise PydanticCustomError(
                 "GL111",
-                "links.crank and target.swing exclude each other: leave the crank out to have it found",
+                "links.crank and target.swing exclude each other\nleave the crank out to have it found",
                 {"key": "links.crank"},
             )
         return self

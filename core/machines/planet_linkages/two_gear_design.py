@@ -11,8 +11,9 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
-from gearlink.core.base.report import Check, Remedy, Table
+from gearlink.core.base.report import Check, Remedy, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
@@ -247,9 +248,9 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         given, crank = self.spec.links.crank, self.crank_length
         if given is not None and self.spec.gears.profile_shift is None and abs(given - crank) > _LINK_TOLERANCE * crank:
             raise NoSolution(
-                f"crank {given:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
-                "change module or teeth",
+                f"crank {given:.6g} mm is not the centre distance of the gears, {crank:.6g} mm",
                 key="links.crank",
+                fix="leave it out, or change module or teeth",
             )
         return crank
 
@@ -417,34 +418,36 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""
         needed = self.standstill_coupler_ratio
         reached = self.coupler_ratio_min if self.internal else self.coupler_ratio_max
-        verb = "falls to" if self.internal else "rises to"
-        text = f"the output stands where w2/w1 = {needed:.6g}; the coupler {verb} {reached:.6g}: {self.motion}"
+        aside = f"{self.motion}, the output stops at {short(needed)}"
+        what = f"{'minimum' if self.internal else 'maximum'} coupler ratio w2/w1"
+        shown = Shown(reached)
         asked = None if self.spec.target is None else self.spec.target.motion
         if asked is None or asked == self.motion:
-            return DWELL_CONDITION.check("pass", text, reached, needed)
+            return DWELL_CONDITION.check("pass", what, reached, needed, shown=shown, aside=aside)
         if self._never_stands() and asked != UNIDIRECTIONAL:
-            raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion")
-        return DWELL_CONDITION.check("fail", f"{text}; {self._motion_remedy(asked)}", reached, needed)
+            fix = "take a ring gear, or a drag link (frame the shortest)"
+            raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion", fix=fix)
+        fix = self._motion_remedy(asked)
+        return DWELL_CONDITION.check("fail", f"no {asked}, {what}", reached, needed, shown=shown, aside=aside, fix=fix)
 
     def _never_stands(self) -> str:
         """Why an external mesh on a crank-rocker never stops its output; empty for other drives."""
         if self.internal or self.linkage_kind != "crank-rocker":
             return ""
-        limit = math.floor((1.0 - self.coupler_ratio_min) * 1e4) / 1e4
         return (
-            f"with a sun the output stands where w2/w1 = 1 + z5/z2 = {self.standstill_coupler_ratio:.6g}, but in a "
-            f"crank-rocker w2/w1 stays below 1 (here {self.coupler_ratio_max:.6g}), since A never comes onto the line "
-            f"CD; take a ring gear with z5/z2 up to {limit:g}, or a drag link (frame the shortest)"
+            f"the output stops where w2/w1 = 1 + z5/z2 = {short(self.standstill_coupler_ratio)}, in a crank-rocker "
+            f"w2/w1 stays below 1 (here {short(self.coupler_ratio_max)})"
         )
 
     def _motion_remedy(self, asked: str) -> str:
         """What would bring the motion that is asked for."""
-        limit = self.dwell_teeth_ratio
-        have = self.output_teeth / self.planet_teeth
+        limit, have = self.dwell_teeth_ratio, self.output_teeth / self.planet_teeth
         if limit is None:
-            return f"{asked} is asked for, but these links stop the output with no teeth: change the links"
-        side = {UNIDIRECTIONAL: "above", MOMENTARY_DWELL: "equal to", BACK_STEP: "below"}[asked]
-        return f"{asked} is asked for: make z5/z2 = {have:.6g} {side} {limit:.6g}"
+            return "change the links: these stop the output with no number of teeth"
+        if asked == MOMENTARY_DWELL:
+            return f"set z5/z2 to {limit:.6g} (now {short(have)})"
+        side, bound = ("above", safely_above(limit)) if asked == UNIDIRECTIONAL else ("below", safely_below(limit))
+        return f"set z5/z2 {side} {bound} (now {short(have)})"
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
@@ -454,5 +457,5 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
-        remedy = "bring coupler and rocker nearer to a right angle (shorter crank, or shorter frame in a drag link)"
+        remedy = "shorten the crank (the frame of a drag link)"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

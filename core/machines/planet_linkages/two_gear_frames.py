@@ -77,9 +77,12 @@ def frame_range(family: Family) -> tuple[float, float]:
     if family.ring:
         if not a < min(b, c):
             raise NoSolution(
-                f"with a ring gear the output stands still in a crank-rocker alone: the crank, {a:.9g} mm by the "
-                f"gears, must be shorter than coupler and rocker; make both longer than that, or the module smaller",
+                (
+                    f"with a ring gear the output stands still in a crank-rocker alone: the crank, {a:.6g} mm "
+                    "by the gears, must be shorter than coupler and rocker"
+                ),
                 key="links.coupler" if b <= c else "links.rocker",
+                fix="make both longer than that, or the module smaller",
             )
         return math.fsum((a, abs(b - c))), math.fsum((b, c, -a))
     longest = max(a, b, c)
@@ -87,8 +90,8 @@ def frame_range(family: Family) -> tuple[float, float]:
     if high <= 0.0:
         raise NoSolution(
             f"with a sun the output stands still in a drag link alone, the frame its shortest link; with crank "
-            f"{a:.9g} (by the gears), coupler {b:.9g} and rocker {c:.9g} mm there is none: the longest must be "
-            f"shorter than the other two together, {a + b + c - longest:.9g} mm",
+            f"{a:.6g} (by the gears), coupler {b:.6g} and rocker {c:.6g} mm there is none: the longest must be "
+            f"shorter than the other two together, {a + b + c - longest:.6g} mm",
             key="links.rocker" if c == longest else "links.coupler",
         )
     return 0.0, high

@@ -38,11 +38,11 @@ class PlanetGears(TrainKeys):
         if self.sun is None and self.ring is None:
             raise PydanticCustomError("GL106", "give sun or ring, the output gear on A", {"key": "sun"})
         if self.sun is not None and self.ring is not None:
-            raise PydanticCustomError("GL111", "sun and ring exclude each other: give one", {"key": "ring"})
+            raise PydanticCustomError("GL111", "sun and ring exclude each other\ngive one", {"key": "ring"})
         if self.ring is not None and self.ring <= self.planet:
             raise PydanticCustomError(
                 "GL111",
-                "a ring gear of {ring} teeth does not take a planet of {planet}: give it more teeth",
+                "a ring gear of {ring} teeth does not take a planet of {planet}\ngive it more teeth",
                 {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
             )
         require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
@@ -66,7 +66,7 @@ class StandingDwell(DwellBand):
         if self.window is None and self.tolerance is None:
             raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
         if self.margin is not None and self.window is not None:
-            raise PydanticCustomError("GL111", "margin goes with tolerance alone: leave it out", {"key": "margin"})
+            raise PydanticCustomError("GL111", "margin goes with tolerance alone\nleave it out", {"key": "margin"})
         return self
 
 
@@ -130,7 +130,7 @@ class TwoGearFourBarSpec(DrivenSpec):
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None:
             raise PydanticCustomError(
-                "GL111", "dwell_window goes with dwell_tolerance: give that too", {"key": "dwell_window"}
+                "GL111", "dwell_window goes with dwell_tolerance\ngive that too", {"key": "dwell_window"}
             )
         return self
 

@@ -120,8 +120,11 @@ class BackStepSynthesis(TwoGearFourBar):
         if angle < least:
             limit = safely_above(math.degrees(least))
             raise NoSolution(
-                f"{words} is less than the least of crank-rockers with these gears and links, {limit} deg: their "
-                "output steps back with every frame; ask for more, or take more teeth on the ring gear"
+                (
+                    f"{words} is less than the least of crank-rockers with these gears and links, {limit} "
+                    "deg: their output steps back with every frame"
+                ),
+                fix="ask for more, or take more teeth on the ring gear",
             )
         frames = always.with_step(angle)
         if not frames:
@@ -265,8 +268,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and band >= math.pi * self._mean:
             raise NoSolution(
-                f"a band of +-{math.degrees(band):.9g} deg holds the output over the whole turn: the tolerance must be "
-                f"below {180.0 * self._mean:.9g} deg, half of what the output gains in a turn of the crank",
+                f"a band of +-{math.degrees(band):.6g} deg holds the output over the whole turn: the tolerance must be "
+                f"below {safely_below(180.0 * self._mean)} deg, half of what the output gains in a turn of the crank",
                 key="dwell.tolerance",
             )
 
@@ -274,8 +277,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and self._mean * window <= 2.0 * band:
             raise NoSolution(
-                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
-                "ask for a longer window or a smaller tolerance"
+                (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
+                fix="ask for a longer window or a smaller tolerance",
             )
 
     def _refuse_long_window(self, window: float) -> None:
@@ -284,9 +287,12 @@ class DwellSynthesis(TwoGearFourBar):
         if band is None or longest is None or longest >= window:
             return
         raise NoSolution(
-            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
-            f"with these gears and links: at most over {safely_below(math.degrees(longest))} deg{self._there()}; ask "
-            "for that"
+            (
+                f"the output cannot stop and stay within +-{math.degrees(band):.6g} deg over "
+                f"{self._request.window:g} deg with these gears and links: at most over "
+                f"{safely_below(math.degrees(longest))} deg{self._there()}"
+            ),
+            fix="ask for that",
         )
 
     def _refuse_narrow_band(self, least: float) -> None:
@@ -295,9 +301,12 @@ class DwellSynthesis(TwoGearFourBar):
             return
         longest = safely_below(math.degrees(limit))
         raise NoSolution(
-            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
-            f"with these gears and links: at most over {longest} deg{self._there()}, or within "
-            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
+            (
+                f"the output cannot stop and stay within +-{math.degrees(band):.6g} deg over "
+                f"{self._request.window:g} deg with these gears and links: at most over {longest} deg{self._there()}, "
+                f"or within +-{safely_above(math.degrees(least))} deg"
+            ),
+            fix="ask for one of these",
         )
 
     def _there(self) -> str:

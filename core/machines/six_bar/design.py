@@ -18,6 +18,7 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Table, without_noise
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.loop import SixBar
 from gearlink.core.machines.six_bar.spec import LINKS, PINS
 from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
@@ -168,7 +169,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     def _length(self, name: str, carried: tuple[float, str] | None) -> float:
         given: float | None = getattr(self.spec.links, name)
         if carried is None and given is None:
-            raise NoSolution(f"no train fixes the length of {name}: give links.{name}", key="links")
+            raise NoSolution(f"no train fixes the length of {name}", key="links", fix=f"give links.{name}")
         if carried is not None and given is not None:
             self._require_equal(name, carried[0], given, f"links.{name}", "its gears' centre distance is")
         return given if carried is None and given is not None else carried[0]  # type: ignore[index]
@@ -176,8 +177,8 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @staticmethod
     def _require_equal(name: str, one: float, other: float, key: str, why: str) -> None:
         if abs(one - other) > _LINK_TOLERANCE * one:
-            message = f"{name} would be {other:.9g} mm, {why} {one:.9g} mm: leave one out, or change module or teeth"
-            raise NoSolution(message, key=key)
+            message = f"{name} would be {other:.9g} mm, {why} {one:.9g} mm"
+            raise NoSolution(message, key=key, fix="leave one out, or change module or teeth")
 
     input_length: float = placed("lengths.1")
 
@@ -369,10 +370,10 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears of one plane that do not mesh."""
-        remedy = "take smaller gears, or lengthen the links between them"
+        remedy = "lengthen the links between them"
         for pair in chain.from_iterable(layout.gear_pairs for layout in self.layouts):
             apart = without_noise(pair.distance, pair.one.outer + pair.other.outer)
-            why = f"their pins are {apart:.6g} mm apart"
+            why = f"pins {short(apart)} mm apart"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
@@ -387,7 +388,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         """GL303: the angle at which the two free directions close the loop."""
         remedy = "bring the two links that close the loop nearer to a right angle (longer couplers, shorter input)"
         limit = self.spec.limits.transmission_angle
-        return transmission_check(self.min_transmission_angle, limit, remedy, "the least transmission angle")
+        return transmission_check(self.min_transmission_angle, limit, remedy)
 
 
 def _mesh(train: SixTrain, k: int) -> GearPair:
@@ -621,7 +622,7 @@ class _Refusals:
     """Why a six-bar cannot be followed."""
 
     def starts_dead(self) -> NoSolution:
-        return NoSolution("the six-bar starts in a dead centre: change start", key="start")
+        return NoSolution("the six-bar starts in a dead centre", key="start", fix="change start")
 
     def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
         """With the range that is free of dead centres."""
@@ -631,16 +632,19 @@ class _Refusals:
             low, high = sorted((math.degrees(q), math.degrees(back)))
             free = f"between {low:.6g} and {high:.6g} deg"
         return NoSolution(
-            f"the six-bar meets a dead centre at input angle {math.degrees(q):.6g} deg, where it jams: let the input "
-            f"swing {free} (range: {{start, end}}), lengthen the couplers, or shorten input and output",
+            f"the six-bar meets a dead centre at input angle {math.degrees(q):.6g} deg, where it jams",
             key="range" if ranged else "links",
+            fix=(
+                f"let the input swing {free} (range: {{start, end}}), lengthen the couplers, or shorten "
+                "input and output"
+            ),
         )
 
     def never_home(self) -> NoSolution:
         return NoSolution(
-            f"the six-bar does not come home within {MOST_TURNS} turns of the input: take teeth with common factors, "
-            "or give range: {start, end}",
+            f"the six-bar does not come home within {MOST_TURNS} turns of the input",
             key="trains",
+            fix="take teeth with common factors, or give range: {start, end}",
         )
 
 

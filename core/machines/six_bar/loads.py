@@ -46,9 +46,9 @@ class SixBarLoads(LoadsDesign):
             if name not in LINKS and name not in free and getattr(self.section.links, name) is not None:
                 known = f", only {' and '.join(free)}" if free else ""
                 raise NoSolution(
-                    f"this six-bar has no gear that turns freely there{known}: "
-                    "leave its mass out; a gear at the end of a train belongs to the link that it is fixed to",
+                    f"this six-bar has no gear that turns freely there{known}",
                     key=f"loads.links.{name}",
+                    fix="leave its mass out; a gear at the end of a train belongs to the link that it is fixed to",
                 )
         return (*LINKS[1:], *free)
 
@@ -83,11 +83,11 @@ class SixBarLoads(LoadsDesign):
             turns = self.design.period_turns
         except NoSolution as error:
             ranged = self.spec.range is not None
-            words = error.message.replace(", or give range: {start, end}", "")
-            if "dead centre at" in words:
-                words = words.partition(": ")[0] + ": lengthen the couplers, or shorten input and output"
-            message = f"loads are those of the whole period{', whatever the range' if ranged else ''}: {words}"
-            raise NoSolution(message, key="range" if ranged else error.key) from error
+            fix = error.fix.replace(", or give range: {start, end}", "")
+            if "dead centre at" in error.message:
+                fix = "lengthen the couplers, or shorten input and output"
+            message = f"loads are those of the whole period{', whatever the range' if ranged else ''}: {error.message}"
+            raise NoSolution(message, key="range" if ranged else error.key, fix=fix) from error
         assert turns is not None, "without a range there is a period"
         return turns
 

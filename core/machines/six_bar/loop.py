@@ -109,7 +109,7 @@ class SixBar:
         except NoSolution as error:
             ways = f"{NAMES[one]} and {NAMES[other]}"
             message = f"the six-bar does not close at the start: the ends of {ways} are {error.message}"
-            raise NoSolution(message) from None
+            raise NoSolution(message, fix=error.fix) from None
         found = {**self.start, one: cmath.phase(pin), other: cmath.phase(gap - pin)}
         return tuple(found[j] for j in FREE)
 

@@ -77,6 +77,7 @@ def reduced(rows: Sequence[Row]) -> tuple[list[Row], list[int]]:
         if len(pivots) == len(left):
             return [tuple(row) for row in left], pivots
     raise NoSolution(
-        "both trains tie the same links in the same ratio, the second takes no freedom away: put it on other pins",
+        "both trains tie the same links in the same ratio, the second takes no freedom away",
         key="trains",
+        fix="put it on other pins",
     )

@@ -45,8 +45,8 @@ def quick_return(stroke: float, ratio: float, rod: float | None = None, crank: f
     """
     p, half = 0.5 * math.pi * (ratio - 1.0) / (ratio + 1.0), 0.5 * stroke
     if p == 0.0 and rod is None:
-        message = "strokes of equal time have the crank stroke/2 and no offset, whatever the rod: give rod"
-        raise NoSolution(message, key="quick_return_ratio")
+        message = "strokes of equal time have the crank stroke/2 and no offset, whatever the rod"
+        raise NoSolution(message, key="quick_return_ratio", fix="give rod")
     sine, cosine = math.sin(p), math.cos(p)
     if rod is not None:
         _require_within("rod", rod, half, half * cosine / sine if p else math.inf, ratio)
@@ -70,7 +70,7 @@ def _best(half: float, p: float, ratio: float) -> QuickReturn:
     """
     if ratio >= 3.0:
         raise NoSolution(
-            f"no slider-crank has a time ratio of {ratio:g}: ask for less than 3", key="quick_return_ratio"
+            f"no slider-crank has a time ratio of {ratio:g}", key="quick_return_ratio", fix="ask for less than 3"
         )
     sine, cosine = math.sin(p), math.cos(p)
     g = 0.5 * sine * (sine + math.hypot(sine, 2.0))
@@ -88,9 +88,9 @@ def _require_within(key: str, length: float, low: float, high: float, ratio: flo
     if low < length < high:
         return
     if not low < high:
-        message = f"no {key} gives a time ratio of {ratio:g}, which a slider-crank reaches below 3: ask for less"
+        text, fix = f"no {key} gives a time ratio of {ratio:g}, a slider-crank reaches less than 3", "ask for less"
     elif length >= high:
-        message = f"{key} {length:g} mm is too long for this stroke and ratio: stay below {safely_below(high)} mm"
+        text, fix = f"{key} {length:g} mm is too long for this stroke and ratio", f"stay below {safely_below(high)} mm"
     else:
-        message = f"{key} {length:g} mm is too short for this stroke and ratio: go above {safely_above(low)} mm"
-    raise NoSolution(message, key=key)
+        text, fix = f"{key} {length:g} mm is too short for this stroke and ratio", f"go above {safely_above(low)} mm"
+    raise NoSolution(text, key=key, fix=fix)

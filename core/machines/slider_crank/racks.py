@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, model_validator
@@ -129,11 +129,8 @@ class RackDrive:
         for rack, mesh in self.meshes.items():
             with in_section("racks"):
                 for found in mesh.checks(name, limits):
-                    words = found.message if alike else f"{found.message} ({rack.replace('_', ' ')})"
-                    yield found.__class__(
-                        found.code, found.name, found.status, words, found.value, found.limit, found.unit,
-                        found.remedy, found.side,
-                    )  # fmt: skip
+                    what = found.what if alike else f"{found.what} ({rack.replace('_', ' ')})"
+                    yield replace(found, what=what)
             if alike:
                 return
 

@@ -79,7 +79,7 @@ class SliderCrankSpec(DrivenSpec):
         if (self.stroke is None) == (self.crank is None):
             if self.stroke is None:
                 raise PydanticCustomError("GL106", "give stroke, or crank in its place", {"key": "stroke"})
-            raise PydanticCustomError("GL111", "stroke and crank exclude each other: give one", {"key": "crank"})
+            raise PydanticCustomError("GL111", "stroke and crank exclude each other\ngive one", {"key": "crank"})
         return self
 
     def slider_crank(self) -> SliderCrank:

@@ -11,7 +11,8 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared
-from gearlink.core.base.report import Check, Rule, Status, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, safely_above, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper import codes
 from gearlink.core.machines.swing_gripper.passes import Pass, Passes, axes_of, cam_turns_drum, drum_axis
 from gearlink.core.parts.cams import codes as cam_codes
@@ -45,7 +46,7 @@ def transmission_angle(design: SwingGripper) -> Iterator[Check]:
         aim = limit if math.degrees(angle) < limit else limit + 5.0
         near = design.advises and math.degrees(angle) < limit + 5.0
         remedy = turn_remedy(design.motion.linkage, math.radians(aim), tells=False) if near else ""
-        subject = f"the least transmission angle at {place}"
+        subject = f"minimum transmission angle at {place}"
         yield transmission_check(angle, limit, remedy, subject)
 
 
@@ -54,34 +55,35 @@ def conditioning(design: SwingGripper) -> Check:
     number, limit = design.motion.condition_number, design.spec.limits.condition_number
     agreement = design.motion.newton_agreement
     status: Status = "warn" if number > limit else "pass"
-    text = f"closed form and Newton-Raphson agree within {agreement:.2g} rad at condition number {number:.4g}"
-    if status == "warn":
-        text += f", above the limit {limit:g}" + (_loss_near_dead_point(design) if design.advises else "")
-    elif design.motion.linkage.four_bar.kind() == "change-point":
-        status = "warn"
-        text += (
-            "; shortest and longest link add up to the other two, so in line with the frame the assembly is not "
-            f"determined: the swing keeps {math.degrees(min(design.motion.min_transmission_angle)):.4g} deg from there"
-        )
+    what, aside = "condition number near a dead centre", f"solutions agree within {agreement:.2g} rad"
     if agreement > _AGREEMENT * number:
-        status = "fail"
-        text += ": they should agree better; report the design file"
-    return codes.CONDITIONING.check(status, text, number, limit)
+        what, shown = "difference of closed form and Newton-Raphson", Shown(agreement, _AGREEMENT * number, "rad", "<=")
+        fix = "report the design file"
+        return codes.CONDITIONING.check("fail", what, number, limit, shown=shown, fix=fix)
+    if status == "pass" and design.motion.linkage.four_bar.kind() == "change-point":
+        margin = math.degrees(min(design.motion.min_transmission_angle))
+        what, shown = "distance of the swing from the change point of the linkage", Shown(margin, None, "deg")
+        fix = "change a link so that shortest and longest link do not add up to the other two"
+        return codes.CONDITIONING.check("warn", what, number, limit, shown=shown, fix=fix)
+    fix = note = ""
+    if status == "warn" and design.advises:
+        fix, note = _away_from_dead_centre(design), _loss_near_dead_centre(design)
+    return codes.CONDITIONING.check(status, what, number, limit, aside=aside, fix=fix, note=note)
 
 
-def _loss_near_dead_point(design: SwingGripper) -> str:
-    """Words for what the linkage loses, and how it would keep it."""
+def _away_from_dead_centre(design: SwingGripper) -> str:
     from gearlink.core.machines.swing_gripper.swing import turn_remedy
 
+    aim = math.radians(design.spec.limits.transmission_angle)
+    return turn_remedy(design.motion.linkage, aim, tells=False)
+
+
+def _loss_near_dead_centre(design: SwingGripper) -> str:
+    """What clearance of 0.01 mm turns the links by."""
     linkage, (at_d, at_c) = design.motion.linkage, design.motion.min_transmission_angle
-    loss = 8.0 * 2.0**-52 / math.sin(at_c)
     loose, length = ("cam rocker", linkage.input) if at_c < at_d else ("gripper", linkage.output)
-    play = math.degrees(0.01 * design.motion.condition_number / length)
-    return (
-        f": computed angles keep {loss:.1g} rad, accelerations {4.0 * loss / math.sin(at_c):.1g} of their size, and "
-        f"0.01 mm of play turns the {loose} by {play:.2g} deg; "
-        f"{turn_remedy(linkage, math.radians(design.spec.limits.transmission_angle), tells=False)}"
-    )
+    turned = math.degrees(0.01 * design.motion.condition_number / length)
+    return f"0.01 mm of clearance turns the {loose} by {short(turned, 2)} deg"
 
 
 def velocity_step(design: SwingGripper) -> Check:
@@ -93,8 +95,8 @@ def acceleration_step(design: SwingGripper) -> Iterator[Check]:
     """GL404 at the six joints of the law, and within a law."""
     yield _steps(design, cam_codes.ACCELERATION_STEP, 2, "warn")
     for phase in design.motion.law.inner_steps:
-        text = f"the acceleration jumps within phase {phase}: take a law like modified-sine in laws.{phase}"
-        yield cam_codes.ACCELERATION_STEP.check("warn", text)
+        what, fix = f"the acceleration steps within phase {phase}", f"set laws.{phase} to modified-sine"
+        yield cam_codes.ACCELERATION_STEP.check("warn", what, fix=fix)
 
 
 def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
@@ -118,11 +120,9 @@ def jerk_step(design: SwingGripper) -> Check:
     """GL407: the largest jump of the third derivative at a joint; a limit only where the file gives one."""
     limit = design.spec.limits.jerk_step
     where, jump = max(_jumps(design, 3), key=lambda item: abs(item[1]))
-    text = f"the swing's jerk jumps by {jump:+.4g} rad/rad^3 at the {where}"
     status: Status = "warn" if limit is not None and abs(jump) > limit else "pass"
-    if status == "warn":
-        text += f", above limits.jerk_step {limit:g}: polynomial-4567, velocity-4567 and {{septic: 0.5}} end without"
-    return cam_codes.JERK_STEP.check(status, text, abs(jump), limit)
+    what, fix = "step of the swing's jerk (rad/rad^3)", "take the laws polynomial-4567 or velocity-4567"
+    return cam_codes.JERK_STEP.check(status, what, abs(jump), limit, at=f"the {where}", fix=fix)
 
 
 def handover(design: SwingGripper) -> Iterator[Check]:
@@ -139,11 +139,16 @@ def _speed_check(design: SwingGripper) -> Check:
     mismatch, speed = design.handover.mismatch, design.spec.cylinder.radius * design.motion.shaft_speed
     share = abs(mismatch) / speed
     status: Status = "fail" if share > _SPEED_SHARE else "pass"
-    text = f"gripper and cylinder run at {speed:.6g} mm/s at the handover, mismatch {mismatch:.2g} mm/s"
-    if status == "fail":
-        start, end = design.motion.law.starts[1:3]
-        text += f": set handover to {0.5 * (start + end):g}, the middle of the constant phase"
-    return codes.HANDOVER.check(status, text, share, _SPEED_SHARE)
+    start, end = design.motion.law.starts[1:3]
+    return codes.HANDOVER.check(
+        status,
+        "speed difference of gripper and cylinder at the handover",
+        share,
+        _SPEED_SHARE,
+        shown=Shown(abs(mismatch), _SPEED_SHARE * speed, "mm/s", "<="),
+        aside=f"cylinder {short(speed)} mm/s",
+        fix=f"set handover to {0.5 * (start + end):g}, the middle of the constant phase",
+    )
 
 
 def runs_backwards(design: SwingGripper) -> bool:
@@ -160,12 +165,15 @@ def _backward_check(design: SwingGripper) -> Check:
     """GL503 of a cylinder that turns with the gripper: on the line of centres the two then run against each other."""
     speed = design.spec.cylinder.radius * design.motion.shaft_speed
     apart = abs(design.handover.speed + speed)
-    text = (
-        f"the cam turns the cylinder on its shaft in the sense of the gripper's swing, so that tip and surface meet "
-        f"at {apart:.6g} mm/s against each other at the handover: reverse cam.sense or swing_sense, or move cam.center "
-        "to a shaft of its own"
+    return codes.HANDOVER.check(
+        "fail",
+        "speed difference of gripper and cylinder at the handover",
+        apart / speed,
+        _SPEED_SHARE,
+        shown=Shown(apart, _SPEED_SHARE * speed, "mm/s", "<="),
+        aside="the cam turns the cylinder on its shaft in the sense of the gripper's swing",
+        fix="reverse cam.sense",
     )
-    return codes.HANDOVER.check("fail", text, apart / speed, _SPEED_SHARE)
 
 
 def _place_check(design: SwingGripper, center: complex) -> Check:
@@ -174,33 +182,22 @@ def _place_check(design: SwingGripper, center: complex) -> Check:
     limit = design.spec.limits.handover_place
     off = misplacement(complex(*design.spec.pivots.output), design.handover.tip, center, design.spec.cylinder.radius)
     status: Status = "fail" if off.place > limit else "warn" if off.place > _MOST_OFF_PLACE else "pass"
-    text = f"the gripper tip stands {off.place:.4g} mm off its place on the line of centres at the handover"
-    if status != "pass":
-        fits = design.handover.center
-        changes = [f"turn arm.direction by {math.degrees(off.turn):+.6g} deg"]
-        if abs(off.distance) > min(limit, _MOST_OFF_PLACE):
-            changes.append(f"change arm.length by {off.distance:+.6g} mm (the speeds then differ)")
-        above = f"above the limit {limit:g} mm"
-        if status == "warn":
-            above = f"as limits.handover_place allows, though above {_MOST_OFF_PLACE:g} mm no sheet is handed over well"
-        text += f", {above}: {' and '.join(changes)}, or set cylinder.center to [{fits.real:.6g}, {fits.imag:.6g}]"
-    return codes.HANDOVER.check(status, text, off.place, _MOST_OFF_PLACE if status == "warn" else limit, "mm")
+    fits, fix = design.handover.center, f"turn arm.direction by {math.degrees(off.turn):+.4g} deg"
+    if abs(off.distance) > min(limit, _MOST_OFF_PLACE):
+        fix = f"set cylinder.center to [{short(fits.real)}, {short(fits.imag)}]"
+    note = "no sheet is handed over well so far off" if status == "warn" else ""
+    what, most = "distance of the gripper tip from the handover point", _MOST_OFF_PLACE if status == "warn" else limit
+    return codes.HANDOVER.check(status, what, off.place, most, "mm", fix=fix, note=note)
 
 
 def _inside_check(design: SwingGripper, release: Release) -> Check:
     start, end = design.motion.law.starts[1:3]
     room = min(design.spec.handover - start, end - design.spec.handover)
     status: Status = "warn" if release.window > room else "pass"
-    text = (
-        f"gripper and cylinder run at one speed for {room:g} deg to either side of the handover; the sheet changes "
-        f"over within {release.window:g} deg, {release.window / 360.0 * 3.6e6 / design.spec.speed:.4g} ms"
-    )
-    if status == "warn":
-        text += (
-            f": set phases.constant to at least {2.0 * release.window:g} deg with the handover in its middle, or "
-            f"release.window to at most {safely_below(room) if room else 'its'} deg"
-        )
-    return codes.HANDOVER.check(status, text, release.window, room, "deg")
+    what = "release window on either side of the handover"
+    aside = f"{short(release.window / 360.0 * 3.6e6 / design.spec.speed)} ms, at equal speed"
+    fix = f"set phases.constant to at least {safely_above(2.0 * release.window)} deg, the handover in its middle"
+    return codes.HANDOVER.check(status, what, release.window, room, "deg", aside=aside, fix=fix)
 
 
 def _gap_check(design: SwingGripper, release: Release) -> Check:
@@ -212,17 +209,12 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
     _, _, path = design.handover.path(degrees)
     gap, slip = float(np.abs(path.gap).max()), float(np.abs(path.slip).max())
     status: Status = "warn" if gap > release.gap else "pass"
-    text = (
-        f"the tip leaves the pitch circle by {gap:.4g} mm and slips by {slip:.2g} mm within {release.window:g} deg "
-        "of the handover"
-    )
+    fix = ""
     if status == "warn":
         widest = widest_window(design.spec.arm.length, design.spec.cylinder.radius, release.gap)
-        text += (
-            f", above release.gap {release.gap:g} mm: set release.window to at most "
-            f"{safely_below(math.degrees(widest), 4)} deg, or allow a gap of {safely_above(gap, 3)} mm"
-        )
-    return codes.HANDOVER.check(status, text, gap, release.gap, "mm")
+        fix = f"set release.window to at most {safely_below(math.degrees(widest))} deg"
+    what, aside = "gap of the gripper tip from the pitch circle in the release window", f"slip {short(slip)} mm"
+    return codes.HANDOVER.check(status, what, gap, release.gap, "mm", aside=aside, fix=fix)
 
 
 def pressure_angle(design: SwingGripper) -> Iterator[Check]:
@@ -247,14 +239,10 @@ def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
     for cam, worst in zip(cams, largest_pressure_angles(cams, 0.0, end, 128), strict=True):
         value = math.degrees(abs(worst.value))
         status: Status = "warn" if is_steep(value, limit) else "pass"
-        text = (
-            f"the pressure angle of the {cam.name} reaches {value:.6g} deg while it accelerates the gripper, at "
-            f"cam angle {math.degrees(worst.place):.5g} deg"
-        )
-        if status == "warn":
-            text += f", above {limit:g} deg"
-            text += f": {design.cams.center_remedy(limit)}" if design.advises else ""
-        yield cam_codes.PRESSURE_ANGLE.check(status, text, value, limit, "deg")
+        what = f"pressure angle of the {cam.name} while it accelerates the gripper"
+        at = f"cam angle {short(math.degrees(worst.place))} deg"
+        fix = design.cams.center_remedy(limit) if status == "warn" and design.advises else ""
+        yield cam_codes.PRESSURE_ANGLE.check(status, what, value, limit, "deg", at=at, fix=fix)
 
 
 def cam_undercut(design: SwingGripper) -> Iterator[Check]:
@@ -274,7 +262,7 @@ def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
         SHAFT_CLEARANCE,
         design.cams.discs,
         design.cams.section.shaft_radius,
-        lambda missing: f"set cam.center {missing:.4g} mm farther from the roller",
+        lambda missing: f"set cam.center {safely_above(missing)} mm farther from the roller",
     )
 
 
@@ -286,30 +274,38 @@ def lift_off(design: SwingGripper) -> Check:
         its cam. That is a warning, since the file may leave out the spring that the machine has.
     """
     if design.closure.refusal is not None:
-        text = design.closure.refusal.message
-        return cam_codes.LIFT_OFF.check("fail", text, None, design.spec.speed, "sheets/h")
+        what, fix = design.closure.refusal.message, design.closure.refusal.fix
+        return cam_codes.LIFT_OFF.check("fail", what, None, design.spec.speed, "sheets/h", fix=fix)
     if design.spec.spring is None:
         rollers = "either roller on its cam" if len(design.cams.discs) > 1 else "the roller on its cam"
-        text = f"nothing presses {rollers}: give the spring between the rockers, spring.torque or its levers"
-        return cam_codes.LIFT_OFF.check("warn", text, None, design.spec.speed, "sheets/h")
+        what, fix = f"nothing presses {rollers}", "give spring.torque, or the levers of the spring"
+        return cam_codes.LIFT_OFF.check("warn", what, None, design.spec.speed, "sheets/h", fix=fix)
     torque, speed, reserve = design.closure.closing_torque, design.closure.lift_off_speed, design.closure.spring.reserve
     names = [cam.name.removesuffix(" cam") for cam in design.cams.discs]
     roller, worst = max(zip(names, design.closure.worst_unloading, strict=True), key=lambda item: item[1].value)
     if speed is None:
-        return cam_codes.LIFT_OFF.check("pass", "no inertia ever unloads a roller", None, None, "sheets/h")
-    left = torque - worst.value
-    status: Status = "fail" if left <= reserve else "warn" if speed < 1.1 * design.spec.speed else "pass"
-    text = (
-        f"the {roller} roller keeps {left:.4g} N m of the spring's {torque:.6g} N m at cylinder angle "
-        f"{worst.place:.4g} deg; it lifts off at {speed:.6g} sheets/h"
+        return cam_codes.LIFT_OFF.check("pass", "no speed lifts a roller off its cam", None, None, "sheets/h")
+    status: Status = (
+        "fail" if torque - worst.value <= reserve else "warn" if speed < 1.1 * design.spec.speed else "pass"
     )
-    if left <= reserve and reserve > 0.0:
-        text += f", and {reserve:g} N m are to remain"
+    needed = worst.value + reserve
+    fix = ""
     if status != "pass":
-        # of a check that fails the value is tried, and said behind
-        remedy = design.closure.spring_remedy(1.21 * worst.value + reserve, tells=status == "warn")
-        text += f": {remedy} for a tenth of speed in reserve, or lower the speed"
-    return cam_codes.LIFT_OFF.check(status, text, speed, design.spec.speed, "sheets/h")
+        # of a check that fails the value is tried
+        fix = (
+            design.closure.spring_remedy(1.21 * worst.value + reserve, tells=status == "warn") + " (10 % speed margin)"
+        )
+    return cam_codes.LIFT_OFF.check(
+        status,
+        f"lift-off speed of the {roller} roller",
+        speed,
+        design.spec.speed,
+        "sheets/h",
+        recommended=1.1 * design.spec.speed,
+        aside=f"required {short(needed)} N m, spring {short(torque)} N m",
+        at=f"cylinder angle {short(worst.place)} deg",
+        fix=fix,
+    )
 
 
 _RESERVE = 1.1
@@ -475,13 +471,13 @@ _CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
 }
 
 
-_THINNEST = "the thinnest shaft (limits.least_shaft) takes"
+_THINNEST = "minimum shaft radius, limits.least_shaft"
 _OVER = 1e-6
 """A link no farther from an axis [mm] sweeps over it, where no shaft is thin enough."""
 
 
 class Room(NamedTuple):
-    """The thinnest shaft that would be built beside a body [mm], and the words for it."""
+    """The radius of the thinnest shaft that would be built beside a body [mm], and what it is."""
 
     radius: float
     takes: str
@@ -507,7 +503,7 @@ def cams(design: SwingGripper) -> Iterator[Check]:
     for cam in design.cams.discs:
         for axis in axes_of(design)[1:]:
             room = abs(axis.place - design.cams.center) - cam.max_radius
-            advice = f"overhang the shaft beside the cam, move cam.center away from it, or {axis.remedy}"
+            advice = axis.remedy
             shaft, takes = room_for_shaft(design, cam.roller_radius)
             yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, shaft, axis.name, advice, takes=takes)
 
@@ -523,7 +519,7 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
     needed, takes = room_for_shaft(design, design.cams.section.roller.radius)
     for axis in axes_of(design)[:2]:
         within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
-        advice = f"overhang the shaft beside it, turn arm.direction, or {axis.remedy}"
+        advice = axis.remedy
         if not (axis.letter == "O" and cam_turns_drum(design)):
             room = abs(drum - axis.place) - radius - within
             words = "cylinder that takes the sheet"
@@ -538,7 +534,7 @@ def rollers(design: SwingGripper) -> Iterator[Check]:
     for words, key, roller in (("main", "roller", section.roller), ("return", "return_roller", section.return_roller)):
         if roller is not None:
             room = roller.arm - roller.radius
-            advice = f"lengthen cam.{key}.arm, or take a smaller roller"
+            advice = f"lengthen cam.{key}.arm"
             name, axis = f"{words} roller", "the cam rocker's axis"
             shaft, takes = room_for_shaft(design, roller.radius)
             yield from over_axis_check(SHAFT_CLEARANCE, name, room, shaft, axis, advice, takes=takes)
@@ -556,23 +552,24 @@ def links(design: SwingGripper) -> Iterator[Check]:
         least, takes = room_for_shaft(design, found.radius or main)
         needed = found.axis.radius or least
         if found.distance - found.radius < max(needed, _OVER):
-            where = f"{found.axis.name} at cylinder angle {passes.cylinder_angle(found):.5g} deg"
-            advice = f"that shaft must end before the plane of the {found.body} (be overhung), or {found.axis.remedy}"
+            at = f"cylinder angle {short(passes.cylinder_angle(found))} deg"
+            advice = f"end that shaft before the plane of the {found.body} (overhung)"
             if found.radius:
-                room = found.distance - found.radius
-                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, where, advice, takes=takes)
+                room, axis = found.distance - found.radius, found.axis.name
+                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, axis, advice, takes=takes, at=at)
             else:
-                yield _line_check(found, where, Room(needed, takes), advice)
+                yield _line_check(found, at, Room(needed, takes), advice)
 
 
-def _line_check(found: Pass, where: str, needed: Room, advice: str) -> Check:
+def _line_check(found: Pass, at: str, needed: Room, fix: str) -> Check:
     """GL302 of a link that passes through the place of a shaft."""
-    takes = "" if found.axis.radius else f", {needed.takes} {needed.radius:g} mm"
-    how = f"passes {found.distance:.4g} mm beside {'the middle of ' if found.axis.radius else ''}"
+    aside = "shaft radius" if found.axis.radius else needed.takes
+    what, shown = f"{found.body} to {'the middle of ' if found.axis.radius else ''}{found.axis.name}", None
     if found.distance < _OVER:
-        how, takes = "sweeps over ", ""
-    text = f"the {found.body} {how}{where}{takes}: {advice}"
-    return SHAFT_CLEARANCE.check("warn", text, found.distance, needed.radius, "mm")
+        what, shown, aside = f"the {found.body} sweeps over {found.axis.name}", NO_NUMBER, ""
+    return SHAFT_CLEARANCE.check(
+        "warn", what, found.distance, needed.radius, "mm", shown=shown, aside=aside, at=at, fix=fix
+    )
 
 
 def spring(design: SwingGripper) -> Iterator[Check]:
@@ -587,12 +584,9 @@ def spring(design: SwingGripper) -> Iterator[Check]:
     (p, q), turned = given.arms, cmath.exp(1j * math.radians(given.angle))
     distance = float(beside_line(0j, np.array([p + 0j]), np.array([q * turned]))[0])
     if distance < needed:
-        text = (
-            f"the line of the spring passes {distance:.4g} mm beside the cam rocker's axis, {takes} "
-            f"{needed:g} mm: {'lessen spring.angle or ' if min(p, q) >= needed else ''}lengthen "
-            "spring.arms, or let that shaft end before the plane of the spring"
-        )
-        yield SHAFT_CLEARANCE.check("warn", text, distance, needed, "mm")
+        fix = "reduce spring.angle" if min(p, q) >= needed else "lengthen spring.arms"
+        what = "line of the spring to the cam rocker's axis"
+        yield SHAFT_CLEARANCE.check("warn", what, distance, needed, "mm", aside=takes, fix=fix)
 
 
 def room_beside_arm(design: SwingGripper, place: complex) -> float:

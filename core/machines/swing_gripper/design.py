@@ -13,6 +13,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution, at_key
 from gearlink.core.base.report import Table, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper import checks
 from gearlink.core.machines.swing_gripper.codes import FARTHER
 from gearlink.core.machines.swing_gripper.motion import Motion, require
@@ -205,7 +206,9 @@ class GripperCams(DiscCams):
         if side is None and back is not None:
             side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
         if side is None:
-            raise NoSolution("one roller alone does not fix where the cam is: give size.side, 1 or -1", key="size")
+            raise NoSolution(
+                "one roller alone does not fix where the cam is", key="size", fix="give size.side, 1 or -1"
+            )
         rollers = [self._rocking(cam.roller, cam.roller.angle, side)]
         if back is not None:
             rollers.append(self._rocking(back, cam.roller.angle + back.angle, -side))
@@ -315,7 +318,7 @@ class GripperCams(DiscCams):
         try:
             self.center_for(0.99 * limit, refined=False)
         except NoSolution:
-            return f"no cam.center keeps it, the least for both rollers is {self._least_limit:.3g} deg: {longer}"
+            return f"{longer} (no cam centre meets the limit, best {short(self._least_limit, 3)} deg)"
         return f"move cam.center, or {longer}"
 
     @cached_property
@@ -345,10 +348,10 @@ class GripperCams(DiscCams):
         """The refusal of a cam in the keys of this kind, with the centre at which there is one."""
         if refusal.key:
             return refusal
-        message = refusal.message.replace(LARGER, FARTHER)
-        limit = self.spec.limits.pressure_angle
-        advice = f"; for {limit:g} deg: {self.center_remedy(limit)}" if self.advise else ""
-        return NoSolution(message + advice, key="cam.center")
+        message, fix = (text.replace(LARGER, FARTHER) for text in (refusal.message, refusal.fix))
+        if self.advise:
+            fix = self.center_remedy(self.spec.limits.pressure_angle)
+        return NoSolution(message, key="cam.center", fix=fix)
 
 
 # The force closure of a swing gripper's cam pair: spring, inertia torques, lift-off
@@ -420,9 +423,9 @@ class Closure:
             arm = math.degrees(math.remainder(cmath.phase(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
             way = "less" if arm > 0.0 else "more"
             raise NoSolution(
-                "both rollers lie on the same side of the cam, so a spring that closes one lifts the other: "
-                f"cam.return_roller.angle is {way} than {arm:.4g} deg, at which its arm passes the cam axis",
+                "both rollers lie on the same side of the cam: a spring that closes one lifts the other",
                 key="cam.return_roller.angle",
+                fix=f"set cam.return_roller.angle {'below' if way == 'more' else 'above'} {short(arm)} deg",
             )
         return sense
 

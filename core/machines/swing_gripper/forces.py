@@ -15,6 +15,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion
 from gearlink.core.numerics.arrays import Reals
 
@@ -138,11 +139,12 @@ class LeverSpring:
 
     def __post_init__(self) -> None:
         if self.pull <= 0.0:
+            if self.rate <= 0.0:
+                raise NoSolution("the spring pulls with 0 N", fix="give it a preload")
+            most = safely_below(self.reference_length + self.pull / self.rate)
             raise NoSolution(
-                f"the spring is {self.length:.6g} mm long and pulls with {self.pull:.6g} N: it closes nothing; make "
-                f"its length at preload less than {safely_below(self.reference_length + self.pull / self.rate, 6)} mm"
-                if self.rate > 0.0
-                else "the spring pulls with 0 N: give it a preload"
+                f"the spring, {short(self.length)} mm long, is slack: no force closes the cam pair",
+                fix=f"set its length at preload below {most} mm",
             )
 
     @property

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.numerics.arrays import Reals
 
 
@@ -103,7 +104,8 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
     """
     if gap >= 2.0 * arm:
         raise NoSolution(
-            f"no turn takes the tip {gap:.6g} mm off the pitch circle: ask for less than {2.0 * arm:.6g} mm"
+            f"no turn takes the tip {gap:.6g} mm off the pitch circle",
+            fix=f"ask for less than {safely_below(2.0 * arm)} mm",
         )
     square = gap * (2.0 * radius + gap) / (4.0 * arm * (arm + radius))
     return 2.0 * math.asin(math.sqrt(square)) * arm / radius

@@ -55,13 +55,15 @@ class SixPhaseLaw:
             if law.kind != kind:
                 usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
                 raise NoSolution(
-                    f"phase {phase} needs a {kind} law; {law.name} is {law.kind}: take {usual}", key=f"laws.{phase}"
+                    f"phase {phase} needs a {kind} law; {law.name} is {law.kind}",
+                    key=f"laws.{phase}",
+                    fix=f"take {usual}",
                 )
             if law.end_jumps:
                 raise NoSolution(
-                    f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell: "
-                    "take cycloidal, modified-sine or polynomial-345",
+                    (f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell"),
                     key=f"laws.{phase}",
+                    fix="take cycloidal, modified-sine or polynomial-345",
                 )
 
     @cached_property

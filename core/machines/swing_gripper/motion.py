@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 
 if TYPE_CHECKING:
@@ -89,10 +90,16 @@ class Motion:
         if swing < 360.0:
             return
         raise NoSolution(
-            f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} is too high for "
-            f"these phases; make the arm longer than {self.spec.arm.length * swing / 360.0:.6g} mm, the cylinder's "
-            f"radius less than {self.spec.cylinder.radius * 360.0 / swing:.6g} mm, or the phases shorter",
+            (
+                f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} "
+                "is too high for these phases"
+            ),
             key="arm.length",
+            fix=(
+                f"make the arm longer than {safely_above(self.spec.arm.length * swing / 360.0)} mm, the cylinder's "
+                f"radius less than {safely_below(self.spec.cylinder.radius * 360.0 / swing)} mm, or the phases "
+                "shorter"
+            ),
         )
 
     def _require_stated_swing(self, law: SixPhaseLaw) -> None:
@@ -103,10 +110,13 @@ class Motion:
         kappa = law.accelerate.kappa + short / (law.speed * self.spec.phases.accelerate)
         free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
         raise NoSolution(
-            f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg: set "
-            f"arm.length to {self.spec.arm.length * swing / stated:.9g}, or change phases.constant by "
-            f"{short / law.speed:+.9g} deg (and another phase as much the other way){free}",
+            (f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg"),
             key="total_swing",
+            fix=(
+                f"set arm.length to {self.spec.arm.length * swing / stated:.6g}, or change "
+                f"phases.constant by {short / law.speed:+.9g} deg (and another phase as much the other "
+                f"way){free}"
+            ),
         )
 
     @cached_property

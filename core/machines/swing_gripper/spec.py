@@ -77,10 +77,18 @@ class Phases(Spec):
         if abs(total - 360.0) > 1e-9:
             raise PydanticCustomError(
                 "GL111",
-                "the six phases add up to {total} deg, not 360: change one of them by {off} deg",
-                {"total": f"{total:g}", "off": f"{360.0 - total:g}"},
+                "sum of the six phases: {total} deg (required 360 deg)",
+                {"total": f"{total:g}", "help": self._help(360.0 - total)},
             )
         return self
+
+    def _help(self, change: float) -> str:
+        """Which phase may take up the change [deg], the longest."""
+        names = ("accelerate", "constant", "decelerate", "far_dwell", "return", "near_dwell")
+        longest, name = max(zip(self.lengths(), names, strict=True))
+        if longest + change > 0.0:
+            return f"set phases.{name} to {longest + change:g} deg"
+        return f"reduce the phases by {-change:g} deg together"
 
     def lengths(self) -> tuple[float, ...]:
         """The six lengths in their order [deg]."""
@@ -237,7 +245,7 @@ class SwingGripperSpec(TolerancedSpec):
         if not start <= self.handover <= end:
             raise PydanticCustomError(
                 "GL108",
-                "the handover at {at} deg lies outside the constant-speed phase: set it from {start} to {end} deg",
+                "the handover at {at} deg lies outside the constant-speed phase\nset it from {start} to {end} deg",
                 {"key": "handover", "at": f"{self.handover:g}", "start": f"{start:g}", "end": f"{end:g}"},
             )
         return self

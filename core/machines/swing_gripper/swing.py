@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
 from gearlink.core.numerics.arrays import Reals
 
@@ -42,18 +43,19 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
         if off <= 0.0:
             change = f"bring input and coupler {safely_above(low - float(reach.min()), 4)} mm nearer"
         raise NoSolution(
-            f"the linkage does not close at cylinder angle {linkage.law.reaches(float(swing[first])):.6g} deg: |AD| = "
-            f"{reach[first]:.6g} mm, input and coupler span {low:.6g} to {high:.6g} mm; {change}, or "
-            f"{turn_remedy(linkage, limit)}",
+            f"the linkage cannot be assembled at cylinder angle {short(linkage.law.reaches(float(swing[first])))} deg: "
+            f"AD {reach[first]:.6g} mm (reach {low:.6g} to {high:.6g} mm)",
             key="links",
+            fix=change,
         )
     for extreme, (joint, one, other) in zip(linkage.least_transmission, _JOINTS, strict=True):
         if extreme.value < DEAD_POINT:
             raise NoSolution(
-                f"{one} and {other} align at joint {joint} at cylinder angle {linkage.law.reaches(extreme.place):.6g} "
-                f"deg: a dead point, off it by {math.degrees(extreme.value):.2g} deg where at least "
-                f"{math.degrees(DEAD_POINT):.2g} deg are needed; {turn_remedy(linkage, limit)}",
+                f"dead centre at joint {joint} ({one} and {other} collinear): {math.degrees(extreme.value):.2g} deg "
+                f"(limit >= {safely_above(math.degrees(DEAD_POINT), 2)} deg) at cylinder angle "
+                f"{short(linkage.law.reaches(extreme.place))} deg",
                 key="links",
+                fix=turn_remedy(linkage, limit),
             )
 
 
@@ -65,7 +67,7 @@ def turn_remedy(linkage: GripperLinkage, limit: float, *, tells: bool = True) ->
     """
     limit = max(limit, _LEAST_AIM)
     turn, widest = clear_turn(linkage, limit)
-    aim = f"for transmission angles of {math.degrees(limit):g} deg"
+    aim = f"(transmission angle {math.degrees(limit):g} deg)"
     if turn is not None:
         sign = "+" if turn > 0.0 else "-"
         angle = f" by {sign}{safely_above(abs(math.degrees(turn)), 4)} deg" if tells else ""
@@ -73,10 +75,9 @@ def turn_remedy(linkage: GripperLinkage, limit: float, *, tells: bool = True) ->
     swing = math.degrees(linkage.law.total_swing)
     if widest > 0.0:
         return (
-            f"shorten the phases so that the swing of {swing:.6g} deg becomes "
-            f"{safely_below(math.degrees(widest), 4)} deg, the most that these links make {aim}"
+            f"reduce the swing from {short(swing)} to {safely_below(math.degrees(widest))} deg {aim} by shorter phases"
         )
-    return f"change links or pivots: no direction of output serves {aim}"
+    return f"change links or pivots {aim}"
 
 
 def clear_turn(linkage: GripperLinkage, limit: float) -> tuple[float | None, float]:

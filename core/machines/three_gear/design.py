@@ -12,7 +12,7 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import amount
+from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.three_gear import dwell as dwells
 from gearlink.core.machines.three_gear import motion
 from gearlink.core.machines.three_gear.codes import ratio_judged, tolerance_judged
@@ -407,7 +407,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             yield ring_planes(self.layout, self.train, self.spec.limits.gear_gap)
             return
         limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
-        why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"
+        why = f"minimum centre distance {short(apart)} mm, AD - AB"
         for pair in self.layout.gear_pairs:
             remedy = self._gap_remedy(limit - pair.gap) if pair.gap < limit and self.advises else ""
             yield collision_check(pair, limit, why, remedy)
@@ -419,15 +419,12 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             if idler is not None:
                 return f"take an idler of {idler} teeth or more"
         module = self.spec.gears.transverse_module
-        words = (
-            f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
-            f"{amount(math.ceil(2.0 * missing / module), 'tooth', 'teeth')} smaller together"
+        if self.spec.momentary is not None and (shorter := self._longest_crank_with_room()) is not None:
+            return f"take a crank of at most {safely_below(shorter)} mm (synth momentary-dwell)"
+        fewer = amount(math.ceil(2.0 * missing / module), "tooth", "teeth")
+        return (
+            f"increase frame minus crank by {safely_above(missing)} mm, or take {fewer} less on crank and output gear"
         )
-        shorter = self._longest_crank_with_room()
-        if shorter is not None:
-            most = safely_below(shorter)
-            words += f"; a momentary dwell has room with a crank of at most {most} mm (synth momentary-dwell)"
-        return words
 
     def _longest_crank_with_room(self) -> float | None:
         """Longest crank of a momentary dwell with these gears that keeps gears 1 and 5 apart [mm]."""
@@ -469,10 +466,9 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         if self.output_tolerance is None:
             return
         given, limit = math.degrees(self.output_tolerance), math.degrees(self.endless_tolerance)
-        text = f"the tolerance of the dwell is +-{given:.6g} deg, the output gains {2.0 * limit:.6g} deg in a turn"
-        yield tolerance_judged(given, limit).check(
-            text, f": within it a dwell has no end, give less than {safely_below(limit)} deg"
-        )
+        aside = f"the output gains {short(2.0 * limit)} deg per revolution"
+        fix = f"set the tolerance below {safely_below(limit)} deg: within it the dwell has no end"
+        yield tolerance_judged(given, limit).check("dwell tolerance", fix, aside=aside)
 
     @cached_property
     def window_rooms(self) -> tuple[Room, ...]:
@@ -491,9 +487,11 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         asked = self.spec.gears.i3
         if asked is None:
             return
-        text = f"i3 = {asked:g} becomes {self.i3:.9g} with {self.idler_teeth} idler teeth"
-        remedy = "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
-        yield ratio_judged(self.i3, asked).check(text, remedy, name="rounded-ratio")
+        aside, fix = f"{self.idler_teeth} idler teeth", f"give gears.idler: {self.idler_teeth} in place of i3"
+        note = "all results are of this ratio"
+        yield ratio_judged(self.i3, asked).check(
+            "ratio i3 of whole teeth", fix, name="rounded-ratio", aside=aside, note=note
+        )
 
 
 def given_tolerance(spec: ThreeGearSpec, named: float | None) -> float | None:
@@ -624,7 +622,6 @@ def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
     gap = least_gap(crank, output, layout.reaches["BD"]).gap
     ring, other = ("the output ring", "the crank gear") if train.output < 0 else ("the crank ring", "the output gear")
     if gap >= limit:
-        text = f"{other} turns within {ring} and keeps {gap:.6g} mm from its tips at the closest"
-        return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
-    text = f"{other} sweeps through {ring}: put them side by side on a wide idler, in planes of their own"
-    return GEAR_COLLISION.check("warn", text)
+        return GEAR_COLLISION.check("pass", f"gap between the tips of {other} and {ring}", gap, limit, "mm")
+    fix = "put them side by side on a wide idler, in planes of their own"
+    return GEAR_COLLISION.check("warn", f"{other} sweeps through {ring}", fix=fix)

@@ -12,7 +12,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, within
 from gearlink.core.machines.three_gear.momentary import (
     Tangency,
     crank_angle,
@@ -144,8 +146,8 @@ def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
     positions = dwell_positions(linkage, train)
     if len(positions) < 2:
         raise NoSolution(
-            f"the output of this linkage does not turn back ({motion(positions)}): with crank {linkage.crank:.9g} mm "
-            + _frame_for_back_step(linkage, train)
+            f"the output of this linkage does not step back ({motion(positions)}, crank {short(linkage.crank)} mm)",
+            fix=_frame_for_back_step(linkage, train),
         )
     start, end = positions
     if output_acceleration(linkage, train, start) > 0.0:
@@ -198,8 +200,8 @@ def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:
     rocker = scale * abs(z3 + z5)
     if abs(rocker - linkage.rocker) > _LINK_TOLERANCE * rocker:
         raise NoSolution(
-            f"the rocker {linkage.rocker:.9g} mm does not fit the gears: with the coupler {linkage.coupler:.9g} mm and "
-            f"{z1:g}, {z3:g}, {z5:g} teeth it must be {rocker:.9g} mm"
+            f"the rocker {linkage.rocker:.6g} mm does not fit the gears: with the coupler {linkage.coupler:.6g} mm and "
+            f"{z1:g}, {z3:g}, {z5:g} teeth it must be {rocker:.6g} mm"
         )
     return r1, r3, linkage.rocker * z5 / abs(z3 + z5)
 
@@ -253,13 +255,14 @@ def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     if train.internal:
         touching = ring_tangency(r1, r3, r5, linkage.crank)
         if touching is None:
-            return "no frame does that; take another crank or other teeth"
+            return "take another crank or other teeth"
         side = "longer" if r1 + r3 + r5 > 0.0 else "shorter"
-        return f"it does so with a frame {side} than {touching.frame:.9g} mm"
+        limit = safely_above(touching.frame) if side == "longer" else safely_below(touching.frame)
+        return f"take a frame {side} than {limit} mm"
     low, high = tangency_range(r1, r3, r5)
     if not low < linkage.crank < high:
-        return f"no frame does that; take a crank between {low:.9g} and {high:.9g} mm"
-    return f"it does so with a frame longer than {tangency(r1, r3, r5, linkage.crank).frame:.9g} mm"
+        return f"take a crank of {within(low, high, 'mm')}"
+    return f"take a frame longer than {safely_above(tangency(r1, r3, r5, linkage.crank).frame)} mm"
 
 
 def tolerance_from_backlash(backlash: float, output_radius: float) -> float:

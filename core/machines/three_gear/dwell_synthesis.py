@@ -11,6 +11,7 @@ from gearlink.core.base.design import Found, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, anew, at_key, section_of
 from gearlink.core.base.report import Check, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.codes import back_step_judged
 from gearlink.core.machines.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar, given_tolerance
@@ -103,7 +104,7 @@ class DwellTask(FamilyTask):
             raise
         except NoSolution as error:
             words = self._best_within_limits() if advises else ""
-            self.no_idler = NoSolution(error.message + words, key=error.key)
+            self.no_idler = NoSolution(error.message, key=error.key, fix=words or error.fix)
             raise anew(self.no_idler) from error
 
     def _best_within_limits(self) -> str:
@@ -120,10 +121,7 @@ class DwellTask(FamilyTask):
             limit = symmetric.longest_window(-idler / self.spec.gears.output, self.band)
         except NoSolution:
             return ""
-        return (
-            f"; within the limits the output stays within +-{math.degrees(self.band):.9g} deg over "
-            f"{safely_below(0.996 * math.degrees(limit))} deg (idler {idler})"
-        )
+        return f"set dwell.window to {safely_below(0.996 * math.degrees(limit))} deg (within the limits, idler {idler})"
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
         """A window that the smallest idler does not reach, no idler does: it falls with the idler's teeth, unless the
@@ -215,11 +213,13 @@ class DwellTask(FamilyTask):
             return frame
         place, longest = always.longest(self.band)
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(self.band):.9g} deg over {self.request.window:g} deg "
-            f"with a crank-rocker of these gears and this crank: at most over {safely_below(math.degrees(longest))} "
-            f"deg (with a frame of {place:.7g} mm), or within +-{safely_above(math.degrees(least))} deg; with every "
-            f"frame it steps back, by {safely_above(math.degrees(always.least_step[1]), 4)} deg or more: ask for one "
-            "of these, or take a shorter crank"
+            (
+                f"{self._asked(self.band)} is not possible with a crank-rocker of these gears and this crank: max. "
+                f"{safely_below(math.degrees(longest))} deg (frame {short(place)} mm), or +-"
+                f"{safely_above(math.degrees(least))} deg; its back-step is at least "
+                f"{safely_above(math.degrees(always.least_step[1]))} deg"
+            ),
+            fix="take a shorter crank",
         )
 
     def _fills(self, family: Family, train: GearTrain) -> FourBar:
@@ -236,8 +236,8 @@ class DwellTask(FamilyTask):
         band, window = self.band, self.window
         if band is not None and window is not None and ratio * window <= 2.0 * band:
             raise NoSolution(
-                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
-                "ask for a longer window or a smaller tolerance"
+                (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
+                fix="ask for a longer window or a smaller tolerance",
             )
 
     def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:
@@ -255,13 +255,11 @@ class DwellTask(FamilyTask):
             return
         longest = ripple(filled, train).crank_angle
         if longest < window * (1.0 - _ROUNDING):
-            remedy = "; ask for that"
+            most = safely_below(math.degrees(longest))
+            fix = f"set dwell.window to at most {most} deg"
             if self.spec.gears.idler is None:  # the least one: the limits are not looked at yet
-                remedy = f", with an idler of {train.idler:g} teeth where the limits allow it; ask for less"
-            raise NoSolution(
-                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self.request.window:g} deg with "
-                f"these gears: at most over {safely_below(math.degrees(longest))} deg{remedy}"
-            )
+                fix += f", with an idler of {train.idler:g} teeth where the limits allow it"
+            raise NoSolution(f"{self._asked(band)} is not possible with these gears: max. {most} deg", fix=fix)
 
     def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
         band = self.band
@@ -273,10 +271,15 @@ class DwellTask(FamilyTask):
         assert filled is not None  # a back-step of twice the least is wider than the band
         longest = ripple(filled, train).crank_angle
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self.request.window:g} deg with "
-            f"these gears: at most over {safely_below(math.degrees(longest))} deg, or within "
-            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
+            (
+                f"{self._asked(band)} is not possible with these gears: max. {safely_below(math.degrees(longest))} "
+                f"deg, or +-{safely_above(math.degrees(least))} deg"
+            ),
+            fix=f"set dwell.window to at most {safely_below(math.degrees(longest))} deg",
         )
+
+    def _asked(self, band: float) -> str:
+        return f"a dwell of {self.request.window:g} deg within +-{short(math.degrees(band))} deg"
 
 
 def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
@@ -488,10 +491,8 @@ class DwellSynthesis(ThreeGearFourBar):
         if asked is None or step is None:
             return
         half, limit = 0.5 * step.angle, self.task.tolerance or math.radians(PLAIN_TOLERANCE)
-        whole = math.degrees(step.angle)
-        text = f"over the dwell angle of {asked:g} deg the output steps back by {whole:.6g} deg and returns"
-        remedy = (
-            f", +-{math.degrees(half):.6g} deg about its middle: it does not stand. For one that stays within a "
-            "tolerance ask for dwell: {window: deg, tolerance: deg}"
+        yield back_step_judged(math.degrees(half), math.degrees(limit)).check(
+            "half of the back-step of the output during the dwell",
+            "specify dwell: {window: deg, tolerance: deg} for an output that stays within a tolerance",
+            aside=f"dwell angle {short(asked)} deg",
         )
-        yield back_step_judged(math.degrees(half), math.degrees(limit)).check(text, remedy)

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.wording import within
 from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, tolerance_dwell
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
@@ -110,8 +111,8 @@ def frames_of(crank: float, b: float, c: float) -> tuple[float, float]:
     least, high = max(abs(b - c) + crank, crank), b + c - crank
     if not least < high:
         raise NoSolution(
-            f"a crank of {crank:.9g} mm cannot turn with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it must be "
-            f"shorter than {min(b, c):.9g} mm"
+            f"a crank of {crank:.6g} mm cannot turn with a coupler of {b:.6g} and a rocker of {c:.6g} mm: it must be "
+            f"shorter than {safely_below(min(b, c))} mm"
         )
     return least, high
 
@@ -125,8 +126,8 @@ def longest_crank(frame: float, b: float, c: float) -> float:
     high = min(frame - abs(b - c), b + c - frame, frame)
     if not high > 0.0:
         raise NoSolution(
-            f"no crank turns in a frame of {frame:.9g} mm with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it "
-            f"must lie between {abs(b - c):.9g} and {b + c:.9g} mm"
+            f"no crank turns in a frame of {frame:.6g} mm with a coupler of {b:.6g} and a rocker of {c:.6g} mm: it "
+            f"must be {within(abs(b - c), b + c, 'mm')}"
         )
     return high
 
@@ -210,13 +211,19 @@ def solved(
     if not target <= most:
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         raise NoSolution(
-            f"{what} is more than these gears reach, {_deg(share * most)} deg, and that with a "
-            f"transmission angle of {angle} deg; ask for less"
+            (
+                f"{what} is more than these gears reach, {_deg(share * most)} deg, and that with a "
+                f"transmission angle of {angle} deg"
+            ),
+            fix="ask for less",
         )
     if not target >= least:
         raise NoSolution(
-            f"{what} is less than that of any crank-rocker with this crank: its output steps back with every frame, "
-            f"and the least is {_deg(share * least)} deg; take a shorter crank"
+            (
+                f"{what} is less than that of any crank-rocker with this crank: its output steps back "
+                f"with every frame, and the least is {_deg(share * least)} deg"
+            ),
+            fix="take a shorter crank",
         )
     ends = (least - target, most - target)
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))
@@ -326,7 +333,7 @@ def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
 
 
 def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.9g}"
+    return f"{math.degrees(angle):.6g}"
 
 
 class Room(NamedTuple):
@@ -417,13 +424,8 @@ def rooms(design: ThreeGearFourBar, window: float, band: float) -> tuple[Room, .
 
 
 def words(found: tuple[Room, ...]) -> str:
-    """What the lengths may be, in words."""
-    links = ((room.key.removeprefix("links."), room) for room in found)
-    return ", ".join(
-        f"with this {'frame' if link == 'crank' else 'crank'} the {link} may be {safely_above(room.low, 6)} to "
-        f"{safely_below(room.high, 6)} mm"
-        for link, room in links
-    )
+    """What the length that changes least may be, in words."""
+    return f"set {found[0].key} to {within(found[0].low, found[0].high, 'mm')}" if found else ""
 
 
 # Trains with a ring: on the side where the output steps back, of r5 < 0 that is a frame shorter than d*
@@ -486,13 +488,13 @@ def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assemb
         raise NoSolution(family.why)
     if crank >= found.high:
         raise NoSolution(
-            f"a crank of {crank:.9g} mm never just stops the output: it must lie between {found.low:.9g} and "
-            f"{found.high:.9g} mm"
+            f"a crank of {crank:.6g} mm never just stops the output: it must lie between {found.low:.6g} and "
+            f"{found.high:.6g} mm"
         )
     if family.low == family.least:
         raise NoSolution(
-            f"a crank of {crank:.9g} mm cannot turn with the frame of its momentary dwell: choose another between "
-            f"{found.low:.9g} and {found.high:.9g} mm"
+            f"a crank of {crank:.6g} mm cannot turn with the frame of its momentary dwell",
+            fix=f"choose another of {within(found.low, found.high, 'mm')}",
         )
     return family.linkage(family.low)
 

@@ -27,6 +27,7 @@ import math
 from typing import Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_speed
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -169,9 +170,12 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
     if not low < high:
         raise NoSolution(
-            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no crank-rocker with a "
-            f"momentary dwell: the crank would have to be longer than {low:.9g} mm and shorter than {high:.9g} mm; "
-            "take a larger idler or an output gear not smaller than the crank gear"
+            (
+                f"gears of {2 * r1:.6g}, {2 * r3:.6g} and {2 * r5:.6g} mm reference diameter have no "
+                f"crank-rocker with a momentary dwell: the crank would have to be longer than {safely_above(low)} "
+                f"mm and shorter than {safely_below(high)} mm"
+            ),
+            fix="take a larger idler or an output gear not smaller than the crank gear",
         )
     return low, high
 
@@ -202,8 +206,11 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     e_lo, e_hi = tangency_range(r1, r3, r5)
     if not e_lo < e < e_hi:
         raise NoSolution(
-            f"a crank of {e:.9g} mm never stops the output, whatever the frame: it must lie between {e_lo:.9g} and "
-            f"{e_hi:.9g} mm; choose it between them or change the gears"
+            (
+                f"a crank of {e:.6g} mm never stops the output, whatever the frame: it must lie between "
+                f"{e_lo:.6g} and {e_hi:.6g} mm"
+            ),
+            fix="choose it between them or change the gears",
         )
     return touching(r1, r3, r5, e, e_lo if e < r1 else e_hi)
 
@@ -322,8 +329,11 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
         elif eccentricity >= high:
             what = "cannot turn with the frame of its momentary dwell"
         raise NoSolution(
-            f"a crank of {eccentricity:.9g} mm {what}: for a momentary dwell of these gears it must lie between "
-            f"{low:.9g} and {high:.9g} mm; choose it between them or change the gears"
+            (
+                f"a crank of {eccentricity:.6g} mm {what}: for a momentary dwell of these gears it must "
+                f"lie between {low:.6g} and {high:.6g} mm"
+            ),
+            fix="choose it between them or change the gears",
         )
     return tangency(r1, r3, r5, eccentricity)
 
@@ -354,8 +364,8 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
     shortest = math.sqrt(r5 * r5 + (r1 - high) * (r1 + high) * kappa)
     if not shortest < frame < longest:
         raise NoSolution(
-            f"no crank gives these gears a momentary dwell with a frame of {frame:.9g} mm: it must lie between "
-            f"{shortest:.9g} and {longest:.9g} mm"
+            f"no crank gives these gears a momentary dwell with a frame of {frame:.6g} mm: it must lie between "
+            f"{shortest:.6g} and {longest:.6g} mm"
         )
     return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
 
@@ -412,8 +422,11 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     square = (r5 * r5 + kappa * r1 * r1 - (r1 + r3) ** 2 - (r3 + r5) ** 2) / (kappa - 1.0)
     if not low * low < square < high * high:
         raise NoSolution(
-            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no balanced linkage with "
-            "a momentary dwell; give crank or frame"
+            (
+                f"gears of {2 * r1:.6g}, {2 * r3:.6g} and {2 * r5:.6g} mm reference diameter have no "
+                "balanced linkage with a momentary dwell"
+            ),
+            fix="give crank or frame",
         )
     return math.sqrt(square)
 
@@ -461,11 +474,13 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
     s, t = r1 + 2.0 * r3 + r5, r1 + r3 + r5
     q = 16.0 * r3 * (r3 + r5) * (r1 + r3) * t
     if r1 < -r3:
-        raise NoSolution("a crank gear that is a ring round the idler never stops the output: make it an external gear")
+        raise NoSolution(
+            "a crank gear that is a ring round the idler never stops the output", fix="make it an external gear"
+        )
     if not q > 0.0:
         raise NoSolution(
-            f"a ring gear of {abs(2.0 * r5):.9g} mm reference diameter never just stops the output: to reach round the "
-            f"crank gear and the idler it must be larger than {2.0 * (r1 + r3):.9g} mm"
+            f"a ring gear of {abs(2.0 * r5):.6g} mm reference diameter never just stops the output: to reach round the "
+            f"crank gear and the idler it must be larger than {safely_above(2.0 * (r1 + r3))} mm"
         )
     sigma = 1 if t > 0.0 else -1
     p, root = s * s + (r1 - r5) * (r1 + r5), math.sqrt(q)
@@ -473,7 +488,7 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
     slope = -sigma * whole / (2.0 * r1 * r1 * root)  # X* = slope h
     reach = r1 * r1 + 1.0 / slope
     if not slope < 0.0 or reach >= r1 * r1:
-        raise NoSolution("no crank makes these gears just stop the output: change the teeth")
+        raise NoSolution("no crank makes these gears just stop the output", fix="change the teeth")
     facing = 1 if (r1 + r3) * (r3 + r5) > 0.0 else -1
     low = math.sqrt(max(0.0, reach))
     return Shape(sigma, whole / (2.0 * r1 * r1) - 1.0, low, abs(r1), 2.0 * s * r1 * r1 / whole, facing)
@@ -578,7 +593,7 @@ def _ring_balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     found, square = shape(r1, r3, r5), (r1 + r3) ** 2 + (r3 + r5) ** 2
     crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
     if not found.low**2 < crank2 < min(found.high**2, (r1 + r3) ** 2, (r3 + r5) ** 2):
-        raise NoSolution("these gears have no balanced linkage with a momentary dwell; give crank or frame")
+        raise NoSolution("these gears have no balanced linkage with a momentary dwell", fix="give crank or frame")
     return math.sqrt(crank2)
 
 
@@ -590,7 +605,7 @@ def _ring_eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) 
         ends = [r5 * r5 + (r1 - e) * (r1 + e) * found.kappa for e in (found.low, found.high)]
         low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
         raise NoSolution(
-            f"no crank gives these gears a momentary dwell with a frame of {frame:.9g} mm: it must lie between "
-            f"{low:.9g} and {high:.9g} mm"
+            f"no crank gives these gears a momentary dwell with a frame of {frame:.6g} mm: it must lie between "
+            f"{low:.6g} and {high:.6g} mm"
         )
     return math.sqrt(square)

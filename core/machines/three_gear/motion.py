@@ -323,8 +323,8 @@ def idler_for_ratio(i3: float, output_teeth: int) -> int:
     teeth = math.floor(-i3 * output_teeth + 0.5) if math.isfinite(i3) else 0
     if teeth < 1:
         raise NoSolution(
-            f"no idler has the ratio i3 = {i3:.9g} to an output gear of {output_teeth} teeth; i3 must be at most "
-            f"{-1.0 / output_teeth:.9g}, one tooth"
+            f"no idler has the ratio i3 = {i3:.6g} to an output gear of {output_teeth} teeth; i3 must be at most "
+            f"{-1.0 / output_teeth:.6g}, one tooth"
         )
     return teeth
 

@@ -102,7 +102,9 @@ class ThreeGearRegister(RegisterDesign):
         elif design.back_step is not None and design.dwell_angle is not None:
             start, length = design.back_step.start, design.dwell_angle
         else:
-            raise NoSolution("this drive has no dwell: give dwell_tolerance, or --at an input angle", key="register.at")
+            raise NoSolution(
+                "this drive has no dwell", key="register.at", fix="give dwell_tolerance, or --at an input angle"
+            )
         return start, start + length
 
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:

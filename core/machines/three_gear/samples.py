@@ -64,7 +64,7 @@ class ThreeGearSamples:
     def __init__(self, nominal: ThreeGearFourBar) -> None:
         if nominal.spec.gears.helix_angle:
             raise NoSolution(
-                "tolerance and register take spur gears only: leave helix_angle out", key="gears.helix_angle"
+                "tolerance and register take spur gears only", key="gears.helix_angle", fix="leave helix_angle out"
             )
         if nominal.off_center:
             raise NoSolution(
@@ -114,7 +114,7 @@ class ThreeGearSamples:
                 checks = tuple(check for name in self._checks for check in made.check(name))
                 found.append(Single(values, checks))
             except NoSolution as error:
-                found.append(Single({}, (), "links", error.message))
+                found.append(Single({}, (), "links", str(error)))
         codes = dict.fromkeys(check.code for one in found for check in one.findings)
         return as_arrays(found, names, list(codes))
 

@@ -64,7 +64,7 @@ class Gears(TrainKeys):
     @model_validator(mode="after")
     def _one_ratio(self) -> Gears:
         if self.i3 is not None and self.idler is not None:
-            raise PydanticCustomError("GL111", "i3 and idler exclude each other: give one", {"key": "i3"})
+            raise PydanticCustomError("GL111", "i3 and idler exclude each other\ngive one", {"key": "i3"})
         if self.i3 is not None and self.crank != self.output:
             message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
@@ -120,7 +120,7 @@ class ThreeGearSpec(DrivenSpec):
     def _one_tolerance(self) -> ThreeGearSpec:
         if self.dwell_tolerance is not None and self.dwell_backlash is not None:
             raise PydanticCustomError(
-                "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
+                "GL111", "dwell_tolerance and dwell_backlash exclude each other\ngive one", {"key": "dwell_backlash"}
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
             message = "dwell_tolerance and dwell.tolerance ask for the same: give one"

@@ -35,6 +35,7 @@ from typing import Any, NamedTuple
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.motion import Extremes, GearTrain
 from gearlink.core.numerics.elementary import SCALARS, Elementary
@@ -117,7 +118,7 @@ def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: fl
     low, high = lowest_speed, highest_speed
     if not (0.0 <= low < high < math.inf):
         raise NoSolution(
-            f"no speed band from {low:.9g} to {high:.9g} rev/min: the output of this synthesis turns one way, so the "
+            f"no speed band from {low:.6g} to {high:.6g} rev/min: the output of this synthesis turns one way, so the "
             "lower speed must not be below 0 and the upper one must be above it"
         )
     found: float = frame_ratio_between(i3, low, high)
@@ -203,21 +204,21 @@ def crank_length(d: Any, center_distance: Any, fn: Elementary = SCALARS) -> Any:
 def check_ratio(i3: float) -> None:
     """Refuse a ratio of idler and output gear that is not an external mesh's."""
     if not -math.inf < i3 < 0.0:
-        raise NoSolution(f"i3 is {i3:.9g}; idler and output gear mesh externally, so i3 = -z3/z5 must be negative")
+        raise NoSolution(f"i3 is {i3:.6g}; idler and output gear mesh externally, so i3 = -z3/z5 must be negative")
 
 
 def check_back_step_crank_angle(phi12: float) -> None:
     """Refuse a crank angle of the back-step outside [0, pi)."""
     if not 0.0 <= phi12 < math.pi:
         raise NoSolution(
-            f"the crank angle of the back-step is {math.degrees(phi12):.9g} deg; it must lie from 0 (momentary "
+            f"the crank angle of the back-step is {math.degrees(phi12):.6g} deg; it must lie from 0 (momentary "
             "dwell) to below 180 deg"
         )
 
 
 def _check_frame_ratio(d: float) -> None:
     if not 1.0 < d < math.inf:
-        raise NoSolution(f"the frame ratio is {d:.9g}; frame/crank must be above 1 (at 1 the linkage folds flat)")
+        raise NoSolution(f"the frame ratio is {d:.6g}; frame/crank must be above 1 (at 1 the linkage folds flat)")
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -273,14 +274,20 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
     limit = _back_step(1.0, h)
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
-            f"no gear ratio gives a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the "
-            f"crank: the back-step must lie between 0 and {_deg(limit)} deg; reduce it or enlarge the crank angle"
+            (
+                f"no gear ratio gives a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} "
+                f"deg of the crank: the back-step must lie between 0 and {_deg(limit)} deg"
+            ),
+            fix="reduce it or enlarge the crank angle",
         )
     v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
     if v == 1.0:
         raise NoSolution(
-            f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
-            f"{_deg(limit)} deg, to rounding, and takes an endless idler: reduce it or enlarge the crank angle"
+            (
+                f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is "
+                f"the limit, {_deg(limit)} deg, to rounding, and takes an endless idler"
+            ),
+            fix="reduce it or enlarge the crank angle",
         )
     return -v / (1.0 - v)
 
@@ -308,8 +315,11 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
     limit = -i3 * math.pi
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
-            f"no frame length gives a back-step of {_deg(back_step_angle)} deg with i3 = {i3:.9g}: it must lie "
-            f"between 0 and -i3 * 180 = {_deg(limit)} deg; reduce it or take an idler of more teeth"
+            (
+                f"no frame length gives a back-step of {_deg(back_step_angle)} deg with i3 = {i3:.6g}: it "
+                f"must lie between 0 and -i3 * 180 = {_deg(limit)} deg"
+            ),
+            fix="reduce it or take an idler of more teeth",
         )
     v = i3 / (i3 - 1.0)
     return 2.0 * _rising_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
@@ -383,8 +393,11 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     limit: float = dwell_angle_limit(i3)
     if not 0.0 < dwell_angle < limit:
         raise NoSolution(
-            f"the dwell angle {_deg(dwell_angle)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and "
-            f"below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg; reduce it{_ratio_remedy(dwell_angle)}"
+            (
+                f"the dwell angle {_deg(dwell_angle)} deg is out of reach with i3 = {i3:.6g}: it must lie "
+                f"above 0 and below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg"
+            ),
+            fix=f"reduce it{_ratio_remedy(dwell_angle)}",
         )
     high = min(0.5 * dwell_angle, 0.5 * math.pi)
     h = _rising_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
@@ -433,8 +446,11 @@ def crank_angle_for_window(i3: float, window: float) -> float:
     limit: float = window_limit(i3)
     if not 0.0 < window < limit:
         raise NoSolution(
-            f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and below "
-            f"{_deg(limit)} deg, whatever the tolerance that a back-step fills; reduce it"
+            (
+                f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.6g}: it must lie above 0 "
+                f"and below {_deg(limit)} deg, whatever the tolerance that a back-step fills"
+            ),
+            fix="reduce it",
         )
     y = 0.5 * window
     h = _rising_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
@@ -516,7 +532,7 @@ def _ratio_remedy(phi13: float) -> str:
     if not 0.0 < phi13 < 2.0 * math.pi:
         return ""
     least = 2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13)
-    return f" or take -i3 above {safely_above(least, 9)} (an idler of more teeth)"
+    return f" or take -i3 above {safely_above(least)} (an idler of more teeth)"
 
 
 def longest_window(i3: float, tolerance: float) -> float:
@@ -572,8 +588,11 @@ def check_tolerance(i3: float, tolerance: float) -> None:
     if not (tolerance > 0.0 and fills(i3, tolerance)):
         limit = min(math.pi, -0.5 * i3 * math.pi)
         raise NoSolution(
-            f"a tolerance of {_deg(tolerance)} deg has no longest window with i3 = {i3:.9g}: it must lie above 0 and "
-            f"below {_deg(limit)} deg; reduce it"
+            (
+                f"a tolerance of {_deg(tolerance)} deg has no longest window with i3 = {i3:.6g}: it must "
+                f"lie above 0 and below {_deg(limit)} deg"
+            ),
+            fix="reduce it",
         )
 
 
@@ -617,8 +636,11 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
     """
     if not window > 2.0 * tolerance:
         raise NoSolution(
-            f"an even motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of the crank: a "
-            f"window of {_deg(window)} deg needs no linkage; ask for a longer one"
+            (
+                f"an even motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of "
+                f"the crank: a window of {_deg(window)} deg needs no linkage"
+            ),
+            fix="ask for a longer one",
         )
     check_reach(i3, window, tolerance)
     k = math.sin((0.5 * window - tolerance) / (1.0 - i3)) / math.sin(0.5 * window)
@@ -655,15 +677,14 @@ def check_reach(i3: float, window: float, tolerance: float) -> None:
     longest = reach(i3, tolerance)
     if window < longest or (window == longest and fills(i3, tolerance)):
         return
-    at_most = "at most over" if fills(i3, tolerance) else "only below"
-    words = f"{at_most} {safely_below(math.degrees(longest))} deg"
+    most = safely_below(math.degrees(longest))
+    limits, fix = f"max. {most} deg" if fills(i3, tolerance) else f"below {most} deg", ""
     if window < window_limit(i3):
-        words += f", or within +-{safely_above(math.degrees(least_tolerance(i3, window)))} deg; ask for one of these"
-    else:
-        words += "; ask for that"
+        limits += f", or +-{safely_above(math.degrees(least_tolerance(i3, window)))} deg"
+        fix = _other_idler(i3, window, tolerance)
     raise NoSolution(
-        f"the output cannot stay within +-{_deg(tolerance)} deg over {_deg(window)} deg with i3 = {i3:.9g}: {words}"
-        f"{_other_idler(i3, window, tolerance)}"
+        f"a dwell of {_deg(window)} deg within +-{_deg(tolerance)} deg is not possible (i3 {short(i3)}): {limits}",
+        fix=f"set dwell.window to at most {most} deg{fix}",
     )
 
 
@@ -735,7 +756,7 @@ def window_of_large_idler(tolerance: float) -> float:
 
 
 def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.9g}"
+    return f"{math.degrees(angle):.6g}"
 
 
 class SymmetricOutput(Output):

@@ -111,7 +111,7 @@ def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
     d = np.asarray(frame_ratio, dtype=float)
     wrong = ~((d >= 1.0) & (d < np.inf))
     if np.any(wrong):
-        raise NoSolution(f"the frame ratio is {d[wrong].flat[0]:.9g}; frame/crank starts at 1 in the family I = 1")
+        raise NoSolution(f"the frame ratio is {d[wrong].flat[0]:.6g}; frame/crank starts at 1 in the family I = 1")
     return np.asarray(1.0 / (d + 1.0 / d))
 
 
@@ -139,8 +139,11 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
     if np.any(~(delta > 0.0)) or np.all(wrong):
         at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
         raise NoSolution(
-            f"no frame ratio gives the nonuniformity {value:.9g} at i3 = {at:.9g}: it must lie above 0 and below "
-            f"2 (1 - i3) = {2.0 * (1.0 - at):.9g}; reduce it or make -i3 larger"
+            (
+                f"no frame ratio gives the nonuniformity {value:.6g} at i3 = {at:.6g}: it must lie above "
+                f"0 and below 2 (1 - i3) = {2.0 * (1.0 - at):.6g}"
+            ),
+            fix="reduce it or make -i3 larger",
         )
     q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
     return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
@@ -151,7 +154,7 @@ def _ratios(i3: ArrayLike) -> Reals:
     wrong = ~((ratio > -np.inf) & (ratio < 0.0))
     if np.any(wrong):
         raise NoSolution(
-            f"i3 = {ratio[wrong].flat[0]:.9g}: -idler/output teeth must be negative and finite (external meshes)"
+            f"i3 = {ratio[wrong].flat[0]:.6g}: -idler/output teeth must be negative and finite (external meshes)"
         )
     return ratio
 
@@ -161,7 +164,7 @@ def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
     wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
     if np.any(wrong):
         raise NoSolution(
-            f"the crank angle of the back-step is {math.degrees(float(phi12[wrong].flat[0])):.9g} deg; it must lie "
+            f"the crank angle of the back-step is {math.degrees(float(phi12[wrong].flat[0])):.6g} deg; it must lie "
             "from 0 (momentary dwell) to below 180 deg"
         )
     return np.asarray(0.5 * phi12)

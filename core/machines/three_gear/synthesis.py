@@ -16,7 +16,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, section_of
 from gearlink.core.base.real_speed import other_speed
 from gearlink.core.base.remedies.ways import at_most
-from gearlink.core.base.report import Check, Remedy, Table
+from gearlink.core.base.report import Check, Remedy, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.three_gear import momentary, symmetric
@@ -98,7 +98,7 @@ class Task:
             if error.key in ("", "gears.idler") or not self.depends_on_idler(error):
                 raise
             words = f"no idler from {LEAST_IDLER} to {GREATEST_IDLER} teeth meets the task: {error.message}"
-            raise NoSolution(words, key="gears.idler") from error
+            raise NoSolution(words, key="gears.idler", fix=error.fix) from error
 
     def _clears_shafts(self, linkage: FourBar, idler: int) -> bool:
         """Whether no gear reaches a shaft that the file names."""
@@ -190,9 +190,12 @@ class FamilyTask(Task):
         gears = self.spec.gears
         if not self.general and gears.crank != gears.output:
             raise NoSolution(
-                f"this synthesis belongs to the family I = 1: crank ({gears.crank}) and output ({gears.output}) teeth "
-                f"must be equal; set output to {gears.crank}, or give {self.section}.crank, frame or balanced as well",
+                (
+                    f"this synthesis belongs to the family I = 1: crank ({gears.crank}) and output ({gears.output}) "
+                    "teeth must be equal"
+                ),
                 key="gears.output",
+                fix=f"set output to {gears.crank}, or give {self.section}.crank, frame or balanced as well",
             )
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
@@ -286,7 +289,8 @@ def smallest_idler(
         return beside
     if refusal is not None and not reached:
         raise refusal
-    raise NoSolution(_obstacle(reached, min_transmission_angle, min_gear_gap), key="gears.idler")
+    text, fix = _obstacle(reached, min_transmission_angle, min_gear_gap)
+    raise NoSolution(text, key="gears.idler", fix=fix)
 
 
 def _greatest_idler(crank_teeth: int, output_teeth: int) -> int:
@@ -295,23 +299,22 @@ def _greatest_idler(crank_teeth: int, output_teeth: int) -> int:
     return min([GREATEST_IDLER, *(ring - _RING_DIFFERENCE for ring in rings)])
 
 
-def _obstacle(reached: list[tuple[int, float, float]], angle_limit: float, gap_limit: float) -> str:
-    """Which limit keeps every idler out, with the best value reached and where."""
+def _obstacle(reached: list[tuple[int, float, float]], angle_limit: float, gap_limit: float) -> tuple[str, str]:
+    """Which limit keeps every idler out, with the best value reached and where; and what to change."""
     best_angle = max(reached, key=lambda row: row[1])
     best_gap = max(reached, key=lambda row: row[2])
-    angles = f"the least transmission angle reaches {math.degrees(best_angle[1]):.4g} deg at most"
-    gaps = f"the gap of crank and output gear reaches {best_gap[2]:.4g} mm at most"
     head = f"no idler from {LEAST_IDLER} to {GREATEST_IDLER} teeth keeps the limits: "
-    asked_angle, asked_gap = f"{math.degrees(angle_limit):g} deg", f"{gap_limit:g} mm"
+    asked_angle = f"(limit >= {math.degrees(angle_limit):g} deg)"
     if best_gap[2] < gap_limit:
-        return f"{head}{gaps} (idler {best_gap[0]}), below {asked_gap}; change the crank and output teeth or the task"
+        gap = f"gap of crank and output gear at most {safely_below(best_gap[2])} mm, idler {best_gap[0]}"
+        return f"{head}{gap} (limit >= {gap_limit:g} mm)", "change the crank and output teeth or the task"
+    angles = "transmission angle at most "
     if best_angle[1] < angle_limit:
-        return f"{head}{angles} (idler {best_angle[0]}), below {asked_angle}; lower limits.transmission_angle"
+        best = f"{safely_below(math.degrees(best_angle[1]))} deg, idler {best_angle[0]}"
+        return f"{head}{angles}{best} {asked_angle}", "lower limits.transmission_angle"
     both = max((row for row in reached if row[2] >= gap_limit), key=lambda row: row[1])
-    return (
-        f"{head}where the gear gap keeps {asked_gap}, the least transmission angle reaches "
-        f"{math.degrees(both[1]):.4g} deg at most (idler {both[0]}), below {asked_angle}; lower one of the limits"
-    )
+    best = f"{safely_below(math.degrees(both[1]))} deg, idler {both[0]}"
+    return f"{head}with the gear gap {angles}{best} {asked_angle}", "lower limits.transmission_angle"
 
 
 # Candidates side by side
@@ -421,8 +424,9 @@ class BackStepTask(FamilyTask):
         task = self.request
         if task.angle is not None and task.crank_angle is not None:
             raise NoSolution(
-                "with crank, frame or balanced one of angle and crank_angle can be met: leave the other out",
+                "with crank, frame or balanced one of angle and crank_angle can be met",
                 key="back_step.crank_angle",
+                fix="leave the other out",
             )
         if task.angle is not None:
             with at_key("back_step.angle"):
@@ -438,8 +442,8 @@ class BackStepTask(FamilyTask):
         if self.general or task.angle is None or task.crank_angle is None:
             return super().chosen_idler(advises=advises)
         if task.crank_angle == 0.0:
-            words = "the output does not step back over a crank angle of 0: leave crank_angle out, or give one above 0"
-            raise NoSolution(words, key="back_step.crank_angle")
+            words = "the output does not step back over a crank angle of 0"
+            raise NoSolution(words, key="back_step.crank_angle", fix="leave crank_angle out, or give one above 0")
         with at_key("back_step.angle"):
             i3 = symmetric.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
         with at_key("gears.idler"):
@@ -488,8 +492,8 @@ class BackStepSynthesis(ThreeGearFourBar):
         if asked is None:
             return
         got = math.degrees(self.back_step_angle or 0.0)
-        text = f"the back-step is {got:.6g} deg, {asked:g} deg were asked for"
-        yield target_judged(got, asked).check(text, ": leave idler or crank_angle out, so that it can be chosen to fit")
+        fix = "remove gears.idler or back_step.crank_angle, so that it is chosen to fit"
+        yield target_judged(got, asked).check("back-step", fix)
 
 
 # Variable speed
@@ -628,18 +632,18 @@ class MomentaryTask(Task):
                 return momentary.balanced_eccentricity(*radii)
         if momentary.is_internal(*radii):
             raise NoSolution(
-                "a ring gear stands in another plane than gear 1, with no gap between them: give eccentricity, frame "
-                "or balanced",
+                "a ring gear stands in another plane than gear 1, with no gap between them",
                 key="momentary.gap",
+                fix="give eccentricity, frame or balanced",
             )
         tips = tip_excess(self.spec.gears)
         crank = momentary.crank_with_room(*radii, radii[0] + radii[2] + tips + request.gap)
         if crank is None:
             widest = radii[1] * 2.0 - 2.0 * momentary.least_eccentricity(*radii) - tips  # of the shortest crank
             raise NoSolution(
-                f"a momentary dwell of these gears has no gap of {request.gap:g} mm between gears 1 and 5; ask for "
-                f"less than {widest:.6g} mm",
+                f"a momentary dwell of these gears has no gap of {request.gap:g} mm between gears 1 and 5",
                 key="momentary.gap",
+                fix=f"ask for less than {safely_below(widest)} mm",
             )
         return crank
 

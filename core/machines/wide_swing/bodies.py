@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.report import Check, safely_above
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, safely_above
 from gearlink.core.numerics.extremes import minimum_over
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.studies.clearance.links import beside_line, beside_turning_arm
@@ -46,7 +46,7 @@ class Axis(NamedTuple):
 def cam_axis(section: SwingCam) -> Axis:
     """The cam shaft of the file; of one without a radius, one as thick as the roller."""
     if section.shaft_radius > 0.0:
-        return Axis(f"the cam shaft (radius {section.shaft_radius:g} mm)", section.shaft_radius, named=True)
+        return Axis("the cam shaft", section.shaft_radius, named=True)
     return Axis("the cam axis", section.roller_radius, named=False)
 
 
@@ -68,13 +68,13 @@ def beside(link: str, axis: Axis, distance: float, remedy: str, end: str = _ENDS
     if distance >= axis.radius * (1.0 - _TOUCHING):
         return
     value, limit = (distance - axis.radius, 0.0) if axis.named else (distance, axis.radius)
-    text = f"comes {axis.radius - distance:.4g} mm into {axis.words}"
+    what, fix = f"{link} to {axis.words}", remedy or end
     if distance <= _TOUCHING * axis.radius:
-        text = f"passes over {axis.words}"
-    elif not axis.named:
-        text = f"leaves only {distance:.4g} mm to {axis.words}, a shaft as thick as the roller takes {limit:g} mm"
-    text = f"{link} {text}: {end}, or {remedy}"
-    yield SHAFT_CLEARANCE.check("warn", text, value, limit, "mm", name=CHECK)
+        what, shown = f"{link} passes over {axis.words}", NO_NUMBER
+    else:
+        shown = Shown(distance, axis.radius, "mm", ">=")
+    aside = "" if shown is NO_NUMBER else "shaft radius" if axis.named else "a shaft as thick as the roller"
+    yield SHAFT_CLEARANCE.check("warn", what, value, limit, "mm", name=CHECK, shown=shown, aside=aside, fix=fix)
 
 
 # By the lengths of the file alone
@@ -85,10 +85,10 @@ def body_clearance(design: WideSwingDesign) -> Iterator[Check]:
     spec, section = design.spec, design.section
     own, cam = rocker_axis(section), cam_axis(section)
     least = device_room(spec.unloader.pivot_ratio, design.motion.swing) * spec.unloader.arm
-    advice = f"make unloader.arm at least {safely_above(own.radius * spec.unloader.arm / least)} mm" if least else ""
+    advice = f"set unloader.arm to at least {safely_above(own.radius * spec.unloader.arm / least)} mm" if least else ""
     yield from beside("the device", own, least, advice)
     if spec.slider is not None:
-        advice = "turn slider.middle_angle, so that rod and arm do not fold over each other"
+        advice = "turn slider.middle_angle"
         room = rod_room(design.motion.slider.drive, design.motion.swing, 0j)
         yield from beside("the slider's rod", own, room, advice)
     if spec.layout == "twin-rocker":
@@ -99,26 +99,25 @@ def body_clearance(design: WideSwingDesign) -> Iterator[Check]:
         yield from _drive(design, cam)
 
 
-_NOT_OVER = "reduce the swing, or make cam.center_distance larger"
+_NOT_OVER = "set a larger cam.center_distance, or reduce the swing"
 
 
 def _drive(design: WideSwingDesign, cam: Axis) -> Iterator[Check]:
     """The crank-rocker that carries the cam: pin C and the coupler beside the cam shaft, the crank's axis A."""
     bar, roller = design.motion.drive.linkage, design.section.roller_radius
-    longer = f"make drive.rocker at least {safely_above(cam.radius)} mm, the other links in proportion"
+    longer = f"set drive.rocker to at least {safely_above(cam.radius)} mm, the other links in proportion"
     if bar.rocker < cam.radius:
         yield from beside("pin C of the drive", cam, bar.rocker, longer)
     else:
-        advice = "make the drive's links longer, or its transmission angle larger"
+        advice = "lengthen the links of the drive"
         yield from beside("the coupler of the drive", cam, coupler_room(bar), advice)
-    advice = "make drive.frame longer, the other links in proportion"
+    advice = "lengthen drive.frame, the other links in proportion"
     if bar.frame < cam.radius:
         yield from beside("the crank's axis", cam, bar.frame, advice, _ONE_ENDS)
         return
     from gearlink.core.parts.cams.checks import over_axis_check
 
     room = bar.frame - _disc_radius(design)
-    advice = f"overhang the crank beside the cam, or {advice}"
     for check in over_axis_check(SHAFT_CLEARANCE, "cam", room, roller, "the crank's axis", advice):
         yield replace(check, name=CHECK)
 

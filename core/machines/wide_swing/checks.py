@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, Status, safely_above, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import codes, cycle_checks, remedies
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH
 from gearlink.core.parts.cams import codes as cams
@@ -34,13 +35,14 @@ def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
         yield from _room_for_steel(design, "give unloader.closed_length or stretch_capacity of the spring that fits")
         return
     status: Status = "fail" if ratio < least else "pass"
-    text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {design.spec.swing:g} deg"
-    if status == "fail":
-        text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
-    yield codes.TURNABILITY.check(status, text, ratio, least)
+    fix, aside = (
+        f"increase unloader.pivot_ratio to at least {safely_above(least)}",
+        f"swing {short(design.spec.swing)} deg",
+    )
+    yield codes.TURNABILITY.check(status, "pivot ratio of the balancing device", ratio, least, aside=aside, fix=fix)
     capacity = getattr(design.spec.unloader, "stretch_capacity", None) or 0.0
     if status == "pass" and capacity > MOST_STRETCH:
-        yield from _room_for_steel(design, f"take another device: unloader.stretch_capacity is {capacity:g}")
+        yield from _room_for_steel(design, "take another device, or a smaller unloader.stretch_capacity")
 
 
 def _room_for_steel(design: WideSwingDesign, otherwise: str) -> Iterator[Check]:
@@ -48,12 +50,9 @@ def _room_for_steel(design: WideSwingDesign, otherwise: str) -> Iterator[Check]:
     steel finds room between the pins."""
     ratio, least = design.spec.unloader.pivot_ratio, design.motion.least_ratio_of_steel
     if ratio < least:
-        text = (
-            f"pivot ratio {ratio:g}: a spring of steel, which bears a stretch of {MOST_STRETCH:g} times its closed "
-            f"length, needs {least:.6g} over a swing of {design.spec.swing:g} deg; increase unloader.pivot_ratio to at "
-            f"least {safely_above(least)}, or {otherwise}"
-        )
-        yield codes.TURNABILITY.check("warn", text, ratio, least)
+        what, aside = "pivot ratio for a steel spring", f"stretch of {MOST_STRETCH:g} times its closed length"
+        fix = f"increase unloader.pivot_ratio to at least {safely_above(least)}, or {otherwise}"
+        yield codes.TURNABILITY.check("warn", what, ratio, least, aside=aside, fix=fix)
 
 
 def force_closure(design: WideSwingDesign) -> Iterator[Check]:
@@ -63,10 +62,9 @@ def force_closure(design: WideSwingDesign) -> Iterator[Check]:
         return
     stretch = unloader.stretch_ratio
     status: Status = "warn" if stretch == 0.0 else "pass"
-    text = f"the spring's mounting stretch is {stretch:g} of its stroke"
-    if status == "warn":
-        text += ": it is slack at mid-swing; make unloader.stretch_ratio above 0, such as 0.1"
-    yield codes.FORCE_CLOSURE.check(status, text, stretch, 0.0)
+    what, fix = "mounting stretch of the spring over its stroke", "set unloader.stretch_ratio above 0, such as 0.1"
+    aside = "the spring is slack at mid-swing" if status == "warn" else ""
+    yield codes.FORCE_CLOSURE.check(status, what, stretch, 0.0, aside=aside, fix=fix)
 
 
 def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
@@ -77,32 +75,33 @@ def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
         yield from cycle_checks.cycle_angles(design)
         return
     both = 2.0 * math.degrees(design.motion.cycle_angle)
-    text = f"both strokes take {both:g} deg of the cam's turn"
-    if both > 360.0:
-        text += ", more than 360 deg: reduce cycle_angle to 180 deg or less"
-    yield codes.CYCLE_ANGLES.check("fail" if both > 360.0 else "pass", text, both, 360.0, "deg")
+    what, fix = "cam angle of both strokes", "reduce cycle_angle to 180 deg or less"
+    status: Status = "fail" if both > 360.0 else "pass"
+    yield codes.CYCLE_ANGLES.check(status, what, both, 360.0, "deg", side="<=", fix=fix)
 
 
 def balancing(design: WideSwingDesign) -> Iterator[Check]:
     """GL508: speeds at which the device does harm."""
     harm = design.unloading.harmful_speed
-    text = f"the device lowers the torque above {harm:.5g} rev/min and raises it below"
     lowest = design.spec.operating_speed_min
     if lowest is None:
         return
     status: Status = "warn" if lowest < harm else "pass"
-    if status == "warn":
-        share = (lowest / design.spec.speed) ** 2
-        text += f"; at {lowest:g} rev/min lower its force or rate to {share:.3g} of the design value, or take it off"
-    yield codes.BALANCING.check(status, text, lowest, harm, "1/min")
+    share = (lowest / design.spec.speed) ** 2
+    yield codes.BALANCING.check(
+        status,
+        "minimum speed with the balancing device",
+        lowest,
+        harm,
+        "1/min",
+        aside="below, the device increases the torque" if status == "warn" else "",
+        fix=f"reduce its force or rate to {safely_below(share, 3)} of the design value at that speed, or remove it",
+    )
 
 
 _TRANSMISSION = {
-    "drive": ("the least transmission angle of the drive", "shorten drive.crank, or bring coupler and rocker nearer"),
-    "slider.rod": (
-        "the least angle between the slider's rod and the normal of its slide line",
-        "lengthen slider.rod, or bring the slide line nearer",
-    ),
+    "drive": ("minimum transmission angle of the drive", "shorten drive.crank"),
+    "slider.rod": ("minimum angle of the slider's rod to the normal of its slide line", "lengthen slider.rod"),
 }
 """What a message calls an angle, and what raises it."""
 
@@ -121,19 +120,22 @@ def force_reserve(design: WideSwingDesign) -> Check:
     status: Status = "pass"
     if lift_off < 1.1 * speed * (1.0 - 1e-9):
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
-    text = f"above {lift_off:.6g} rev/min the roller leaves its cam; the design speed is {speed:g} rev/min"
-    back = design.unloading.way_back
-    if back is not None and back.value > 1.0:
-        text += (
-            f"; least is left at k = {back.place:.4g} on the way back, which asks {back.value:.4g} times the stroke's"
-        )
+    back, need, fix = design.unloading.way_back, design.unloading.need, ""
     if status != "pass":
-        need = design.unloading.need
-        just, safe = (safely_above(remedies.reserve(unloader.residual, margin, need)) for margin in (0.0, 0.1))
-        text += f": make unloader.reserve {safe} or more for a tenth of speed to spare, {just} just holds it"
-        if back is not None and back.value > 1.0:
-            text += "; drive.coupler and drive.frame longer make the way back more like the stroke"
-    return codes.FORCE_RESERVE.check(status, text, lift_off, speed, "1/min")
+        fix = f"raise unloader.reserve to {safely_above(remedies.reserve(unloader.residual, 0.1, need))} (10 % speed margin)"
+    governs = back is not None and back.value > 1.0
+    at = f"k = {short(back.place)} of the return stroke" if back is not None and governs else ""
+    return codes.FORCE_RESERVE.check(
+        status,
+        "lift-off speed of the roller",
+        lift_off,
+        speed,
+        "1/min",
+        recommended=1.1 * speed,
+        aside=f"{short(back.value)} times the force of the stroke" if back is not None and governs else "",
+        at=at,
+        fix=fix,
+    )
 
 
 def side_change(design: WideSwingDesign) -> Iterator[Check]:
@@ -143,12 +145,13 @@ def side_change(design: WideSwingDesign) -> Iterator[Check]:
     start, end = design.slot_of(design.cam)
     middle = design.motion.slider.middle_place
     beyond = max(start - middle, middle - end)
-    text = f"the device changes sides at k = {middle:.4g}, the roller between {start:.4g} and {end:.4g}"
+    aside = f"force reverses at k {short(middle)}, roller contact at k {short(start)} to {short(end)}"
     if beyond > 0.0:
-        text += (
-            f": between both the device pushes the roller off its profile; {remedies.side_words(design.spec.slider)}"
-        )
-    yield codes.SIDE_CHANGE.check("fail" if beyond > 0.0 else "pass", text, beyond, 0.0)
+        what, fix = "the roller is pushed off its cam near mid-swing", remedies.side_words(design.spec.slider)
+    else:
+        what, fix = "balancing force and roller contact reverse together", ""
+    status: Status = "fail" if beyond > 0.0 else "pass"
+    yield codes.SIDE_CHANGE.check(status, what, beyond, 0.0, shown=NO_NUMBER, aside=aside, fix=fix)
 
 
 # Cams
@@ -162,19 +165,20 @@ def _judged(design: WideSwingDesign) -> list[tuple[str, AnyCam]]:
 def profile_exists(design: WideSwingDesign) -> Check:
     """GL505: a cam for this stroke, no loop, and a phase angle above zero."""
     if design.refusal is not None:
-        return codes.PROFILE_EXISTS.check("fail", design.refusal.message, None, 0.0)
+        return codes.PROFILE_EXISTS.check("fail", design.refusal.message, None, 0.0, fix=design.refusal.fix)
     margin = design.cam.loop_margin
     shown = margin if math.isfinite(margin) else None
     try:
         design.cam.require_profile()
     except NoSolution as error:
         crank = remedies.drive_crank(design) if design.spec.drive is not None else None
-        text = error.message + (f": make drive.crank at most {crank:.12g} mm" if crank else "")
-        return codes.PROFILE_EXISTS.check("fail", text, shown, 0.0)
-    text = "the pitch curve has no loop"
+        fix = f"make drive.crank at most {crank:.12g} mm" if crank else error.fix
+        return codes.PROFILE_EXISTS.check("fail", error.message, shown, 0.0, shown=NO_NUMBER, fix=fix)
+    aside = ""
     if design.spec.drive is None and design.spec.slider is None:
-        text += f"; the run-up takes {math.degrees(design.even_cam.phase_angle):.6g} deg of the cam"
-    return codes.PROFILE_EXISTS.check("pass", text, shown, 0.0)
+        aside = f"acceleration phase over {short(math.degrees(design.even_cam.phase_angle))} deg of the cam"
+    what = "the pitch curve has no loop"
+    return codes.PROFILE_EXISTS.check("pass", what, shown, 0.0, shown=NO_NUMBER, aside=aside)
 
 
 def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
@@ -184,77 +188,65 @@ def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
         if not design.has_zone(cam):
             continue
         value = math.degrees(cam.max_pressure_angle)
-        text = f"the pressure angle of the {words} reaches {value:.6g} deg"
+        aside = ""
         if design.spec.drive is None:
-            text += (
-                " outside the transition zone" if cam.transition_zone > 0.0 else ", the contact lasting to mid-swing"
-            )
-        if value > limit:
-            text += f", above the limit {limit:g} deg: {_pressure_remedy(design)}"
-        yield cams.PRESSURE_ANGLE.check("fail" if value > limit else "pass", text, value, limit, "deg")
+            aside = "outside the transition zone" if cam.transition_zone > 0.0 else "contact lasts to mid-swing"
+        status: Status = "fail" if value > limit else "pass"
+        what, fix = f"pressure angle of the {words}", _pressure_remedy(design)
+        yield cams.PRESSURE_ANGLE.check(status, what, value, limit, "deg", aside=aside, fix=fix)
 
 
 def _pressure_remedy(design: WideSwingDesign) -> str:
     if design.spec.cycle is not None:
-        return "change swing, or give that stroke another angle in cycle"
-    keys = "cycle_angle" if design.spec.drive is None else "drive.crank"
-    return f"change {keys} or swing; a twin-cam needs a swing near 2 acos(r/a)"
+        return "give that stroke a larger angle in cycle"
+    return f"change {'cycle_angle' if design.spec.drive is None else 'drive.crank'} or swing"
 
 
 def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:
     """GL402: roller against the curvature where it touches the profile, and against the source's (27)."""
+    from gearlink.core.parts.cams.checks import against_curvature
+
     roller = design.section.roller_radius
     for words, cam in _judged(design):
-        status, text, share = _undercut(cam, words) if design.has_zone(cam) else _covered(cam, words)
+        if not design.has_zone(cam):
+            yield _covered(cam, words)
+            continue
+        least, fix = cam.min_curvature_radius, ""
+        share = roller / least
+        status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
         if status != "pass":
-            most = safely_below(remedies.roller_for_curvature(design))
-            text += f": take a roller of at most {most} mm or a larger cam.center_distance"
-        yield cams.CAM_UNDERCUT.check(status, text, share, 1.0)
+            fix = f"take a roller of at most {safely_below(remedies.roller_for_curvature(design))} mm"
+        what = f"roller radius, {words}"
+        shown = against_curvature(roller, least, status)
+        yield cams.CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, aside=_left_out(cam), fix=fix)
     if design.spec.layout == "twin-rocker" and design.has_profile:
         yield from _against_estimate(design, roller)
 
 
-def _undercut(cam: AnyCam, words: str) -> tuple[Status, str, float]:
-    roller, least = cam.roller_radius, cam.min_curvature_radius
-    share, place = roller / least, f"outside {_left_out(cam)}"
-    status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
-    if share == 0.0:
-        return status, f"the pitch curve of the {words} bulges nowhere {place}: no roller undercuts it", share
-    return (
-        status,
-        f"roller radius {roller:g} mm against the least curvature radius {least:.6g} mm of the {words} {place}",
-        share,
-    )
-
-
-def _covered(cam: AnyCam, words: str) -> tuple[Status, str, None]:
-    return (
-        "fail",
-        f"the roller, radius {cam.roller_radius:g} mm, where it stands still covers the profile of the {words}",
-        None,
-    )
+def _covered(cam: AnyCam, words: str) -> Check:
+    what = f"the roller (radius {short(cam.roller_radius)} mm) covers the whole profile of the {words}"
+    return cams.CAM_UNDERCUT.check("fail", what, None, 1.0, fix="take a smaller cam.roller_radius")
 
 
 def _left_out(cam: AnyCam) -> str:
     """The parts of the stroke in which the roller does not touch the profile."""
     (first, _), (_, last) = cam.contact
-    ends = [
-        f"the {name} {part:.3g} of the stroke" for name, part in (("first", first), ("last", 1.0 - last)) if part > 0.0
+    parts = [
+        f"{name} {short(part, 3)} of the stroke"
+        for name, part in (("first", first), ("last", 1.0 - last))
+        if part > 0.0
     ]
-    if not ends:
-        return "the transition zone"
-    return f"the transition zone and {' and '.join(ends)}, where the roller that stands still covers the profile"
+    return " and ".join(("outside the transition zone", *parts))
 
 
 def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]:
     """The source's own criterion of the internal profile: a warning, since its radius is an estimate."""
     estimate = design.middle_radius_estimate
     if roller >= estimate:
-        text = (
-            f"roller radius {roller:g} mm is not below the source's estimate {estimate:.6g} mm of the curvature "
-            f"radius at mid-swing: to keep its rule take a roller of at most {safely_below(0.999 * estimate)} mm"
-        )
-        yield cams.CAM_UNDERCUT.check("warn", text, roller / estimate, 1.0)
+        what, shown = "roller radius, internal profile", Shown(roller, estimate, "mm", "<=")
+        aside = "the source's estimate of the curvature radius at mid-swing"
+        fix = f"take a roller of at most {safely_below(0.999 * estimate)} mm"
+        yield cams.CAM_UNDERCUT.check("warn", what, roller / estimate, 1.0, shown=shown, aside=aside, fix=fix)
 
 
 def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
@@ -262,17 +254,20 @@ def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
     limit = design.spec.limits.transition_zone
     for words, cam in _judged(design):
         zone = cam.transition_zone
-        text = f"the roller changes sides of the {words} over {zone:.4g} of the stroke each side of mid-swing"
+        fix = note = ""
         if zone > limit:
             roller = remedies.roller_for_zone(design)
-            smaller = f"take a roller of at most {safely_below(roller)} mm or a larger cam.center_distance"
-            advice = smaller if math.isfinite(roller) else "leave cam.rocker_radius out"
-            text += f", above the limit {limit:g}: {advice}"
+            fix = "remove cam.rocker_radius"
+            if math.isfinite(roller):
+                fix = f"take a roller of at most {safely_below(roller)} mm"
         status: Status = "fail" if zone > limit else "pass"
         if status == "pass" and zone > _UNGUIDED:
-            text += f", as limits.transition_zone allows: over {2.0 * zone:.3g} of the stroke the device guides alone"
-            status = "warn"
-        yield codes.TRANSITION_ZONE.check(status, text, zone, limit)
+            status, note = (
+                "warn",
+                f"over {short(2.0 * zone, 3)} of the stroke the balancing device alone guides the rocker",
+            )
+        what = f"half-width of the contact change from one flank of the {words} to the other, over the stroke"
+        yield codes.TRANSITION_ZONE.check(status, what, zone, limit, recommended=_UNGUIDED, fix=fix, note=note)
 
 
 def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
@@ -288,25 +283,31 @@ def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
         bottom = cam.min_radius - section.roller_radius
         room = bottom - shaft
         status: Status = "pass"
-        text = f"the roller of the {words} keeps {room:.4g} mm from the cam shaft (radius {shaft:g} mm)"
+        fix, recommended = _shaft_remedy(design), None
         if room <= 0.0:
-            text = f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius {shaft:g} mm)"
             status = "fail"
         elif is_external(cam) and bottom < HUB * shaft * (1.0 - _ROUNDING):
-            text = f"below the slot of the {words} {room:.4g} mm are left round its shaft (radius {shaft:g} mm)"
-            text += f": take a shaft_radius of at most {safely_below(bottom / HUB)} mm (hub of {HUB:g} times the shaft)"
-            status = "warn"
-        if status != "pass":
-            text += f"{':' if status == 'fail' else ', or'} {_shaft_remedy(design)}"
-        yield linkages.SHAFT_CLEARANCE.check(status, text, room, 0.0, "mm")
+            status, recommended = "warn", (HUB - 1.0) * shaft
+            fix = f"take a shaft_radius of at most {safely_below(bottom / HUB)} mm"
+        yield linkages.SHAFT_CLEARANCE.check(
+            status,
+            f"roller of the {words} to the cam shaft",
+            room,
+            0.0,
+            "mm",
+            overlap=f"roller of the {words} within the cam shaft",
+            recommended=recommended,
+            aside=f"shaft radius {short(shaft)} mm",
+            fix=fix,
+        )
 
 
 def _shaft_remedy(design: WideSwingDesign) -> str:
     """A smaller roller where its profile does not bear it either, else a larger distance first."""
     roller, least = remedies.roller_of_profile(design), safely_above(remedies.center_distance(design))
     if roller is not None:
-        return f"take a roller of at most {safely_below(roller)} mm, as the profile needs as well"
-    return f"make cam.center_distance at least {least} mm, or the roller smaller"
+        return f"take a roller of at most {safely_below(roller)} mm"
+    return f"set cam.center_distance to at least {least} mm"
 
 
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
@@ -321,6 +322,7 @@ def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
             # Both stop there, so that the normal of the pitch curve does not point to the cam's axis.
             (first, _), (_, last) = cam.contact
             room = place - float(np.abs(cam.points(np.array([first, last])).profile).max())
-        advice = "overhang the rocker beside the cam, or reduce the swing"
-        rule, axis = linkages.SHAFT_CLEARANCE, "the rocker's axis at the ends of the stroke"
-        yield from over_axis_check(rule, words, room, roller, axis, advice)
+        advice = "overhang the rocker next to the cam, or reduce the swing"
+        rule, axis = linkages.SHAFT_CLEARANCE, "the rocker's axis"
+        at = "the ends of the stroke"
+        yield from over_axis_check(rule, words, room, roller, axis, advice, at=at)

@@ -9,6 +9,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import solve
@@ -38,10 +39,13 @@ class CrankRockerDrive:
     def __post_init__(self) -> None:
         kind = self.linkage.kind()
         if kind != "crank-rocker":
-            raise NoSolution(
-                f"the linkage is a {kind}: the cam needs a crank-rocker, in which the crank is the shortest link and "
-                "shortest plus longest are less than the other two together; change the link lengths"
-            )
+            bar = self.linkage
+            shortest, p, q, longest = sorted((bar.crank, bar.coupler, bar.rocker, bar.frame))
+            found = "the four links cannot be assembled" if kind == "impossible" else f"the drive is a {kind}"
+            wrong = f"crank {short(bar.crank)} mm is not the shortest link"
+            if shortest + longest >= p + q:
+                wrong = f"Grashof: {short(shortest)} + {short(longest)} mm against {short(p)} + {short(q)} mm"
+            raise NoSolution(f"{found}, not a crank-rocker ({wrong})", fix="change the link lengths")
 
     @cached_property
     def crank_angles(self) -> tuple[float, float]:

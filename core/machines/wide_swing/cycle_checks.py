@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, safely_below
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import codes
 from gearlink.core.parts.cams import codes as cams
 
@@ -24,19 +25,25 @@ def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
     section = design.spec.cycle
     assert section is not None, "asked for where there is a cycle"
     working, far, back, near = section.lengths()
-    text = f"the strokes take {working:g} and {back:g} deg of the cam's turn, the rests {far:g} and {near:g} deg"
+    aside = f"strokes {short(working)} and {short(back)} deg, dwells {short(far)} and {short(near)} deg"
     for name, rest in (("far_dwell", far), ("near_dwell", near)):
         if rest == 0.0:
-            words = f"{text}: without a rest two hollows of each cam meet in an edge; make cycle.{name} above 0"
-            yield codes.CYCLE_ANGLES.check("warn", words, rest, 0.0, "deg")
+            what, fix = (
+                f"no {name.replace('_', ' ')}: two concave flanks of each cam meet in an edge",
+                f"set cycle.{name} above 0",
+            )
+            yield codes.CYCLE_ANGLES.check("warn", what, rest, 0.0, "deg", shown=NO_NUMBER, aside=aside, fix=fix)
+    note = ""
     if working != back:
-        longer = "working" if working > back else "return"
-        text += (
-            f"; the device is sized by the shorter stroke, whose free swing it sets: in the {longer} stroke it has "
-            f"{design.cycle.longer_stroke_reserve:.4g} of the force that balances it to spare, the reserve counted"
+        longer, reserve = "working" if working > back else "return", design.cycle.longer_stroke_reserve
+        note = (
+            f"the balancing device is sized for the shorter stroke: force reserve {short(100.0 * (reserve or 0.0))} %"
         )
+        note += f" in the {longer} stroke"
     if far > 0.0 and near > 0.0:
-        yield codes.CYCLE_ANGLES.check("pass", text, working + far + back + near, 360.0, "deg")
+        whole = working + far + back + near
+        what = "angles of strokes and dwells"
+        yield codes.CYCLE_ANGLES.check("pass", what, whole, 360.0, "deg", side="", aside=aside, note=note)
 
 
 def _contours(design: WideSwingDesign) -> list[tuple[str, ClosedCam]]:
@@ -59,12 +66,10 @@ def acceleration_step(design: WideSwingDesign) -> Iterator[Check]:
         first, pace = cam.joints[0], design.spec.speed * math.tau / 60.0
         start = float(design.motion.plain_law.invariants(np.zeros(1), 2)[2][0])
         step = start * design.motion.swing * (pace / cam.own) ** 2
-        text = (
-            f"where the {words} joins rest and stroke the radius of its pitch curve jumps from {first.before:.5g} to "
-            f"{first.after:.5g} mm and the rocker's acceleration by {step:.4g} rad/s^2; the tangent has no corner: "
-            "judge the shock in the section shaft"
-        )
-        yield cams.ACCELERATION_STEP.check("warn", text, step, 0.0, "rad/s^2")
+        what, aside = f"acceleration step of the rocker at the dwells of the {words}", "no velocity step"
+        note = f"the radius of the pitch curve steps from {short(first.before)} to {short(first.after)} mm there"
+        fix = "compute the vibration with the section shaft"
+        yield cams.ACCELERATION_STEP.check("warn", what, step, 0.0, "rad/s^2", aside=aside, fix=fix, note=note)
 
 
 def closed_contour(design: WideSwingDesign) -> Iterator[Check]:
@@ -75,37 +80,32 @@ def closed_contour(design: WideSwingDesign) -> Iterator[Check]:
     for words, cam in _contours(design):
         cut, least = cam.cut, cam.least_radius
         if cut.depth > _CUT * cam.cam.roller_radius:
-            places = [math.degrees(angle) for angle in (cut.roller_angle, cut.cam_angle)]
-            text = (
-                f"the roller at {places[0]:.4g} deg from the start of the stroke of the {words} cuts {cut.depth:.4g} "
-                f"mm into its contour at {places[1]:.4g} deg: take a smaller cam.roller_radius"
-            )
-            yield codes.CLOSED_CONTOUR.check("fail", text, -cut.depth, 0.0, "mm")
+            what = f"cut of the roller into the contour of the {words}"
+            at = f"cam angle {short(math.degrees(cut.cam_angle))} deg"
+            fix, shown = "take a smaller cam.roller_radius", Shown(cut.depth, 0.0, "mm", "<=")
+            yield codes.CLOSED_CONTOUR.check("fail", what, -cut.depth, 0.0, "mm", shown=shown, at=at, fix=fix)
         elif clearance >= cam.largest_clearance:
             most = cam.largest_clearance
-            text = (
-                f"in the free sector of the {words} the contour crosses itself, for it keeps more from the roller's "
-                "path than the path's curvature radius: take "
-                + (f"cam.free_clearance below {safely_below(most)} mm or " if most > 0.0 else "")
-                + "a smaller cam.roller_radius"
-            )
-            yield codes.CLOSED_CONTOUR.check("fail", text, clearance, most, "mm")
+            what = f"clearance of the roller in the free sector of the {words}"
+            fix, shown = "take a smaller cam.roller_radius", NO_NUMBER
+            if most > 0.0:
+                fix, shown = f"set cam.free_clearance below {safely_below(most)} mm", Shown(clearance, most, "mm", "<=")
+            else:
+                what = f"the contour of the {words} crosses itself in its free sector"
+            yield codes.CLOSED_CONTOUR.check("fail", what, clearance, most, "mm", shown=shown, fix=fix)
         elif least <= shaft:
-            text = (
-                f"the contour of the {words} comes to {least:.4g} mm from the cam axis, into the shaft of radius "
-                f"{shaft:g} mm: take less cam.free_clearance or a larger cam.center_distance"
-            )
-            yield codes.CLOSED_CONTOUR.check("fail", text, least, shaft, "mm")
+            what, fix = f"minimum radius of the contour of the {words}", "set a larger cam.center_distance"
+            yield codes.CLOSED_CONTOUR.check("fail", what, least, shaft, "mm", aside="shaft radius", fix=fix)
         elif cam.cam.sense > 0 and least < HUB * shaft and least < cam.cam.min_radius - cam.cam.roller_radius:
-            text = (
-                f"in its free sector the contour of the {words} leaves {least - shaft:.4g} mm round the shaft, radius "
-                f"{shaft:g} mm, whose hub of {HUB:g} times the shaft takes {(HUB - 1.0) * shaft:.4g} mm: take less "
-                "cam.free_clearance, a larger cam.center_distance or a thinner shaft"
+            what, shown = (
+                f"minimum radius of the contour of the {words}",
+                Shown(least, HUB * shaft, "mm", ">=", "recommended"),
             )
-            yield codes.CLOSED_CONTOUR.check("warn", text, least, shaft, "mm")
+            aside, fix = f"{HUB:g} times the shaft radius", "set a smaller cam.free_clearance"
+            yield codes.CLOSED_CONTOUR.check("warn", what, least, shaft, "mm", shown=shown, aside=aside, fix=fix)
         else:
-            text = f"the contour of the {words} clears the roller, by {clearance:g} mm in its free sector"
-            yield codes.CLOSED_CONTOUR.check("pass", text, least, shaft, "mm")
+            what = f"minimum radius of the contour of the {words}"
+            yield codes.CLOSED_CONTOUR.check("pass", what, least, shaft, "mm")
 
 
 def profile_planes(design: WideSwingDesign) -> Iterator[Check]:
@@ -115,10 +115,7 @@ def profile_planes(design: WideSwingDesign) -> Iterator[Check]:
     room = design.cycle.plane_room
     if room is None:
         return
-    text = f"between the rests of the external and the internal profile {room:.4g} mm are left"
-    if room <= 0.0:
-        back = design.cycle.back.cam
-        roller = 0.5 * (room + 2.0 * back.roller_radius)
-        text += ": cut the profiles into two planes beside each other"
-        text += f", or take rollers below {safely_below(roller)} mm" if roller > 0.0 else ""
-    yield codes.PROFILE_PLANES.check("pass" if room > 0.0 else "warn", text, room, 0.0, "mm")
+    status: Status = "pass" if room > 0.0 else "warn"
+    what, overlap = "distance of the two profiles at the dwells", "overlap of the two profiles at the dwells"
+    fix = "cut the profiles in two planes next to each other"
+    yield codes.PROFILE_PLANES.check(status, what, room, 0.0, "mm", overlap=overlap, fix=fix)

@@ -547,9 +547,9 @@ class WideSwingDesign(Design):
     def even_cam(self) -> WideSwingCam:
         """The cam of the working stroke, turning evenly."""
         if self.spec.drive is not None:
-            raise NoSolution("this is a result of a cam that turns evenly: leave out drive", key="drive")
+            raise NoSolution("this is a result of a cam that turns evenly", key="drive", fix="leave out drive")
         if self.spec.slider is not None:
-            raise NoSolution("this is a result of a cam of a rocker alone: leave out slider", key="slider")
+            raise NoSolution("this is a result of a cam of a rocker alone", key="slider", fix="leave out slider")
         return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius, "working")
 
     @cached_property

@@ -45,8 +45,11 @@ class Motion:
         with at_key("unloader.pivot_ratio"):
             if unloader.pivot_ratio <= 1.0:
                 raise NoSolution(
-                    f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the circle "
-                    f"of the arm; make unloader.pivot_ratio at least {safely_above(self.usual_pivot_ratio)}"
+                    (
+                        f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the "
+                        "circle of the arm"
+                    ),
+                    fix=f"make unloader.pivot_ratio at least {safely_above(self.usual_pivot_ratio)}",
                 )
             if unloader.type == "pneumatic":
                 return Pneumatic(unloader.pivot_ratio)
@@ -159,7 +162,7 @@ class Motion:
     def rocker_alone(self, name: str) -> ElasticLaw:
         """The law for a quantity that a slider does not allow."""
         if self.spec.slider is not None:
-            raise NoSolution(f"{name} is that of a rocker without a slider: leave out slider", key="slider")
+            raise NoSolution(f"{name} is that of a rocker without a slider", key="slider", fix="leave out slider")
         return self.plain_law
 
     # Drive

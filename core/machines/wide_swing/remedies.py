@@ -238,7 +238,7 @@ def _nearest_good(bad: float, limit: float, good: Callable[[float], bool], step:
 def with_number(error: NoSolution, repair: tuple[str, float]) -> NoSolution:
     """The refusal, with the key to change and its value."""
     path, value = repair
-    return NoSolution(f"{error.message}: make {path} {value:.12g}", key=path)
+    return NoSolution(error.message, key=path, fix=f"set {path} to {value:.12g}")
 
 
 def slider_repair(section: SwingSlider, swing: float) -> tuple[str, float]:
@@ -281,8 +281,8 @@ def side_words(section: SwingSlider) -> str:
     """What brings device and roller to change sides together."""
     angle = even_middle_angle(section)
     if angle is None:
-        return "a lighter slider, more inertia of the rocker or a larger roller brings both together"
-    return f"make slider.middle_angle {angle:g}, where the slider is fastest at mid-swing"
+        return "reduce slider.mass"
+    return f"set slider.middle_angle to {angle:g}, where the slider is fastest at mid-swing"
 
 
 def side_changes(section: SwingSlider) -> Iterator[tuple[Change, ...]]:

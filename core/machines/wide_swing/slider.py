@@ -86,8 +86,8 @@ class SliderDrive:
         if not 0.0 < self.crank + abs(self.offset) < self.rod:
             reach = self.crank + abs(self.offset)
             raise NoSolution(
-                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, {reach:.6g} mm; lengthen the rod, "
-                f"best to {safely_above(3.0 * reach)} mm or more"
+                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, {reach:.6g} mm",
+                fix=f"lengthen the rod, best to {safely_above(3.0 * reach)} mm or more",
             )
 
     def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
@@ -154,7 +154,7 @@ class SliderLaw:
         if not 0.0 <= self.rocker_share <= 1.0:
             raise NoSolution(f"rocker share {self.rocker_share:.6g} of the inertia: it must lie between 0 and 1")
         if abs(self._stroke) <= 1e-12 * self.drive.crank:
-            raise NoSolution("the slider ends where it began: turn the arm's mid-swing away from the slide line")
+            raise NoSolution("the slider ends where it began", fix="turn the arm's mid-swing away from the slide line")
         if self.rocker_share == 0.0:
             self._require_no_dead_center()
 
@@ -163,9 +163,11 @@ class SliderLaw:
             nearest = math.remainder(angle, 2.0 * math.pi)
             if abs(nearest) <= 0.5 * self.swing:
                 raise NoSolution(
-                    f"the slider's dead centre lies {math.degrees(nearest):.4g} deg from mid-swing, inside the half "
-                    f"swing of {math.degrees(0.5 * self.swing):.4g} deg: turn the swing away from it, or count the "
-                    "rocker's own inertia"
+                    (
+                        f"the slider's dead centre lies {math.degrees(nearest):.4g} deg from mid-swing, inside "
+                        f"the half swing of {math.degrees(0.5 * self.swing):.4g} deg"
+                    ),
+                    fix="turn the swing away from it, or count the rocker's own inertia",
                 )
 
     @cached_property

@@ -111,10 +111,19 @@ class SwingCycle(Spec):
             given = "working, far_dwell, return and near_dwell"
             raise PydanticCustomError(
                 "GL108",
-                "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change} deg",
-                {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "change": f"{360.0 - total:+.7g}"},
+                "{given}: {total} deg (required 360 deg, one revolution of the cam)",
+                {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "help": self._help(360.0 - total)},
             )
         return self
+
+    def _help(self, change: float) -> str:
+        """Which angle may take up the change [deg]: one that stays an angle."""
+        angles = {"near_dwell": self.near_dwell, "far_dwell": self.far_dwell, "return": self.return_}
+        angles["working"] = self.working
+        for name, angle in angles.items():
+            if angle + change > 0.0:
+                return f"set {name} to {angle + change:.7g} deg"
+        return f"reduce the four angles by {-change:.7g} deg together"
 
     def lengths(self) -> tuple[float, float, float, float]:
         """The four angles in their order [deg]."""

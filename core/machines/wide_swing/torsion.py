@@ -138,9 +138,15 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
     response = TorsionResponse(series, stiffness, damping)
     if stiffness > _STIFFEST:
         raise NoSolution(
-            f"natural frequency times stroke time is {stiffness:.6g}, {stiffness / (2.0 * math.pi):.4g} oscillations "
-            f"in a stroke: above {_STIFFEST:g} the drive is rigid to the stroke; leave the section shaft out, or make "
-            f"speed {stiffness / _STIFFEST:.4g} times higher or natural_frequency as much lower"
+            (
+                f"natural frequency times stroke time is {stiffness:.6g}, "
+                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke: above {_STIFFEST:g} the "
+                "drive is rigid to the stroke"
+            ),
+            fix=(
+                f"leave the section shaft out, or make speed {stiffness / _STIFFEST:.4g} times higher or "
+                "natural_frequency as much lower"
+            ),
         )
     fastest = max(stiffness, math.pi * len(series.coefficients))
     samples = 65 + int(6.0 * fastest)

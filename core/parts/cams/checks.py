@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, Rule, Status, safely_below, without_noise
+from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, safely_below, without_noise
+from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, LARGER, PRESSURE_ANGLE
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 # A hub of 1.5 times the shaft is the usual least, a roller of 0.8 of the least curvature radius the usual most.
 HUB = 1.5
 ROLLER_SHARE = 0.8
-AS_THICK_AS_ROLLER = "a shaft as thick as the roller takes"
+AS_THICK_AS_ROLLER = "a shaft as thick as the roller"
 _SIZED = 1.0 + 1e-9
 _FIT = 1e-11
 """Of the limit: cams that are sized to it came out up to 2e-13 above it."""
@@ -26,7 +27,7 @@ _FIT = 1e-11
 
 def impossible(what: str, refusal: NoSolution, limit: float) -> Check:
     """GL401 for cams that cannot be at all, and why."""
-    return PRESSURE_ANGLE.check("fail", f"{what}: {refusal.message}", None, limit, "deg")
+    return PRESSURE_ANGLE.check("fail", f"{what}: {refusal.message}", None, limit, "deg", fix=refusal.fix)
 
 
 def is_steep(value: float, limit: float) -> bool:
@@ -44,11 +45,9 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
     for cam in cams:
         worst = cam.max_pressure_angle
         value = math.degrees(worst.value)
-        place = f"cam angle {math.degrees(worst.place):.5g} deg"
-        text = f"the pressure angle of the {cam.name} reaches {value:.6g} deg at {place}"
-        over = is_steep(value, limit)
-        text += f", above the limit {limit:g} deg: {remedy}" if over else ""
-        yield PRESSURE_ANGLE.check("fail" if over else "pass", text, value, limit, "deg")
+        status: Status = "fail" if is_steep(value, limit) else "pass"
+        at = f"cam angle {short(math.degrees(worst.place))} deg"
+        yield PRESSURE_ANGLE.check(status, f"pressure angle of the {cam.name}", value, limit, "deg", at=at, fix=remedy)
 
 
 def undercut_checks(
@@ -64,23 +63,28 @@ def undercut_checks(
     for cam in cams:
         least, roller = cam.min_curvature_radius, cam.roller_radius
         share = roller / least.value
-        place = f"cam angle {math.degrees(least.place):.5g} deg"
-        text = (
-            f"roller radius {roller:g} mm of the {cam.name} against the least curvature radius {least.value:.6g} mm "
-            f"at {place}"
-        )
+        what, at = f"roller radius of the {cam.name}", f"cam angle {short(math.degrees(least.place))} deg"
         status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE * _SIZED else "pass"
+        fix = ""
         if status == "pass" and cam.undercut.depth > 1e-9 * roller:
-            cut = cam.undercut
-            status = "fail"
-            text = (
-                f"the roller of the {cam.name} cuts {cut.depth:.4g} mm into its own profile at cam angle "
-                f"{math.degrees(cut.cam_angle):.5g} deg: {plainly} or take a smaller roller"
-            )
-        elif status != "pass":
-            enlarged = larger() if larger else plainly
-            text += f": take a roller of at most {safely_below(ROLLER_SHARE * least.value)} mm or {enlarged}"
-        yield CAM_UNDERCUT.check(status, text, share, 1.0)
+            status, cut = "fail", cam.undercut
+            what = f"cut of the roller of the {cam.name} into its own profile"
+            shown, at = Shown(cut.depth, 0.0, "mm", "<="), f"cam angle {short(math.degrees(cut.cam_angle))} deg"
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=plainly)
+            continue
+        if status != "pass":
+            most = ROLLER_SHARE * least.value
+            fix = larger() if larger and most <= 0.0 else f"take a roller of at most {safely_below(most)} mm"
+        shown = against_curvature(roller, least.value, status)
+        yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
+
+
+def against_curvature(roller: float, least: float, status: Status) -> Shown:
+    """What a message compares with a roller radius: the least curvature radius, of a warning the share that is usual."""
+    if not math.isfinite(least):
+        return Shown(roller, None, "mm")
+    usual = status == "warn"
+    return Shown(roller, (ROLLER_SHARE if usual else 1.0) * least, "mm", "<=", "recommended" if usual else "limit")
 
 
 def hub_checks(
@@ -97,21 +101,32 @@ def hub_checks(
     for cam in cams if shaft > 0.0 else ():
         room = without_noise(cam.min_radius - shaft, shaft)
         status: Status = "fail" if room <= 0.0 else "warn" if cam.min_radius < HUB * shaft else "pass"
-        text = f"the {cam.name} leaves {room:.4g} mm round its shaft (radius {shaft:g} mm)"
-        if status == "fail":
-            reach = f"comes {-room:.4g} mm into" if room else "touches"
-            text = f"the {cam.name} {reach} its shaft (radius {shaft:g} mm)"
-        if status != "pass":
-            thinner = ""
-            if cam.min_radius > 0.0:
-                most = safely_below(cam.min_radius / HUB)
-                thinner = f"take a shaft_radius of at most {most} mm (hub of {HUB:g} times the shaft), or "
-            text += f": {thinner}{farther(HUB * shaft - cam.min_radius)}"
-        yield rule.check(status, text, room, 0.0, "mm")
+        fix = farther(HUB * shaft - cam.min_radius) if status != "pass" else ""
+        if status == "warn":
+            fix = f"take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"
+        yield rule.check(
+            status,
+            f"{cam.name} to its shaft",
+            room,
+            0.0,
+            "mm",
+            overlap=f"{cam.name} within its shaft",
+            recommended=(HUB - 1.0) * shaft,
+            aside=f"shaft radius {short(shaft)} mm",
+            fix=fix,
+        )
 
 
 def over_axis_check(
-    rule: Rule, words: str, room: float, shaft: float, axis: str, remedy: str, *, takes: str = AS_THICK_AS_ROLLER
+    rule: Rule,
+    words: str,
+    room: float,
+    shaft: float,
+    axis: str,
+    remedy: str,
+    *,
+    takes: str = AS_THICK_AS_ROLLER,
+    at: str = "",
 ) -> Iterator[Check]:
     """GL302: a cam that turns over another axis of the frame, or leaves no room for a shaft there, is warned of.
 
@@ -121,16 +136,16 @@ def over_axis_check(
         room : float [mm] - from the body to the axis, negative where it reaches over it
         shaft : float [mm] - radius of the thinnest shaft that would be built there: the roller's
         axis, remedy : str - "the cam rocker's axis", and what would clear it
-        takes : str - what shaft that is
+        takes, at : str - what shaft that is, and where in the cycle
     Notes
         Never a failure, since what turns there may be overhung beside the cam.
     """
     if room >= shaft:
         return
-    text = f"the {words} reaches {-room:.4g} mm over {axis}"
-    if room > 0.0:
-        text = f"the {words} leaves only {room:.4g} mm to {axis}, {takes} {shaft:g} mm"
-    yield rule.check("warn", f"{text}: {remedy}", room, shaft, "mm")
+    what, overlap = f"{words} to {axis}", f"overlap of the {words} and {axis}"
+    yield rule.check(
+        "warn", what, room, shaft, "mm", overlap=overlap, aside=takes if room > 0.0 else "", at=at, fix=remedy
+    )
 
 
 def step_check(
@@ -148,7 +163,10 @@ def step_check(
     quantity = rule.name.removesuffix("-step")
     limit = 1e-5 * peak
     if abs(step) <= limit:
-        return rule.check("pass", f"the lift's {quantity} is continuous at every joint", abs(step), limit, unit)
-    listed = ", ".join(f"{joint} {jump:+.4g}" for joint, jump in steps if abs(jump) > limit)
-    text = f"the lift's {quantity} jumps ({listed} {unit}): {remedy}"
-    return rule.check(bad, text, abs(step), limit, unit)
+        what = f"the lift's {quantity} is continuous at every joint"
+        return rule.check("pass", what, abs(step), limit, unit, shown=NO_NUMBER)
+    largest = max((jump for jump in steps if abs(jump[1]) > limit), key=lambda each: abs(each[1]))
+    more = sum(abs(jump) > limit for _, jump in steps) - 1
+    aside = f"and {amount(more, 'smaller step')} at other joints" if more else ""
+    what, shown = f"step of the lift's {quantity}", Shown(abs(step), 0.0, unit, "<=")
+    return rule.check(bad, what, abs(step), limit, unit, shown=shown, aside=aside, at=largest[0], fix=remedy)

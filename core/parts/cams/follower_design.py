@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import WithExtremes
 from gearlink.core.parts.cams.checks import step_check
@@ -153,8 +153,6 @@ class OfFollower(WithExtremes, WithShapedLaws):
         steps, _, unit = self._steps(3)
         place, step = max(steps, key=lambda each: abs(each[1]))
         limit = self.spec.limits.jerk_step
-        text = f"the lift's jerk jumps by at most {abs(step):.6g} {unit}, at {place}"
-        if limit is not None and abs(step) > limit:
-            message = f"{text}, above limits.jerk_step {limit:g}: take polynomial-4567"
-            return JERK_STEP.check("warn", message, abs(step), limit, unit)
-        return JERK_STEP.check("pass", text, abs(step), limit, unit)
+        status: Status = "warn" if limit is not None and abs(step) > limit else "pass"
+        what, fix = "step of the lift's jerk", "take the law polynomial-4567"
+        return JERK_STEP.check(status, what, abs(step), limit, unit, at=place, fix=fix)

@@ -212,8 +212,8 @@ def motion_of(
         start, lift = end, pieces[-1].high
     gained = lift - unit * initial_lift
     if abs(gained - (whole * round(gained / whole) if whole else 0.0)) > 1e-9 * max(1.0, abs(lift)):
-        message = f"the lift ends at {lift / unit:.9g} and starts at {initial_lift:.9g}: let it return"
-        raise NoSolution(message, key="motion")
+        message = f"the lift ends at {lift / unit:.9g} and starts at {initial_lift:.9g}"
+        raise NoSolution(message, key="motion", fix="let the lift return to its start")
     return FollowerMotion(_joined(_awaited(pieces, unit), given))
 
 
@@ -257,7 +257,8 @@ def _piece(
             return replace(blank, name=segment.law.type, waits=segment)  # type: ignore[union-attr]
         return _of_law(blank, segment, slope, unit, spec)
     except NoSolution as error:
-        raise NoSolution(f"segment {number}: {error.message}", key=error.key or f"motion[{number - 1}].law") from error
+        key = error.key or f"motion[{number - 1}].law"
+        raise NoSolution(f"segment {number}: {error.message}", key=key, fix=error.fix) from error
 
 
 def _of_law(blank: Piece, segment: Segment, slope: float, unit: float, spec: Any) -> Piece:
@@ -394,7 +395,7 @@ def _resting(definition: Any) -> Law:
         raise NoSolution("a law is a name, or a mapping with its numbers")
     one = law(definition)
     if one.kind != "rest-to-rest":
-        raise NoSolution(f"{one.name} runs from rest to speed: take a law from rest to rest")
+        raise NoSolution(f"{one.name} runs from rest to speed", fix="take a law from rest to rest")
     return one
 
 
@@ -444,8 +445,8 @@ def _mirrored_rise(pieces: Sequence[Piece], number: int, start: float, end: floa
         first -= 1
     rise = pieces[first : last + 1]
     if any(piece.coefficients or piece.waits for piece in rise):
-        message = f"segment {number} repeats a rise backwards that depends on its neighbours: give lift and law"
-        raise NoSolution(message, key="motion")
+        message = f"segment {number} repeats a rise backwards that depends on its neighbours"
+        raise NoSolution(message, key="motion", fix="give lift and law")
     share = (end - start) / (rise[-1].end - rise[0].start)
     found: list[Piece] = []
     for piece in reversed(rise):

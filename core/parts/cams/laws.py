@@ -106,8 +106,11 @@ def _half_law(name: str, half: FirstHalf) -> Law:
     """s = 2 s0(u/2)/Cv, v = v0(u/2)/Cv, a = a0(u/2)/(2 Cv), j = j0(u/2)/(4 Cv)"""
     if half.end_jumps or half.middle_jumps:
         raise NoSolution(
-            f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it jumps at the "
-            "dwell or at the constant speed: use half-cycloidal or velocity-345"
+            (
+                f"motion law {name!r}: the acceleration is not zero at both ends of the first half, so it "
+                "jumps at the dwell or at the constant speed"
+            ),
+            fix="use half-cycloidal or velocity-345",
         )
     speed = half.peak_velocity
 
@@ -243,7 +246,7 @@ def law(definition: Any, phase: Phase | None = None) -> Law:
 
         return shaped_law(definition, phase)
     if len(definition) != 1:
-        raise NoSolution(f"motion law {dict(definition)!r}: give one key, scca, quintic or septic")
+        raise NoSolution(f"motion law {dict(definition)!r}", fix="give one key, scca, quintic or septic")
     (key, value), *_ = definition.items()
     if key in ("scca", "half-scca", "velocity-scca"):
         shares = _numbers(key, value, 4)
@@ -300,8 +303,8 @@ def _free(key: str, kappa: float) -> Law:
     if not low <= kappa <= high:
         nearest = min(max(kappa, low), high)
         raise NoSolution(
-            f"{key} law with kappa = {kappa:.9g} reverses its acceleration: keep kappa in {ends} "
-            f"(the nearest is {nearest:.9g}); change the swing or the phase length"
+            f"{key} law with kappa = {kappa:.6g} reverses its acceleration",
+            fix=(f"keep kappa in {ends} (the nearest is {nearest:.6g}); change the swing or the phase length"),
         )
     name = f"{key} {kappa!r}"
     if key == "quintic":

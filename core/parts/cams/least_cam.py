@@ -207,8 +207,8 @@ class Rocking(NamedTuple):
 
 
 def _nowhere() -> NoSolution:
-    message = "no cam keeps this pressure angle at this center_distance: raise the limit, or move the pivot"
-    return NoSolution(message, key="cam.size")
+    message = "no cam keeps this pressure angle at this center_distance"
+    return NoSolution(message, key="cam.size", fix="raise the limit, or move the pivot")
 
 
 def first_from_which(least: Callable[[float], float], low: float, high: float, key: str) -> float:
@@ -220,7 +220,7 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
     if least(low) >= 0.0:
         return low
     if least(high) < 0.0:
-        raise NoSolution("no cam keeps this curvature_radius here: lower it, or lengthen the motion", key=key)
+        raise NoSolution("no cam keeps this curvature_radius here", key=key, fix="lower it, or lengthen the motion")
     return bracketed_root(least, low, high)
 
 

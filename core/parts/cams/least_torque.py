@@ -167,7 +167,7 @@ def _bound_by_energy(wish: Wish, value: float) -> float:
         program = Program(cost, rows, np.full(limits.size, -np.inf), limits, lower, upper)
         found = solution(*program)
         if found is None:
-            raise NoSolution(f"no law keeps acceleration {top:g} and velocity {fastest:g}: raise a limit")
+            raise NoSolution(f"no law keeps acceleration {top:g} and velocity {fastest:g}", fix="raise a limit")
         best = max(best, proved_bound(found, *program))
         at = np.maximum(found.x[_INTERVALS + 1 : -1], 1e-8)
     return best

@@ -102,9 +102,9 @@ def require_possible(wish: Wish) -> None:
         attained = key == "jerk" or (wish.to_speed and key == "velocity")
         if given is not None and (given < low if attained else given <= low):
             words = "below" if attained else "not above"
-            raise NoSolution(f"{key} {given:g} is {words} {low:g}, which no law keeps: raise it", key=key)
+            raise NoSolution(f"{key} {given:g} is {words} {low:g}, which no law keeps", key=key, fix="raise it")
     if wish.minimize == "residual" and wish.acceleration is None and wish.jerk is None:
-        raise NoSolution("minimize: residual needs a limit of acceleration or jerk: give one", key="acceleration")
+        raise NoSolution("minimize: residual needs a limit of acceleration or jerk", key="acceleration", fix="give one")
 
 
 _LEAST = {"jerk": 32.0, "acceleration": 4.0, "velocity": 1.0}
@@ -305,7 +305,7 @@ class Programme:
             if excess <= 0.0:
                 return coefficients, solved
             slack += 2.0 * excess
-        raise NoSolution("the programme of the law does not settle: lower the degree", key="degree")
+        raise NoSolution("the programme of the law does not settle", key="degree", fix="lower the degree")
 
     @property
     def limits(self) -> list[tuple[str, float]]:

@@ -107,7 +107,7 @@ def translating(
         array([10.+90.j])
     """
     if not abs(abs(direction) - 1.0) <= 1e-9:
-        raise NoSolution(f"direction of travel {direction} has length {abs(direction):.9g}: give a unit vector")
+        raise NoSolution(f"direction of travel {direction} has length {abs(direction):.6g}", fix="give a unit vector")
     u = complex(direction) / abs(direction)
     y, y1, y2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (displacement, first, second)))
     return RollerPath(u * (y - 1j * offset), u * y1, u * y2, np.broadcast_to(np.complex128(u), y.shape))

@@ -59,12 +59,14 @@ def scca(a: float, b: float, c: float, d: float) -> FirstHalf:
 def _checked_shares(a: float, b: float, c: float, d: float) -> tuple[float, float, float, float]:
     shares = (a, b, c, d)
     if not all(share >= 0.0 for share in shares):
-        raise NoSolution(f"scca shares {list(shares)} must not be negative: give four shares >= 0 with sum 1")
+        raise NoSolution(f"scca shares {list(shares)} must not be negative", fix="give four shares >= 0 with sum 1")
     total = math.fsum(shares)
     if not abs(total - 1.0) <= 1e-9:
-        raise NoSolution(f"scca shares {list(shares)} sum to {total:.9g}, not 1: change one by {1.0 - total:+.9g}")
+        raise NoSolution(
+            f"scca shares {list(shares)} sum to {total:.6g}, not 1", fix=f"change one by {1.0 - total:+.9g}"
+        )
     if d >= 1.0:
-        raise NoSolution("scca share d = 1 leaves no time to accelerate: keep d below 1 (0.2 to 0.5 is usual)")
+        raise NoSolution("scca share d = 1 leaves no time to accelerate", fix="keep d below 1 (0.2 to 0.5 is usual)")
     return a / total, b / total, c / total, d / total
 
 

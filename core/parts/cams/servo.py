@@ -70,5 +70,5 @@ def rows_for(motion: FollowerMotion, tolerance: float) -> int:
             and greatest_error(motion, rows) <= tolerance
         ):
             return rows
-    message = f"no step of the table keeps {tolerance:g}, not even {STEPS[-1]:g} deg: raise the tolerance"
-    raise NoSolution(message, key="servo.tolerance")
+    message = f"no step of the table keeps {tolerance:g}, not even {STEPS[-1]:g} deg"
+    raise NoSolution(message, key="servo.tolerance", fix="raise the tolerance")

@@ -167,10 +167,12 @@ def _end_values(model: Any, key: str, phase: Phase) -> list[float]:
     if isinstance(given, list):
         return list(given)
     if given == "join":
-        raise NoSolution(f"{key}: join takes the values of a neighbour, which only a segment of a cam has", key=key)
+        raise NoSolution(
+            f"{key}", key=key, fix="join takes the values of a neighbour, which only a segment of a cam has"
+        )
     if phase.angle is None or not phase.rise:
         raise NoSolution(
-            f"{key}: speed and acceleration of a lift belong to a segment of a cam: give [s, v, a]", key=key
+            f"{key}: speed and acceleration of a lift belong to a segment of a cam", key=key, fix="give [s, v, a]"
         )
     scale = phase.angle / phase.rise
     return [1.0 if key == "end" else 0.0, given.speed * scale, given.acceleration * scale * phase.angle]
@@ -353,11 +355,11 @@ def _design_periods(model: Polydyne, phase: Phase) -> float:
         return model.periods
     frequency = _frequency(model.frequency, phase)
     if phase.time is None:
-        raise NoSolution("frequency needs the time of the phase: give speed, or periods", key="frequency")
+        raise NoSolution("frequency needs the time of the phase", key="frequency", fix="give speed, or periods")
     time = phase.time
     if model.speed is not None:
         if phase.speed is None:
-            raise NoSolution("speed of a law needs the speed of the design: give it, or periods", key="speed")
+            raise NoSolution("speed of a law needs the speed of the design", key="speed", fix="give it, or periods")
         time *= phase.speed / model.speed
     with at_key("frequency"):
         return _possible(frequency * time)
@@ -372,7 +374,7 @@ def _possible(periods: float) -> float:
 def _frequency(given: float | None, phase: Phase) -> float:
     found = given if given is not None else phase.frequency
     if found is None:
-        raise NoSolution("this law needs the natural frequency: give frequency (Hz), or periods", key="frequency")
+        raise NoSolution("this law needs the natural frequency", key="frequency", fix="give frequency (Hz), or periods")
     return found
 
 
@@ -404,7 +406,7 @@ def _optimal(model: OptimalLaw, phase: Phase) -> Law:
         if real is None:
             raise
         message = f"limit.{error.key} {real:g} is, over this rise and time, {error.message}"
-        raise NoSolution(message, key=f"limit.{error.key}") from error
+        raise NoSolution(message, key=f"limit.{error.key}", fix=error.fix) from error
     periods = _known_periods(model.frequency, phase)
     shaping = Shaping("optimal", periods=periods, damping=damping, wish=wish, optimum=found)
     return of_acceleration(found.coefficients, f"optimal {model.minimize} {model.degree}", shaping)
@@ -422,7 +424,7 @@ def _bound(model: OptimalLaw, key: str, phase: Phase) -> float | None:
     if real is None:
         return given
     if phase.time is None or not phase.rise:
-        raise NoSolution("limit needs the rise and the time of the phase: give the speed", key="limit")
+        raise NoSolution("limit needs the rise and the time of the phase", key="limit", fix="give the speed")
     order = model.KEYS.index(key) + 1
     return real * phase.time**order / abs(phase.rise)
 
@@ -434,8 +436,8 @@ def _band(model: OptimalLaw, phase: Phase) -> tuple[float, float]:
     if model.unit == "periods" or phase.in_periods or not phase.unit:
         return low, high
     if phase.speed is None or phase.time is None:
-        message = f"a band of speeds ({phase.unit}) needs the speed of the design: give it, or unit: periods"
-        raise NoSolution(message, key="band")
+        message = f"a band of speeds ({phase.unit}) needs the speed of the design"
+        raise NoSolution(message, key="band", fix="give it, or unit: periods")
     if high < _LEAST_SPEED_BAND <= phase.speed:
         message = f"the band {low:g} to {high:g} is of speeds ({phase.unit}), and the design runs at {phase.speed:g}: "
         raise NoSolution(f"{message}for natural periods per phase say unit: periods", key="band")

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Found
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Shown, Status, Table
+from gearlink.core.base.wording import short
 from gearlink.core.parts.cams.codes import LAW_GAP, POLYDYNE_RANGE
 
 if TYPE_CHECKING:
@@ -100,9 +101,10 @@ class WithShapedLaws:
             if optimum is None or (law.shaping and law.shaping.wish and law.shaping.wish.minimize == "torque"):
                 continue
             wide = optimum.gap > _MOST_GAP
-            text = f"{path}: no law of this degree lies more than {100.0 * optimum.gap:.2g} % below {optimum.value:.6g}"
-            text += ": lower the degree, or loosen a limit" if wide else ""
-            yield LAW_GAP.check("warn" if wide else "pass", text, optimum.gap, _MOST_GAP)
+            what = f"{path}: gap of the optimum to its proved bound"
+            shown = Shown(100.0 * optimum.gap, 100.0 * _MOST_GAP, "%", "<=")
+            aside, status = f"optimum {short(optimum.value)}", _status(wide)
+            yield LAW_GAP.check(status, what, optimum.gap, _MOST_GAP, shown=shown, aside=aside, fix="lower the degree")
 
     def check_polydyne_range(self) -> Iterator[Check]:
         """GL518."""
@@ -111,13 +113,8 @@ class WithShapedLaws:
             if periods is None:
                 continue
             few = periods < _LEAST_PERIODS
-            text = f"{path}: {periods:.4g} natural periods per phase"
-            text += (
-                f", below {_LEAST_PERIODS:g}: the acceleration grows as 1/lambda^2; give the phase more time"
-                if few
-                else ""
-            )
-            yield POLYDYNE_RANGE.check("warn" if few else "pass", text, periods, _LEAST_PERIODS)
+            what, fix = f"{path}: natural periods per phase", "give the phase more time"
+            yield POLYDYNE_RANGE.check(_status(few), what, periods, _LEAST_PERIODS, fix=fix)
 
     def table_law_coefficients(self, _samples: int | None = None) -> Table:
         """Coefficients of the second derivative of each law that is a polynomial, by Bernstein polynomials."""
@@ -136,3 +133,7 @@ class WithShapedLaws:
             if law.shaping is not None:
                 value = {"type": "bernstein", "acceleration": list(law.shaping.acceleration)}
                 yield Found(path, value, f"solved: {law.name}")
+
+
+def _status(bad: bool) -> Status:
+    return "warn" if bad else "pass"

@@ -121,8 +121,8 @@ def _nearest_admissible(
         cuts = [*cuts, *(cut for violation, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
     raise NoSolution(
-        f"the smallest cam is not determined by a pressure angle of {math.degrees(max_pressure_angle):.6g} deg: allow "
-        "a little more"
+        (f"the smallest cam is not determined by a pressure angle of {math.degrees(max_pressure_angle):.6g} deg"),
+        fix="allow a little more",
     )
 
 
@@ -160,7 +160,7 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     feasible = points[missing <= 1e-13 * scale]
     if feasible.size == 0:
         raise NoSolution(
-            "no cam centre keeps the pressure angle within its limit for the whole turn: "
-            "raise the limit, lengthen the phases or reduce the swing"
+            "no cam centre keeps the pressure angle within its limit for the whole turn",
+            fix="raise the limit, lengthen the phases or reduce the swing",
         )
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])

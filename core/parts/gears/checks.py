@@ -8,7 +8,7 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.base.remedies.ways import Way, down, up
-from gearlink.core.base.report import Check, Status, safely_above
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
 from gearlink.core.parts.gears.codes import (
     CONTACT_RATIO,
     INTERFERENCE,
@@ -130,16 +130,12 @@ def gear_check(
     """
     before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
     if name == CONTACT_RATIO.name:
-        remedy = f"take more teeth, {_either(shifts, 'a smaller pressure angle or less profile shift')}"
-        yield contact_check(pair.contact_ratio, limits, f"{before}the contact ratio", remedy)
+        remedy = "take more teeth or less profile shift" if shifts else "take more teeth or a smaller pressure angle"
+        yield contact_check(pair.contact_ratio, limits, f"{before}contact ratio", remedy)
         return
     for gear in (0, 1):
         which = _Gear(pair, gear, before, shifts, roles)
         yield from _OF_ONE_GEAR[name](which, limits)
-
-
-def _either(shifts: bool, words: str) -> str:
-    return words if shifts else "or a smaller pressure angle"
 
 
 class _Gear(NamedTuple):
@@ -196,17 +192,22 @@ class Measured(NamedTuple):
 
 def fouling_check(internal: InternalInterference, roles: Roles = ("pinion", "ring")) -> Iterator[Check]:
     """GL206 of a pinion in its ring; nothing where their tip circles do not cross."""
-    both = " and ".join(role.removeprefix("the ") for role in roles)
+    pinion, ring = (role.removeprefix("the ") for role in roles)
+    both = f"{pinion} and {ring}"
     margin, part = internal.tip_fouling_margin, f"tips of {both}"
     if internal.tip_circles_apart < 0.0:
         margin, part = internal.tip_circles_apart, f"tip circles of {both}"
     if margin is None:
         return
-    text = f"the {part} keep {margin:.4g} mm from cutting into each other"
-    if margin < 0.0:
-        remedy = f"give {roles[1]} more teeth, {roles[0]} fewer, or shorten the tips"
-        text = f"the {part} cut {-margin:.4g} mm into each other: {remedy}"
-    yield TIP_FOULING.check("fail" if margin < 0.0 else "pass", text, margin, 0.0, "mm")
+    yield TIP_FOULING.check(
+        "fail" if margin < 0.0 else "pass",
+        f"clearance of the {part}",
+        margin,
+        0.0,
+        "mm",
+        overlap=f"interference of the {part}",
+        fix=f"give the {ring} more teeth or the {pinion} fewer",
+    )
 
 
 def most_sliding(limits: Any) -> float:
@@ -224,9 +225,12 @@ def contact_measure(ratio: Any, limits: Any) -> Measured:
 def contact_check(ratio: float, limits: Any, subject: str, remedy: str) -> Check:
     """GL203."""
     found = contact_measure(ratio, limits)
+    if ratio < 0.0:  # no path of contact has a negative length
+        what = f"{subject}: the gears do not mesh"
+        return CONTACT_RATIO.check(found.status, what, ratio, found.fails_below, shown=NO_NUMBER, fix=remedy)
     if found.status == "warn" and ratio < 1.0:
-        text = f"{subject} is {ratio:.6g}, below 1, so that the drive is interrupted: {remedy}"
-        return CONTACT_RATIO.check("warn", text, ratio, found.fails_below)
+        what = f"{subject}, drive interrupted"
+        return CONTACT_RATIO.check("warn", what, ratio, found.fails_below, recommended=1.0, fix=remedy)
     return CONTACT_RATIO.below(*found, "1", subject, remedy)
 
 
@@ -258,19 +262,22 @@ def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
     """Parts of a tooth that no tool can cut where they are 0 or less [mm]."""
     thickness, root = pair.tooth_thickness[gear], pair.root_radius[gear]
     return {
-        "the height of the teeth of ": pair.tip_radius[gear] - root,
-        "the root radius of ": root * pair.signs[gear],
-        "the tip thickness of ": pair.tip_thickness[gear],
-        "the tooth thickness on the reference circle of ": thickness,
-        "the tooth space on the reference circle of ": math.pi * pair.module - thickness,
+        "height of the teeth of ": pair.tip_radius[gear] - root,
+        "root radius of ": root * pair.signs[gear],
+        "tip thickness of ": pair.tip_thickness[gear],
+        "tooth thickness on the reference circle of ": thickness,
+        "tooth space on the reference circle of ": math.pi * pair.module - thickness,
     }
 
 
-_FORM_REMEDIES = {
-    "the height of the teeth of ": "lower the sum of the profile shifts, or shorten the tips less",
-    "the root radius of ": "raise its profile shift or take more teeth",
-    "the tip thickness of ": "lower its profile shift or its addendum",
+_NO_FORM = {
+    "height of the teeth of ": ("the teeth of {} have no height", "lower the sum of the profile shifts"),
+    "root radius of ": ("the root of {} reaches its axis", "raise its profile shift or take more teeth"),
+    "tip thickness of ": ("the teeth of {} are pointed below their tips", "lower its profile shift or its addendum"),
+    "tooth thickness on the reference circle of ": ("the teeth of {} have no thickness on the reference circle", ""),
+    "tooth space on the reference circle of ": ("the teeth of {} have no space on the reference circle", ""),
 }
+"""What a tooth lacks of which a part is 0 or less, and what would give it back."""
 
 
 def _form_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
@@ -293,44 +300,56 @@ def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear.measured(UNDERCUT.name, limits)
     x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
     teeth = gear.pair.teeth[gear.place]
-    text = f"{gear.named()} ({teeth} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
-    if found.status != "pass":
-        remedy = f"raise its profile shift to {safely_above(least, 4)} or take more teeth"
-        text += f": {remedy if gear.shifts else 'take more teeth, or a larger pressure angle'}"
-    yield UNDERCUT.check(found.status, text, found.value, found.fails_below)
+    remedy = "take more teeth, or a larger pressure angle"
+    if gear.shifts:
+        remedy = f"raise its profile shift to {safely_above(least)}, or take more teeth"
+    shown = Shown(x, least - (limits.undercut if found.status == "pass" else 0.0))
+    what = f"{gear.named('profile shift x of ')} ({teeth} teeth)"
+    aside = "undercut begins there" if found.status != "pass" else ""
+    yield UNDERCUT.check(found.status, what, found.value, found.fails_below, shown=shown, aside=aside, fix=remedy)
 
 
 def _tip_thickness(gear: _Gear, limits: Limits) -> Iterator[Check]:
-    subject = f"{gear.named('the tip thickness of ')} over the module"
+    subject = f"{gear.named('tip thickness of ')} over the module"
     remedy = "lower its profile shift or its addendum"
     if not gear.shifts:
         remedy = "take more teeth or a smaller pressure angle"
-    yield TIP_THICKNESS.below(*gear.measured(TIP_THICKNESS.name, limits), "1", subject, remedy)
+    yield tip_check(gear.measured(TIP_THICKNESS.name, limits), subject, f"the teeth of {gear.named()}", remedy)
+
+
+def tip_check(found: Measured, subject: str, teeth: str, fix: str) -> Check:
+    """GL202; of teeth that come to a point below their tips there is no thickness."""
+    if found.value < 0.0:
+        what = f"{teeth} are pointed below their tips"
+        return TIP_THICKNESS.check(found.status, what, found.value, found.fails_below, shown=NO_NUMBER, fix=fix)
+    return TIP_THICKNESS.below(*found, "1", subject, fix)
 
 
 def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
-    found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("the tip of ")
-    margin = found.value
-    if found.status == "pass":
-        text = f"{tip} stays {margin:.4g} mm short of the mate's base tangent point"
-        yield INTERFERENCE.check("pass", text, margin, 0.0, "mm")
-        return
+    found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("tip of ")
     remedy = (
         f"raise the profile shift of {gear.mate} or lower the addendum of {gear.roles[gear.place]}"
         if gear.shifts
         else f"take more teeth on {gear.mate}, or a larger pressure angle"
     )
-    text = f"{tip} goes {-margin:.4g} mm beyond the mate's base tangent point: {remedy}"
-    yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+    yield INTERFERENCE.check(
+        found.status,
+        f"{tip} to the mating gear's base tangent point",
+        found.value,
+        0.0,
+        "mm",
+        overlap=f"{tip} beyond the mating gear's base tangent point",
+        fix=remedy,
+    )
 
 
 def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear.measured(ROOT_CLEARANCE.name, limits)
-    subject = f"{gear.named('the clearance at the root of ')} over the module"
+    subject = f"{gear.named('clearance at the root of ')} over the module"
     deeper = gear.pair.tools[gear.place] is not None
     remedy = f"raise the {'addendum of its tool' if deeper else 'clearance coefficient'}"
     if not deeper and gear.pair.keeps_clearance:
-        remedy += f" to {found.fails_below if found.status == 'fail' else found.warns_below:g} or more"
+        remedy += f" to {found.warns_below:g} or more"
     else:
         remedy += f", or shorten the tips of {gear.mate}"
     yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
@@ -338,17 +357,15 @@ def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
 
 def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     part, worst = min(form_parts(gear.pair, gear.place).items(), key=lambda each: each[1])
-    text = f"{gear.named(part)} is {worst:.4g} mm"
     if worst > 0.0:
-        text = (
-            f"{gear.named('a tool can cut the teeth of ')}: {text}, the smallest of their height, thickness and space"
-        )
-    else:
-        most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))
-        nearer = f"bring its profile shift {gear.of('profile_shift'):.6g} nearer to 0 (|x| below {most:.3g})"
-        remedy = _FORM_REMEDIES.get(part, nearer) if gear.shifts else "take more teeth"
-        text += f", a tooth that no tool can cut: {remedy}"
-    yield TOOTH_FORM.check("fail" if worst <= 0.0 else "pass", text, worst, 0.0, "mm")
+        what = gear.named("smallest of height, thickness and space of the teeth of ")
+        yield TOOTH_FORM.check("pass", what, worst, 0.0, "mm")
+        return
+    lacks, fix = _NO_FORM[part]
+    fix = fix or f"bring its profile shift {gear.of('profile_shift'):.4g} nearer to 0"
+    what = f"{gear.before}{lacks.format(gear.roles[gear.place])}: no tool can cut them"
+    fix = fix if gear.shifts else "take more teeth"
+    yield TOOTH_FORM.check("fail", what, worst, 0.0, "mm", shown=NO_NUMBER, fix=fix)
 
 
 def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
@@ -357,11 +374,9 @@ def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
     if found is None or (limits.sliding is None and abs(found[gear.place]) <= limit):
         return
     size = abs(found[gear.place])
-    text = f"{gear.named('the specific sliding at the root of ')} is {found[gear.place]:.5g}"
-    if size > limit:
-        remedy = "raise its profile shift" if gear.shifts else "take more teeth"
-        text += f", beyond the limit of {limit:g}: {remedy}, so that the mate's tip stays off its base circle"
-    yield SLIDING.check("warn" if size > limit else "pass", text, size, limit)
+    what = gear.named("specific sliding at the root of ")
+    fix = "raise its profile shift" if gear.shifts else "take more teeth"
+    yield SLIDING.check("warn" if size > limit else "pass", what, size, limit, fix=fix)
 
 
 _OF_ONE_GEAR: dict[str, Callable[[_Gear, Limits], Iterator[Check]]] = {

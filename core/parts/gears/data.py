@@ -340,7 +340,7 @@ class GearData:
 
     def rated_with(self, _gear: int) -> str:
         """What a root needs so that it can be rated, in words."""
-        return "take more teeth, a smaller rounding, or name the cutter of a ring"
+        return "take more teeth or a smaller rounding"
 
     def quantity(self, name: str) -> Any:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import NO_NUMBER, Check, Status
 from gearlink.core.parts.gears.codes import CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_FOULING
 
 if TYPE_CHECKING:
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
     from gearlink.core.parts.gears.rack.mesh import RackMesh
 
-_DEEPEST = "with the gears as deep in each other as center_distance_allowance lets them"
+_DEEPEST = "the gears deepest in mesh"
+_CLOSER = "reduce center_distance_allowance"
 
 
 class Limits(Protocol):
@@ -97,9 +98,9 @@ def _fouling(data: GearData, off: float, _limits: Limits) -> Iterator[Check]:
     for pair in (moved(data.pair, -off), moved(data.pair, off)):
         found, nominal = (_room(InternalInterference(each)) for each in (pair, data.pair))
         if found < 0.0 <= nominal:
-            text = f"at a limit of center_distance_allowance the tips of pinion and ring cut {-found:.4g} mm into each"
-            text += " other: shorten them, or keep the centre distance closer"
-            yield TIP_FOULING.check("fail", text, found, 0.0, "mm", name=TIP_FOULING.checks[2])
+            what = "interference of the tips of pinion and ring"
+            at, name = "a limit of the centre distance", TIP_FOULING.checks[2]
+            yield TIP_FOULING.check("fail", what, found, 0.0, "mm", name=name, overlap=what, at=at, fix=_CLOSER)
 
 
 def _room(internal: InternalInterference) -> float:
@@ -129,27 +130,30 @@ def rack_limits(name: str, rack: RackMesh, limits: Limits) -> Iterator[Check]:
 
 def _no_drive(ratio: float, nominal: float, least: float) -> Iterator[Check]:
     """Below 1, or what the file allows below that, it fails; where the file allows it, it warns."""
-    text = f"with the gears as far out of mesh as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
-    text += ": the drive is interrupted; keep the centre distance closer"
     lowest = min(1.0, least)
-    if ratio < lowest <= nominal:
-        yield CONTACT_RATIO.check("fail", text, ratio, lowest, name=CONTACT_RATIO.checks[1])
-    elif ratio < 1.0 <= nominal:
-        yield CONTACT_RATIO.check("warn", text, ratio, 1.0, name=CONTACT_RATIO.checks[1])
+    status: Status = "fail" if ratio < lowest <= nominal else "warn"
+    if ratio < 1.0 <= nominal or status == "fail":
+        yield CONTACT_RATIO.check(
+            status,
+            "contact ratio" if ratio > 0.0 else "contact ratio: the gears do not mesh",
+            ratio,
+            lowest if status == "fail" else 1.0,
+            name=CONTACT_RATIO.checks[1],
+            shown=None if ratio > 0.0 else NO_NUMBER,
+            aside="drive interrupted" if ratio > 0.0 else "",
+            at="the gears farthest out of mesh",
+            fix=_CLOSER,
+        )
 
 
 def _on_root(room: float, tips: str, root: str) -> Check:
-    text = f"{_DEEPEST} the tips of {tips} come {-room:.4g} mm into the root of {root}: keep the centre distance closer"
-    return ROOT_CLEARANCE.check(
-        "fail", f"{text}, or raise the clearance", room, 0.0, "mm", name=ROOT_CLEARANCE.checks[1]
-    )
+    what, name = f"interference of the tips of {tips} and the root of {root}", ROOT_CLEARANCE.checks[1]
+    return ROOT_CLEARANCE.check("fail", what, room, 0.0, "mm", name=name, overlap=what, at=_DEEPEST, fix=_CLOSER)
 
 
 def _beyond(margin: float, tips: str) -> Check:
-    text = f"{_DEEPEST} the tips of {tips} go {-margin:.4g} mm beyond the mate's base tangent point: shorten them"
-    return INTERFERENCE.check(
-        "fail", f"{text}, or keep the centre distance closer", margin, 0.0, "mm", name=INTERFERENCE.checks[1]
-    )
+    what, name = f"tips of {tips} beyond the mating gear's base tangent point", INTERFERENCE.checks[1]
+    return INTERFERENCE.check("fail", what, margin, 0.0, "mm", name=name, overlap=what, at=_DEEPEST, fix=_CLOSER)
 
 
 _OF_PAIR: dict[str, Callable[[GearData, float, Limits], Iterator[Check]]] = {

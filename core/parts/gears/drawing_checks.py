@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple, Protocol
 
-from gearlink.core.base.report import Check, Status, safely_above
-from gearlink.core.base.wording import amount
+from gearlink.core.base.report import Check, Shown, Status
+from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.gears import strength_checks
 from gearlink.core.parts.gears.checks import FILLET_NOISE, Limits, contact_check, fouling_check, gear_check
 from gearlink.core.parts.gears.codes import (
@@ -58,8 +58,8 @@ def fed_in(data: GearData) -> Iterator[Check]:
     angle = InternalInterference(cutting).radial_assembly_angle
     if angle is None or angle >= 0.0:
         return
-    text = f"the cutter of {cutting.teeth[0]} teeth cuts off tips of the ring while it feeds in: take a smaller one"
-    yield TIP_FOULING.check("fail", text, None, 0.0, "mm", name="radial-assembly")
+    what = f"the pinion cutter ({cutting.teeth[0]} teeth) cuts off tips of the ring gear while it feeds in"
+    yield TIP_FOULING.check("fail", what, None, 0.0, "mm", name="radial-assembly", fix="take a cutter of fewer teeth")
 
 
 def tip_beyond_cutter(data: GearData) -> Iterator[Check]:
@@ -70,11 +70,9 @@ def tip_beyond_cutter(data: GearData) -> Iterator[Check]:
     margin = cutting.interference_margin[1]
     if margin >= 0.0:
         return
-    text = (
-        f"the tip of the ring goes {-margin:.4g} mm beyond the base tangent point of its cutter, which leaves no "
-        f"involute there: take a cutter of more than {cutting.teeth[0]} teeth, or lower the addendum of the ring"
-    )
-    yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+    what = "tip of the ring gear beyond the base tangent point of its cutter"
+    fix = f"take a cutter of more than {cutting.teeth[0]} teeth"
+    yield INTERFERENCE.check("fail", what, margin, 0.0, "mm", overlap=what, aside="no involute there", fix=fix)
 
 
 _TOUCHING = 1.2
@@ -141,12 +139,12 @@ def pair_check(
     if name in DRAWING_CHECKS or name == TRUE_FILLET.name:
         before = before_mesh(mesh)
         found = drawing_check(name, data, limits, radial=radial)
-        return [replace(check, message=before + check.message) if before else check for check in found]
+        return [replace(check, what=before + check.what) if before else check for check in found]
     if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
         return [helical]
     checks = list(gear_check(name, data.pair, limits, mesh, shifts, data.roles))
     if name == INTERFERENCE.name:
-        checks += [replace(check, message=before_mesh(mesh) + check.message) for check in tip_beyond_cutter(data)]
+        checks += [replace(check, what=before_mesh(mesh) + check.what) for check in tip_beyond_cutter(data)]
     return checks
 
 
@@ -160,12 +158,12 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
     total = data.path.total_contact_ratio
     if data.pair.helix_angle == 0.0 or total is None:
         return None
-    transverse, remedy = data.pair.contact_ratio, "take a greater width, helix angle or more teeth"
-    found = contact_check(total, limits, "the total contact ratio", remedy)
+    transverse, remedy = data.pair.contact_ratio, "take more teeth, or a greater face width or helix angle"
+    found = contact_check(total, limits, "total contact ratio", remedy)
     if found.status != "pass" or transverse >= 1.0:
         return found
-    text = f"the transverse contact ratio is {transverse:.6g}, below 1: the overlap of the helix alone carries on"
-    return CONTACT_RATIO.check("warn", text, transverse, 1.0)
+    aside = "only the overlap of the helix carries on"
+    return CONTACT_RATIO.check("warn", "transverse contact ratio", transverse, 1.0, aside=aside, fix=remedy)
 
 
 def _tip_fouling(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
@@ -179,16 +177,18 @@ def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
     name, angle, margin = "radial-assembly", data.internal.radial_assembly_angle, data.internal.radial_assembly_margin
     if angle is None or margin is None:
         return
+    what = "clearance of the pinion on radial assembly into its ring gear"
     if angle >= 0.0:
-        text = f"the pinion goes into its ring along the line of centres with {margin:.4g} mm to spare"
-        yield TIP_FOULING.check("pass", text, margin, 0.0, "mm", name=name)
+        yield TIP_FOULING.check("pass", what, margin, 0.0, "mm", name=name)
         return
-    lacking = f"{-margin:.4g} mm are lacking" if angle > -1e9 else "it is larger than the opening"
     status: Status = "fail" if radial else "warn"
-    text = f"the pinion does not go into its ring along the line of centres, {lacking}: assemble it axially"
-    if radial:
-        text += ", or give the ring more teeth, or shorten the tips"
-    yield TIP_FOULING.check(status, text, margin if angle > -1e9 else None, 0.0, "mm", name=name)
+    fix = "assemble it axially (leave radial_assembly out)" if radial else "assemble it axially"
+    if angle > -1e9:
+        what = "interference of the pinion on radial assembly into its ring gear"
+        yield TIP_FOULING.check(status, what, margin, 0.0, "mm", name=name, overlap=what, fix=fix)
+        return
+    what = "the pinion is larger than the opening of its ring gear"
+    yield TIP_FOULING.check(status, what, None, 0.0, "mm", name=name, fix=fix)
 
 
 def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
@@ -243,40 +243,51 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     pair, form, own, mate = data.pair, data.pair.form_radius[gear], data.called(gear), data.called(1 - gear)
     if form is None and pair.interference_margin[1 - gear] > 0.0:
         return
-    found, more_shift = fillet_measured(pair, data.path, gear), "raise its profile shift, "
+    found = fillet_measured(pair, data.path, gear)
+    judged: Status = "fail" if found.judged else "warn"
+    fix = f"shorten the tips of {mate}"
     if form is None or found.beyond:
         base = abs(pair.base_radius[gear])
-        text = f"contact at the root of {own} would lie beyond its base circle ({base:.6g} mm)"
-    else:
-        used = abs(data.path.used_root_radius[gear])
-        text = f"contact at the root of {own} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
-        if not found.bad and (corner := corner_in_fillet(pair, gear)):
-            found, more_shift = found._replace(margin=corner.gap, bad=True), ""
-            text = (
-                f"the corner of the tip of {mate} cuts {-corner.gap:.4g} mm into the root fillet of {own}, "
-                f"at {corner.place:.7g} mm, outside the path of contact"
-            )
-    status: Status = "pass"
-    if found.bad:
-        status = "fail" if found.judged else "warn"
-        of_tool = "residual_undercut" if pair.teeth[gear] > 0 and pair.tool(gear).residual_undercut else "rounding"
-        text += f": {more_shift}shorten the tips of {mate}, or take a tool with a smaller {of_tool}"
-    yield FILLET.check(status, text, found.margin, found.limit, "mm")
+        what, aside = f"contact at the root of {own} beyond its base circle", f"base radius {short(base)} mm"
+        shown = Shown(abs(found.margin), 0.0, "mm", "<=")
+        status: Status = judged if found.bad else "pass"
+        yield FILLET.check(status, what, found.margin, found.limit, "mm", shown=shown, aside=aside, fix=fix)
+        return
+    if not found.bad and (corner := corner_in_fillet(pair, gear)):
+        what = f"cut of the tip corner of {mate} into the root fillet of {own}"
+        shown = Shown(-corner.gap, 0.0, "mm", "<=")
+        at = f"radius {short(corner.place)} mm"
+        yield FILLET.check(judged, what, corner.gap, found.limit, "mm", shown=shown, at=at, fix=fix)
+        return
+    outside = pair.teeth[gear] > 0
+    used, ends = abs(data.path.used_root_radius[gear]), abs(form)
+    what = f"{'start' if outside else 'end'} of contact at the root of {own}"
+    shown = Shown(used, ends, "mm", ">=" if outside else "<=")
+    aside = f"{'form' if outside else 'root form'} radius"
+    status = judged if found.bad else "pass"
+    yield FILLET.check(status, what, found.margin, found.limit, "mm", shown=shown, aside=aside, fix=fix)
 
 
 def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
     if data.backlash is None:
         return
     least, greatest = data.backlash.normal
-    text = f"the theoretical normal backlash is {least:.4g} to {greatest:.4g} mm"
-    status: Status = "pass"
-    if least < _NEGATIVE * data.pair.module:
-        status = "fail"
-        text += ": the gears do not assemble; thin the teeth (allowances, profile_shift) or change the centre distance"
-    elif least < limits.backlash:
-        status = "warn"
-        text += f", below {limits.backlash:g} mm: thin the teeth (allowances)"
-    yield BACKLASH.check(status, text, least, limits.backlash, "mm")
+    yield backlash_check(least, greatest, limits.backlash, data.pair.module, "the gears do not assemble")
+
+
+def backlash_check(least: float, greatest: float, limit: float, module: float, jammed: str) -> Check:
+    """GL208 of a theoretical normal backlash; below 0 there is none.
+
+    Parameters
+        least, greatest, limit, module : float [mm]
+        jammed : str - what it means where there is none
+    """
+    aside, fix = f"maximum {short(greatest)} mm", "thin the teeth (allowances)"
+    if least < _NEGATIVE * module:
+        what = f"lacking backlash, {jammed}"
+        return BACKLASH.check("fail", what, least, limit, "mm", overlap=what, aside=aside, fix=fix)
+    status: Status = "warn" if least < limit else "pass"
+    return BACKLASH.check(status, "minimum theoretical normal backlash", least, limit, "mm", aside=aside, fix=fix)
 
 
 def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
@@ -285,8 +296,8 @@ def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
         found = None if diameter is None else _amiss(data, gear)
         if found is not None:
             best = preferred_pin(data.pair, gear)
-            remedy = f": take one of {best:g} mm (pin_diameter)" if best is not None else ""
-            yield INSPECTION.check("warn", f"a ball of {diameter:g} mm {found}{remedy}")
+            fix = f"set pin_diameter to {best:g} mm" if best is not None else ""
+            yield INSPECTION.check("warn", f"a ball of {diameter:g} mm {found}", fix=fix)
         yield from _spanned(data, gear)
 
 
@@ -302,10 +313,9 @@ def _spanned(data: GearData, gear: int) -> Iterator[Check]:
     form, tip = pair.form_radius[gear] or pair.base_radius[gear], pair.tip_radius[gear]
     lesser = [k for k in range(1, count) if form < pair.span_contact(gear, k) < tip]
     fewer = [k for k in lesser if width_of_span(pair, gear, k) <= width]
-    wanted = f"needs a face width of {safely_above(needed, 4)} mm, it has {width:g}"
-    over = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}, or balls" if fewer else "measure over balls"
-    text = f"the span of {data.called(gear)} over {amount(count, 'tooth', 'teeth')} {wanted}: {over}"
-    yield INSPECTION.check("warn", text, width, needed, "mm")
+    fix = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}" if fewer else "measure over balls"
+    what = f"face width of {data.called(gear)} for the span over {amount(count, 'tooth', 'teeth')}"
+    yield INSPECTION.check("warn", what, width, needed, "mm", fix=fix)
 
 
 def width_of_span(pair: GearPair, gear: int, count: Any) -> Any:
@@ -322,7 +332,7 @@ def _amiss(data: GearData, gear: int) -> str | None:
     sign, tip, form = pair.signs[gear], abs(pair.tip_radius[gear]), pair.form_radius[gear]
     touch, center = abs(ball.contact_radius), abs(ball.center_radius)
     if sign * (touch - tip) > 0.0:
-        return f"would touch {name} at a radius of {touch:.5g} mm, beyond its tips at {tip:.5g} mm"
+        return f"would touch {name} at a radius of {short(touch)} mm, beyond its tips at {short(tip)} mm"
     if ball.roll < 0.0 or (form is not None and sign * (abs(form) - touch) > 0.0):
         return f"touches the root fillets of {name}"
     if sign * (center - abs(pair.root_radius[gear])) < 0.5 * ball.diameter:

@@ -108,7 +108,7 @@ def rack_at(given: PairKeys, teeth: int) -> RackMesh:
 
     first, second = given.profile_shift or (0.0, 0.0)
     if second != 0.0:
-        raise NoSolution("a rack has no shift: give profile_shift: [x1, 0]", key="profile_shift[1]")
+        raise NoSolution("a rack has no shift", key="profile_shift[1]", fix="give profile_shift: [x1, 0]")
     with at_key("tool"):
         tools = tools_of(given)
     pair = beside_a_rack(

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check, Rule, Status
+from gearlink.core.base.report import Check, Rule, Shown, Side, Status
+from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.gears.codes import (
     BENDING,
     DAMAGE,
@@ -92,33 +93,31 @@ def _origin(data: GearData) -> str:
 
 def pitting(data: GearData, limits: Any) -> Iterator[Check]:
     """GL210 of both gears."""
-    against = "pitting", _contact_inputs(data)
-    yield from _safety(PITTING, data, data.safety_pitting, limits.safety_pitting, *against)
+    called, note = "pitting safety S_H", f"nominal: {_contact_inputs(data)}"
+    yield from _safety(PITTING, data, data.safety_pitting, limits.safety_pitting, called, note)
 
 
 def bending(data: GearData, limits: Any) -> Iterator[Check]:
     """GL211 of both gears, and where a formula of the root leaves its range."""
     if data.load is not None:
         yield from _out_of_range(data)
-    against = "breaking at the root", _bending_inputs(data)
-    yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, *against)
+    called, note = "tooth root safety S_F", f"nominal: {_bending_inputs(data)}"
+    yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, called, note)
 
 
 def _safety(
-    rule: Rule, data: GearData, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
+    rule: Rule, data: GearData, found: tuple[float | None, float | None] | None, least: float, called: str, note: str
 ) -> Iterator[Check]:
     for gear, safety in enumerate(found or ()):
         if safety is None:
             continue
-        both_ways = ", an idler's, bent both ways (Y_d 0.7)" if _both_ways(data, gear) and rule is BENDING else ""
-        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}{both_ways}, nominal: {inputs}"
-        if safety < max(least, 1.0):
-            limit = f"the limit {least:g}" if safety < least else f"1, though the limit {least:g} allows it"
-            text += (
-                f"; below {limit}: {_help(rule, data, gear)}widen the gears, take a larger module or a better material"
-            )
+        aside = "idler bent both ways, Y_d 0.7" if _both_ways(data, gear) and rule is BENDING else ""
         status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
-        yield rule.check(status, text, safety, least)
+        what, fix = f"{data.called(gear)}: {called}", "take a greater face width, a larger module or a better material"
+        if status != "pass" and (shared := _uneven(rule, data, gear)):
+            uneven, fix = shared
+            note = f"{note}; {uneven}"
+        yield rule.check(status, what, safety, least, recommended=1.0, aside=aside, fix=fix, note=note)
 
 
 def _both_ways(data: GearData, gear: int) -> bool:
@@ -127,46 +126,45 @@ def _both_ways(data: GearData, gear: int) -> bool:
     return data.idlers[gear]
 
 
-def _help(rule: Rule, data: GearData, gear: int) -> str:
-    """What the load across the face takes of a safety, and what crowning would give; empty where it takes little."""
+def _uneven(rule: Rule, data: GearData, gear: int) -> tuple[str, str] | None:
+    """What the load across the face takes of a safety, and what would give it back; None where it takes little."""
     rated = data.rated
     if rated is None or "face_contact" in rated.given or rated.at_load.face_contact <= _UNEVEN:
-        return ""
+        return None
     given = rated.conditions
     at, contact = rated.at_load, rule is PITTING
     taken = 1.0 - (at.face_contact**-0.5 if contact else 1.0 / at.face_bending)
     symbol, value = ("K_Hb", at.face_contact) if contact else ("K_Fb", at.face_bending)
-    text = f"{symbol} = {value:.3g} takes {100.0 * taken:.0f} % of it"
+    text = f"{symbol} = {value:.3g} takes {100.0 * taken:.0f} % of the safety"
     if given.modification != "none" or given.misalignment is not None:
-        return f"{text}; "
+        return text, "take a greater face width, a larger module or a better material"
     crowned = replace(rated, conditions=replace(given, modification="crowning"))
     safety = (crowned.safety_pitting if contact else crowned.safety_bending)[gear]
-    return f"{text}; rating.face.modification: crowning gives {safety:.3g}; "
+    return text, f"set rating.face.modification to crowning, which gives a safety of {safety:.3g}"
 
 
 def _out_of_range(data: GearData) -> Iterator[Check]:
     """Where the formulas of the root leave the range of their standard."""
     if data.face_width is None:
-        yield BENDING.check("warn", "a load without face_width gives no stress and no safety: give face_width")
+        yield BENDING.check("warn", "no stress and no safety without face_width", fix="give face_width")
     eps = data.path.contact_ratio
     if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
-        text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
-        yield BENDING.check("warn", text, eps)
+        yield BENDING.check("warn", "contact ratio", eps, aside="method B of ISO 6336 holds for 1 to 2")
     for gear, factor in enumerate(data.root.rim_factor or ()):
         if factor is None:
             least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
-            text = f"the rim of {data.called(gear)} is too thin for ISO 6336-3: no root stress is given"
-            yield BENDING.check("warn", f"{text}; raise rim_thickness above {least}")
+            what = f"no root stress of {data.called(gear)}: its rim is too thin for ISO 6336-3"
+            yield BENDING.check("warn", what, fix=f"raise rim_thickness above {least}")
     for gear, section in enumerate(data.root.sections):
         if section is None:
-            text = f"{data.called(gear)} has no root section that ISO 6336-3 could judge: no root stress is given"
-            yield BENDING.check("warn", f"{text}; {data.rated_with(gear)}")
+            what = f"no root stress of {data.called(gear)}: it has no root section as of ISO 6336-3"
+            yield BENDING.check("warn", what, fix=data.rated_with(gear))
         elif not 1.0 <= section.notch < 8.0:
-            text = f"notch parameter q_s = {section.notch:.4g} of {data.called(gear)} is outside 1 to 8"
-            yield BENDING.check("warn", f"{text}, where Y_S holds", section.notch)
+            what = f"notch parameter q_s of {data.called(gear)}"
+            yield BENDING.check("warn", what, section.notch, aside="Y_S holds for 1 to 8")
         elif data.pair.teeth[gear] < 0 and data.pair.cutter is None:
-            text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
-            yield BENDING.check("warn", text)
+            what = "the root of the ring gear is rated with the rounding of a rack tool"
+            yield BENDING.check("warn", what, fix="give its cutter")
 
 
 # With `rating`
@@ -179,13 +177,12 @@ def rating_range(data: GearData, _limits: Any) -> Iterator[Check]:
     from gearlink.core.parts.gears.rating.sheet import unconfirmed
 
     outside, symbols = list(_outside(data.rated)), unconfirmed(data.rated)
-    parts = [f"outside of its range: {'; '.join(outside)}"] if outside else []
+    parts = [f"{amount(len(outside), 'value')} outside the range of its formula"] if outside else []
     if symbols:
-        parts.append(
-            f"no printed number confirms {', '.join(symbols)} as used here (table factors): check them yourself"
-        )
-    text = "; ".join(parts) or "every formula of the rating is in its range and met by a printed number"
-    yield RATING_RANGE.check("warn" if parts else "pass", text)
+        parts.append(f"{', '.join(symbols)} not confirmed by a printed number")
+    what = "; ".join(parts) or "every formula of the rating is in its range and met by a printed number"
+    note, fix = "; ".join(outside), "check these factors yourself (table factors)"
+    yield RATING_RANGE.check("warn" if parts else "pass", what, fix=fix, note=note)
 
 
 def _outside(rated: Rated) -> Iterator[str]:
@@ -222,13 +219,12 @@ def resonance(data: GearData, _limits: Any) -> Iterator[Check]:
         return
     at, (low, high) = data.rated.at_load, _RESONANCE
     ratio = at.resonance_ratio
-    text = f"gear 1 runs at {ratio:.4g} of its resonance speed {at.resonance_speed:.6g} 1/min"
-    near = low < ratio < high
-    if near:
-        text += f", between {low:g} and {high:g}: change load.speed or the teeth, or have the dynamics measured"
-    below = ratio < 1.0
-    found = RESONANCE.check("warn" if near else "pass", text, ratio, low if below else high)
-    yield replace(found, side="<=" if below else ">=")
+    near, below = low < ratio < high, ratio < 1.0
+    what, aside = "speed of gear 1 over its resonance speed", f"resonance speed {short(at.resonance_speed)} 1/min"
+    fix, limit = "change load.speed or the teeth", low if below else high
+    status: Status = "warn" if near else "pass"
+    side: Side = "<=" if below else ">="
+    yield RESONANCE.check(status, what, ratio, limit, side=side, aside=aside, fix=fix)
 
 
 def scuffing(data: GearData, limits: Any) -> Iterator[Check]:
@@ -237,13 +233,10 @@ def scuffing(data: GearData, limits: Any) -> Iterator[Check]:
     if found is None:
         return
     least, safety = limits.safety_scuffing, found.safety
-    text = (
-        f"the safety against scuffing is {safety:.4g}: integral temperature {found.integral_temperature:.4g} deg C, "
-        f"the oil fails at {found.scuffing_temperature:.4g}"
-    )
-    if safety < least:
-        text += f"; below the limit {least:g}: take an oil of a higher rating.lubricant.scuffing_stage, or a tip relief"
-    yield SCUFFING.check("fail" if safety < least else "pass", text, safety, least)
+    aside = f"integral temperature {short(found.integral_temperature)} deg C, scuffing temperature "
+    aside += f"{short(found.scuffing_temperature)} deg C"
+    fix = "take an oil of a higher rating.lubricant.scuffing_stage"
+    yield SCUFFING.check("fail" if safety < least else "pass", "scuffing safety", safety, least, aside=aside, fix=fix)
 
 
 def damage(data: GearData, limits: Any) -> Iterator[Check]:
@@ -260,13 +253,14 @@ def damage(data: GearData, limits: Any) -> Iterator[Check]:
             if used is None:
                 continue
             bad, still = used > 1.0, static[gear]
-            life = "" if lives[gear] is None else f", a life of {lives[gear]:.4g} h"
-            text = f"the {what} of {data.called(gear)} has the damage {used:.4g} at the safety {safety:g}{life}"
-            if bad:
-                text += f", of {rated.conditions.life:g} h required: widen the gears, or take a better material"
+            aside = f"safety {safety:g}"
+            if (life := lives[gear]) is not None:
+                aside += f", life {short(life)} h of {rated.conditions.life:g} h required"
+            note = ""
             if still is not None and still < safety:
-                bad, text = True, f"{text}; the greatest load exceeds its static limit, safety {still:.4g}"
-            yield DAMAGE.check("fail" if bad else "pass", text, used, 1.0)
+                bad, note = True, f"the maximum load exceeds its static limit, safety {short(still)}"
+            called, fix = f"damage of the {what} of {data.called(gear)}", "widen the gears, or take a better material"
+            yield DAMAGE.check("fail" if bad else "pass", called, used, 1.0, aside=aside, fix=fix, note=note)
 
 
 def face_load(data: GearData, _limits: Any) -> Iterator[Check]:
@@ -274,10 +268,8 @@ def face_load(data: GearData, _limits: Any) -> Iterator[Check]:
     if data.rated is None:
         return
     factor = data.rated.at_load.face_contact
-    text = f"the face load factor K_Hb is {factor:.4g}"
-    if factor > _MOST_UNEVEN:
-        text += ": narrow the gears, take a better rating.grade, or rating.face.modification: crowning"
-    yield FACE_LOAD.check("warn" if factor > _MOST_UNEVEN else "pass", text, factor, _MOST_UNEVEN)
+    what, fix = "face load factor K_Hb", "set rating.face.modification to crowning"
+    yield FACE_LOAD.check("warn" if factor > _MOST_UNEVEN else "pass", what, factor, _MOST_UNEVEN, fix=fix)
 
 
 def true_fillet(data: GearData, _limits: Any) -> Iterator[Check]:
@@ -290,11 +282,9 @@ def true_fillet(data: GearData, _limits: Any) -> Iterator[Check]:
             continue
         standard = section.form_factor * section.stress_correction_factor
         apart = factor / standard - 1.0
-        text = (
-            f"the root stress of {data.called(gear)} on its generated fillet is {factor:.4g} F_t/(b m), the standard's "
-            f"{standard:.4g}: {100.0 * abs(apart):.2g} % {'more' if apart > 0.0 else 'less'}"
-        )
-        bad = abs(apart) > _APART
-        if bad:
-            text += "; have this root checked by other means, or take a tool with a larger rounding"
-        yield TRUE_FILLET.check("warn" if bad else "pass", text, abs(apart), _APART)
+        what = f"root stress of {data.called(gear)} on its generated fillet against the standard's"
+        aside = f"{short(factor)} and {short(standard)} F_t/(b m)"
+        shown = Shown(100.0 * abs(apart), 100.0 * _APART, "%", "<=")
+        fix = "take a tool with a larger rounding"
+        status: Status = "warn" if abs(apart) > _APART else "pass"
+        yield TRUE_FILLET.check(status, what, abs(apart), _APART, shown=shown, aside=aside, fix=fix)

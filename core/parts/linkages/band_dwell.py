@@ -165,8 +165,8 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     limit = math.pi * valley.mean
     if not 0.0 < tolerance < limit:
         raise NoSolution(
-            f"the tolerance of the dwell is {math.degrees(tolerance):.9g} deg; it must be positive and below "
-            f"{math.degrees(limit):.9g} deg, half of what the output gains in a turn of the crank"
+            f"the tolerance of the dwell is {math.degrees(tolerance):.6g} deg; it must be positive and below "
+            f"{math.degrees(limit):.6g} deg, half of what the output gains in a turn of the crank"
         )
     drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
     # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.

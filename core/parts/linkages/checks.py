@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.judged import Judged, below
-from gearlink.core.base.report import Check, safely_above, without_noise
+from gearlink.core.base.report import Check, Shown, safely_above, without_noise
+from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
 
 if TYPE_CHECKING:
@@ -22,18 +23,18 @@ WINDOW_FIT = 1e-9
 
 
 def transmission_check(
-    angle: float, limit: float, remedy: str, subject: str = "the least transmission angle over the turn"
+    angle: float, limit: float, remedy: str, subject: str = "minimum transmission angle", *, at: str = ""
 ) -> Check:
     """GL303: the least transmission angle [rad] against its limit [deg]; near a dead point with the condition number.
 
     Source
         VDI 2142
     """
-    value = math.degrees(angle)
+    value, note = math.degrees(angle), ""
     if angle < _POOR:
-        condition = 1.0 / math.sin(angle) if angle else math.inf
-        remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
-    return TRANSMISSION_ANGLE.below(value, limit, limit + _LITTLE, "deg", subject, remedy)
+        enlarged = short(1.0 / math.sin(angle)) if angle else "infinitely many"
+        note = f"clearance and rounding errors are magnified up to {enlarged} times there (condition number)"
+    return TRANSMISSION_ANGLE.below(value, limit, limit + _LITTLE, "deg", subject, remedy, at=at, note=note)
 
 
 def transmission_judged(value: Any, limit: Any) -> Judged:
@@ -45,10 +46,11 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     """GL307: the residual of a synthesis, measured on the motion of the design that it gives."""
     met = abs(residual) <= tolerance
     shown = without_noise(residual, 360.0) if unit == "deg" else residual
-    text = f"{what} is missed by {shown:.3g} {unit}"
-    if not met:
-        text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
-    return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)
+    compared = Shown(abs(shown), tolerance, unit, "<=")
+    fix = "allow a larger tolerance, or free more of the links"
+    return TARGET.check(
+        "pass" if met else "fail", f"deviation of {what}", residual, tolerance, unit, shown=compared, fix=fix
+    )
 
 
 def window_judged(window: Any, asked: Any) -> Judged:
@@ -59,9 +61,8 @@ def window_judged(window: Any, asked: Any) -> Judged:
 def dwell_window_check(window: float, asked: float, tolerance: float, remedy: str = "") -> Check:
     """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
     got, wanted, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
-    text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
-    words = f", {wanted:g} deg were asked for: {remedy or 'ask for less, or allow a greater tolerance'}"
-    return window_judged(got, wanted).check(text, words)
+    fix = remedy or "reduce the dwell window, or allow a larger tolerance"
+    return window_judged(got, wanted).check("dwell window", fix, aside=f"output within +-{short(band)} deg")
 
 
 def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
@@ -71,18 +72,19 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
         share : float - back-step over band
         interval : list of 2 float [mm] - frames between which the request is met, where there is one
     """
-    text = f"the back-step takes {share:.5g} of the band"
-    if share > 1.0 + WINDOW_FIT:
-        text = f"the back-step is {share:.5g} times the band: the output dwells about one of its standstills"
     width = None if interval is None else interval[1] - interval[0]
-    if width is not None:
-        text += f"; the frame may lie within {width:.4g} mm"
-    found = edge_judged(share)
+    found, fix = edge_judged(share), "reduce dwell.window"
     if not found.warns and width is not None and width < _NARROW:
-        text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
-        return DWELL_EDGE.check("warn", text, width, _NARROW, "mm")
-    remedy = ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
-    return found.check(text, remedy, side=">=" if share > EDGE else None)
+        what = "range of the frame that gives the dwell"
+        return DWELL_EDGE.check("warn", what, width, _NARROW, "mm", side=">=", fix=fix)
+    what, aside = "share of the dwell band that the back-step takes", ""
+    if share > 1.0 + WINDOW_FIT:
+        aside = "the output dwells about one of its zero-velocity positions"
+    elif width is not None:
+        aside = f"the frame may vary by {short(width)} mm"
+    note = "a frame error can shorten the dwell by a quarter" if found.warns else ""
+    shown = Shown(share, EDGE if found.warns else None, "1", "<=")
+    return found.check(what, fix, side=">=" if share > EDGE else None, aside=aside, note=note, shown=shown)
 
 
 def edge_judged(share: Any) -> Judged:
@@ -108,17 +110,28 @@ def check_linkage(linkage: FourBar) -> str:
         return kind
     shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
     excess = math.fsum((shortest, longest, -p, -q))
-    remedies = []
-    if excess >= 0.0 or kind in ("change-point", "impossible"):
-        remedies.append(
-            f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
-        )
-    if shortest < min(linkage.crank, linkage.frame):
-        remedies.append("make crank or frame the shortest link")
-    remedy = " and ".join(remedies)
-    raise NoSolution(
-        f"crank {linkage.crank:.9g}, coupler {linkage.coupler:.9g}, rocker {linkage.rocker:.9g}, frame "
-        f"{linkage.frame:.9g} mm form a linkage that is {kind}; the drive needs a crank-rocker or a drag link: "
-        "shortest + longest link must be below the sum of the other two, crank or frame the shortest; "
-        f"{remedy}"
+    wrong = (
+        f"Grashof: {short(shortest)} + {short(longest)} {'=' if excess == 0.0 else '>'} {short(p)} + {short(q)}"
+        if excess >= 0.0
+        else "neither crank nor frame is the shortest link"
     )
+    found = "the four links cannot be assembled" if kind == "impossible" else f"the linkage is a {kind}"
+    if kind == "change-point":
+        found = "the linkage is at its change point"
+    raise NoSolution(
+        f"{found}, not a crank-rocker or drag link ({wrong}): crank {linkage.crank:.6g}, coupler "
+        f"{linkage.coupler:.6g}, rocker {linkage.rocker:.6g}, frame {linkage.frame:.6g} mm",
+        fix=_full_turn(excess, shortest, longest, linkage),
+    )
+
+
+def _full_turn(excess: float, shortest: float, longest: float, linkage: FourBar) -> str:
+    """What lets the crank turn fully: only conditions that are not met."""
+    changes = []
+    if excess > 0.0:
+        changes.append(f"shorten the longest link, {short(longest)} mm, by more than {safely_above(excess)} mm")
+    elif excess == 0.0:
+        changes.append(f"shorten the longest link, {short(longest)} mm")
+    if shortest < min(linkage.crank, linkage.frame):
+        changes.append("make crank or frame the shortest link")
+    return ", and ".join(changes)

@@ -83,11 +83,11 @@ def require_dyad(distance: float, first: float, second: float) -> None:
     longest, shortest = first + second, abs(first - second)
     if distance > longest:
         raise NoSolution(
-            f"{distance:.9g} mm apart, more than the two links together, {longest:.9g} mm: lengthen them by "
-            f"{safely_above(distance - longest, 4)} mm"
+            f"{distance:.6g} mm apart, more than the two links together, {longest:.6g} mm",
+            fix=f"lengthen them by {safely_above(distance - longest, 4)} mm",
         )
     if distance < shortest or distance == 0.0:
         raise NoSolution(
-            f"{distance:.9g} mm apart, less than the difference of the two links, {shortest:.9g} mm: make them more "
-            f"equal by {safely_above(shortest - distance, 4)} mm"
+            f"{distance:.6g} mm apart, less than the difference of the two links, {shortest:.6g} mm",
+            fix=f"make them more equal by {safely_above(shortest - distance, 4)} mm",
         )

@@ -44,13 +44,13 @@ def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth
     if rim is None:
         return
     if ring is None:
-        raise PydanticCustomError("GL111", "rim goes with a ring gear: leave it out", {"key": "rim"})
+        raise PydanticCustomError("GL111", "rim goes with a ring gear\nleave it out", {"key": "rim"})
     if own_teeth:
         return
     root = module * (0.5 * ring + 1.25)
     if rim <= root:
         raise PydanticCustomError(
             "GL111",
-            "the rim's radius {rim} mm lies within the root circle of the ring gear, {root} mm: make it larger",
+            "the rim's radius {rim} mm lies within the root circle of the ring gear, {root} mm\nmake it larger",
             {"key": "rim", "rim": f"{rim:g}", "root": f"{root:g}"},
         )

@@ -47,7 +47,7 @@ class Feed(Spec):
         if self.radius is None and len(chain) < 2:
             raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
         if chain and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness: leave it out", {"key": "belt_thickness"})
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nleave it out", {"key": "belt_thickness"})
         return self
 
 

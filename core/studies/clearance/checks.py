@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from gearlink.core.base.judged import Judged
 from gearlink.core.base.remedies.ways import down
 from gearlink.core.base.report import Check
+from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.studies.clearance.bodies import Clearance, Gear, Layout, Seat, Shaft
 
@@ -27,16 +28,17 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
         A limit below 0 allows gears that overlap, which is a warning: they do not turn in one plane.
     """
     gap, names = pair.gap, f"{pair.one.name} and {pair.other.name}"
-    if gap >= max(limit, 0.0):
-        text = f"{names} keep {gap:.6g} mm between their tips at the closest{_place(pair)}: {why}"
-        return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
     judged = collision_judged(gap, limit)
-    if judged.warns:
-        return judged.check(
-            f"{names} overlap by {-gap:.6g} mm{_place(pair)}, as limits.gear_gap allows: they need planes of their own"
-        )
-    found = f"collide by {-gap:.6g} mm" if gap < 0.0 else f"keep only {gap:.6g} mm between their tips at the closest"
-    return judged.check(f"{names} {found}{_place(pair)}: {why}; {remedy}")
+    note = "the gears need planes of their own, as limits.gear_gap allows" if judged.warns else ""
+    fix = "put the gears in planes of their own" if judged.warns else remedy
+    return judged.check(
+        f"gap between the tips of {names}",
+        fix,
+        at=_place(pair),
+        aside=why,
+        overlap=f"interference of {names}",
+        note=note,
+    )
 
 
 def collision_judged(gap: Any, limit: Any) -> Judged:
@@ -56,12 +58,7 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
         bare = pair.bare
         limit = layout.least_shaft * len(bare)
         judged = shaft_judged(pair.gap, limit, bool(bare))
-        text = f"{_words(pair.one)} keeps {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}"
-        if judged.fails:
-            text = _overlap(pair)
-        elif judged.warns:
-            text = _covered_axis(pair) if pair.gap < 0.0 else _narrow(pair, bare, limit)
-        yield judged.check(text)
+        yield _shaft_check(judged, pair, bare)
 
 
 def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
@@ -87,75 +84,53 @@ def seat_checks(layout: Layout) -> Iterator[Check]:
     the shaft. Nothing where all have one."""
     for seat in layout.seats:
         if seat.rim < seat.least:
-            yield SHAFT_CLEARANCE.check(
-                "warn", _thin_rim(seat), seat.rim, seat.least, "mm", name=SHAFT_CLEARANCE.checks[1]
-            )
+            yield _thin_rim(seat)
 
 
 def _place(pair: Clearance) -> str:
-    """Where in the cycle, as the end of a clause; empty where the gap never changes."""
-    return "" if pair.angle is None else f" at input angle {math.degrees(pair.angle):.6g} deg"
+    """Where in the cycle; empty where the gap never changes."""
+    return "" if pair.angle is None else f"input angle {short(math.degrees(pair.angle))} deg"
 
 
 def _words(body: Gear | Shaft) -> str:
     if isinstance(body, Gear):
         return body.name
-    return f"the axis of the {body.name}" if body.radius is None else f"the {body.name} (radius {body.radius:g} mm)"
+    return f"the axis of the {body.name}" if body.radius is None else f"the {body.name}"
 
 
-def _overlap(pair: Clearance) -> str:
-    """A shaft of the file that is not clear."""
-    text = f"{_words(pair.one)} comes {-pair.gap:.4g} mm into {_words(pair.other)}{_place(pair)}"
-    if pair.one.inner >= 0.0 and pair.angle is not None:  # the two may meet at other places too, and less deep
-        within = pair.gap == pair.one.inner - (pair.distance + pair.other.outer)
-        side = "within" if within else "without"
-        text = (
-            f"{_words(pair.one)} meets {_words(pair.other)}: it lacks {-pair.gap:.4g} mm to have it {side} all round, "
-            f"most{_place(pair)}"
-        )
-    if isinstance(pair.one, Shaft):
-        return f"{text}: overhang one of them, or make them thinner"
-    thinner = ", or make it thinner" if pair.gap + pair.other.outer > 0.0 else ""
-    return f"{text}: overhang the shaft{thinner}"
+def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Check:
+    """GL302 of one body and one shaft."""
+    one, other = _words(pair.one), _words(pair.other)
+    named = [body for body in (pair.one, pair.other) if isinstance(body, Shaft) and body.radius is not None]
+    aside = ", ".join(f"{body.name} radius {body.radius:g} mm" for body in named)
+    fix = ""
+    if judged.fails:
+        fix = "end the shaft before the plane of the gears (overhung)"
+    elif judged.warns:
+        fix = f"end the {bare[0].name} before the plane of the gears (overhung)"
+        # In whole tenths that can be built; the last bit of a gap is rounding.
+        radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
+        if radius > 0.0 and len(bare) == 1:
+            fix = f"set {bare[0].key} to at most {radius:g} mm"
+        if pair.gap >= 0.0:
+            aside = f"{'two minimum shaft radii' if len(bare) > 1 else 'minimum shaft radius'}, limits.least_shaft"
+        else:
+            aside = f"axes {short(pair.distance)} mm apart"
+    overlap = f"overlap of {one} and {other}"
+    return judged.check(f"{one} to {other}", fix, at=_place(pair), aside=aside, overlap=overlap)
 
 
-def _thin_rim(seat: Seat) -> str:
-    left = f"leaves only {seat.rim:.4g} mm below its teeth round" if seat.rim > 0.0 else "has its teeth within"
-    return (
-        f"{seat.gear.name} {left} {_words(seat.shaft)}, half the height of the teeth is {seat.least:.4g} mm: lower "
-        f"{seat.shaft.key}, or cut the teeth into the shaft"
+def _thin_rim(seat: Seat) -> Check:
+    what, name = f"rim of {seat.gear.name} between its teeth and {_words(seat.shaft)}", SHAFT_CLEARANCE.checks[1]
+    overlap = f"overlap of the teeth of {seat.gear.name} and {_words(seat.shaft)}"
+    return SHAFT_CLEARANCE.check(
+        "warn",
+        what,
+        seat.rim,
+        seat.least,
+        "mm",
+        name=name,
+        overlap=overlap,
+        aside="half the tooth height" if seat.rim >= 0.0 else "",
+        fix=f"lower {seat.shaft.key}, or cut the teeth into the shaft",
     )
-
-
-def _covered_axis(pair: Clearance) -> str:
-    """A bare axis within another body."""
-    one, other = pair.one, pair.other
-    if isinstance(one, Shaft) and isinstance(other, Shaft):
-        bare, cover = (one, other) if one.radius is None else (other, one)
-        return (
-            f"{_words(cover)} covers {_words(bare)}, {pair.distance:.6g} mm away: one of the two must end before the "
-            "plane of the gears"
-        )
-    extent = f"{one.outer:.6g} mm" if one.inner < 0.0 else f"{one.inner:.6g} to {one.outer:.6g} mm"
-    subject = f"the tips of {one.name} ({extent}) pass"
-    if one.inner > 0.0:
-        subject = f"{one.name} ({extent} from its axis) covers"
-    return (
-        f"{subject} {_words(other)}, {pair.distance:.6g} mm away{_place(pair)}: that shaft must end before the plane "
-        "of the gears (be overhung)"
-    )
-
-
-def _narrow(pair: Clearance, bare: tuple[Shaft, ...], limit: float) -> str:
-    """A bare axis with less room beside it than a shaft takes."""
-    keys, both = " and ".join(shaft.key for shaft in bare), len(bare) > 1
-    thinnest = f"{'two of the thinnest shafts take' if both else 'the thinnest shaft takes'} {limit:g} mm"
-    text = (
-        f"{_words(pair.one)} keeps only {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}, {thinnest} "
-        f"(limits.least_shaft): overhang {'one of them' if both else 'it'}"
-    )
-    # In whole tenths that can be built; the last bit of a gap is rounding.
-    radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
-    if radius <= 0.0:
-        return text
-    return f"{text}, or name {keys}, at most {radius:g} mm{' together' if both else ''}"

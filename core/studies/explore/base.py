@@ -114,7 +114,7 @@ class Base:
         except ValidationError as error:
             raise Refused(*_first(error)) from error
         except NoSolution as error:
-            raise Refused(error.key, error.message, error.code) from error
+            raise Refused(error.key, str(error), error.code) from error
         made.advises, made.warnings = False, self.warnings
         self._last[self.command] = made
         return made
@@ -131,7 +131,7 @@ class Base:
         except ValidationError as error:
             return _first(error)[1]
         except NoSolution as error:
-            return error.message
+            return str(error)
         return ""
 
     def knows(self, path: str) -> bool:
@@ -205,7 +205,7 @@ class Base:
             try:
                 value = made[command].raw(plain)
             except NoSolution as error:
-                raise Refused(error.key, error.message, error.code) from error
+                raise Refused(error.key, str(error), error.code) from error
             value = None if value is None else in_unit(value, self.unit(plain))
             found[name] = _element(value, index) if index else value
         return found

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from gearlink.core.base.design import Design, Outline, placed
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount
 from gearlink.core.studies.explore.chunks import Miss, chunk_of, together
@@ -116,15 +116,13 @@ class Exploration(Design):
     def check_feasible_designs(self) -> Check:
         """GL161."""
         share = self.feasible / self.designs
-        verb = "satisfies" if self.feasible == 1 else "satisfy"
-        text = f"{self.feasible} of {amount(self.designs, 'design')} {verb} {self.problem.asked}"
-        text += "; checks.must_pass: all asks for it too" if self.problem.waived else ""
-        if share >= _FEW:
-            return FEASIBLE.check("pass", text, share, _FEW)
+        what = f"share of designs that satisfy {self.problem.asked} ({self.feasible} of {self.designs})"
+        note = "checks.must_pass: all asks for it too" if self.problem.waived else ""
         name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
-        if worst.alone:
-            text += f"; {name} alone removes {worst.alone}"
-        return FEASIBLE.check("fail" if not self.feasible else "warn", f"{text}: see the table why", share, _FEW)
+        aside = f"{name} alone removes {worst.alone}" if worst.alone and share < _FEW else ""
+        status: Status = "pass" if share >= _FEW else "warn" if self.feasible else "fail"
+        fix = "see the table why"
+        return FEASIBLE.check(status, what, share, _FEW, side=">=", aside=aside, fix=fix, note=note)
 
     def check_range_end(self) -> Iterator[Check]:
         """GL162 of each variable that kept designs have at an end of its range."""
@@ -137,8 +135,11 @@ class Exploration(Design):
                 count = sum(abs(value - limit) <= _EDGE * max(1.0, abs(limit)) for value in values)
                 if count:
                     share_of_rows = f"{count} of {amount(len(rows), 'row')}"
-                    text = f"{variable.path} is at {limit:g}, the {end} end of its range, in {share_of_rows}"
-                    yield RANGE_END.check("warn", f"{text}: widen it", float(limit), float(limit))
+                    what = f"{variable.path} at the {end} end of its range"
+                    shown, fix = Shown(float(limit)), "widen the range"
+                    yield RANGE_END.check(
+                        "warn", what, float(limit), float(limit), shown=shown, aside=share_of_rows, fix=fix
+                    )
 
 
 def _ends(variable: Variable) -> tuple[float, float]:

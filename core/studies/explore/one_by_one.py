@@ -39,4 +39,4 @@ def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check
         shown = dict.fromkeys(name for name in design.outline(base.command).checks if name in names)
         return [check for name in shown for check in design.check(name)]
     except NoSolution as error:
-        raise Refused(error.key, error.message, error.code) from error
+        raise Refused(error.key, str(error), error.code) from error

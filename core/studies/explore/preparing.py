@@ -271,7 +271,7 @@ class _Reading:
             outline = design.outline(self.base.command)
             return {check.code for name in outline.checks for check in design.check(name) if check.status == "fail"}
         except NoSolution as error:
-            raise Refused(error.key, error.message) from error
+            raise Refused(error.key, str(error)) from error
 
     def _must_pass(self, failing: set[str]) -> tuple[str, ...]:
         asked, known = self.spec.checks.must_pass, self.base.codes

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.base.report import Check, Status, safely_above
-from gearlink.core.base.wording import amount
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_above
+from gearlink.core.base.wording import amount, short
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
 from gearlink.core.studies.loads import codes
@@ -126,21 +126,21 @@ _SWING_PER_BODY = 2.0 * 360.0
 _SWING_UNKNOWN = 20.0
 _NEAR_LOCKING = 0.5
 _ROUNDING = 1e-9
-_LESS_FRICTION = "take thinner pins or less friction"
+_LESS_FRICTION = "reduce the friction or the pin radii"
 
 
 def power_identity(design: LoadsDesign) -> Check:
     """GL601."""
     found = design.power_identity
-    text = f"the input torque by virtual power and by the joint forces differ by {found:.1e} of the largest"
-    if found <= _IDENTITY:
-        return codes.POWER_IDENTITY.check("pass", text, found, _IDENTITY)
-    return codes.POWER_IDENTITY.check("fail", f"{text}: the links come too near to a dead point", found, _IDENTITY)
+    status: Status = "pass" if found <= _IDENTITY else "fail"
+    what = "difference of the input torques by virtual power and by joint forces, over the largest"
+    fix = "keep the links farther from a dead centre"
+    return codes.POWER_IDENTITY.check(status, what, found, _IDENTITY, fix=fix)
 
 
 def listed(places: list[float]) -> str:
     """Some places in words, the first six of them."""
-    return ", ".join(f"{place:.5g}" for place in places[:6]) + (", ..." if len(places) > 6 else "")
+    return ", ".join(short(place) for place in places[:6]) + (", ..." if len(places) > 6 else "")
 
 
 def load_reversal(design: LoadsDesign) -> Iterator[Check]:
@@ -151,20 +151,19 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
         play = backlash.get(name) if isinstance(backlash, dict) else backlash
         play = drawn.get(name) if play is None else play
         if not places:
-            text = f"{name}: the teeth stay on one flank"
-            yield codes.LOAD_REVERSAL.check("pass", text, 0.0, 0.0)
+            what = f"{name}: the teeth stay on one flank"
+            yield codes.LOAD_REVERSAL.check("pass", what, 0.0, 0.0, shown=NO_NUMBER)
             continue
-        text = f"{name}: the teeth change flanks {amount(len(places), 'time')} over the period, at {listed(places)} deg"
+        status: Status = "warn"
+        what = f"{name}: the teeth change flanks {amount(len(places), 'time')} over the period"
+        fix = note = ""
         inside = [place for place in places if design.is_quiet(math.radians(place))]
         if inside and play:
             lag = math.degrees(0.5 * play / mesh.radius)
-            text += (
-                f"; that at {inside[0]:.5g} deg lies where the output must stand or run true: "
-                f"the link {mesh.second} lags by {lag:.3g} deg"
-            )
-            yield codes.LOAD_REVERSAL.check("fail", f"{text}; load the output one way", float(len(places)), 0.0)
-        else:
-            yield codes.LOAD_REVERSAL.check("warn", f"{text}: it rattles there", float(len(places)), 0.0)
+            status, fix = "fail", "load the output in one direction"
+            note = f"at {short(inside[0])} deg, where the output must dwell or run true, {mesh.second} lags by {short(lag)} deg"
+        at, count = f"{listed(places)} deg", float(len(places))
+        yield codes.LOAD_REVERSAL.check(status, what, count, 0.0, shown=NO_NUMBER, at=at, fix=fix, note=note)
 
 
 def motor_torque(design: LoadsDesign) -> Iterator[Check]:
@@ -173,26 +172,26 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
     if motor is None:
         return
     if motor.max_torque is None and motor.rated_torque is None:
-        text = f"the motor gives up to {abs(running.motor_peak or 0.0):.5g} N m, {running.motor_rms:.5g} N m root mean "
-        text += "square, and the file names no torque of its own: give loads.motor.rated_torque and max_torque"
-        yield codes.MOTOR_TORQUE.check("warn", text)
+        what, fix = "no torque of the motor in the file", "give loads.motor.rated_torque and max_torque"
+        aside = f"required up to {short(abs(running.motor_peak or 0.0))} N m, rms {short(running.motor_rms or 0.0)} N m"
+        yield codes.MOTOR_TORQUE.check("warn", what, aside=aside, fix=fix)
     margin = design.limit("torque_margin")
     pairs = (("peak", running.motor_peak, motor.max_torque), ("rms", running.motor_rms, motor.rated_torque))
     for words, signed, limit in pairs:
         if signed is None or limit is None:
             continue
         value, bound = abs(signed), limit / margin
-        text = f"{words} of the motor's torque is {value:.5g} N m{', against its turning' if signed < 0.0 else ''}"
-        remedy = f"it needs a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
-        if value > bound:
-            yield codes.MOTOR_TORQUE.check("fail", f"{text}, above {bound:.5g}: {remedy}", value, bound, "N m")
-        elif value > limit:
-            text += f", above the motor's own {limit:.5g}, though limits.torque_margin allows it: {remedy}"
-            yield codes.MOTOR_TORQUE.check("warn", text, value, bound, "N m")
-        elif value > _NEAR * bound:
-            yield codes.MOTOR_TORQUE.check("warn", f"{text}, little below {bound:.5g}: {remedy}", value, bound, "N m")
-        else:
-            yield codes.MOTOR_TORQUE.check("pass", text, value, bound, "N m")
+        status: Status = "fail" if value > bound else "warn" if value > min(limit, _NEAR * bound) else "pass"
+        yield codes.MOTOR_TORQUE.check(
+            status,
+            f"{words} torque of the motor",
+            value,
+            bound,
+            "N m",
+            recommended=min(limit, _NEAR * bound),
+            aside="against its rotation" if signed < 0.0 else "",
+            fix=f"take a motor of at least {safely_above(value * margin)} N m",
+        )
 
 
 def motor_speed(design: LoadsDesign) -> Iterator[Check]:
@@ -202,12 +201,19 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
         return
     mean, asked = 0.5 * sum(running.range), abs(design.speed) / RPM
     off, name = abs(mean / asked - 1.0), codes.MOTOR_TORQUE.checks[1]
-    text = f"loads.motor runs the input at {mean:.5g} rev/min, {asked:.5g} are those of the file"
     status: Status = "fail" if off > _OTHER_SPEED else "warn" if off > _NEAR_SPEED else "pass"
-    if status != "pass":
-        ratio = motor.ratio * mean / asked
-        text += f": forces, lives and vibration are not those of this speed; take a ratio near {ratio:.4g}"
-    yield codes.MOTOR_TORQUE.check(status, text, off, _OTHER_SPEED, name=name)
+    ratio = motor.ratio * mean / asked
+    yield codes.MOTOR_TORQUE.check(
+        status,
+        "deviation of the speed by the motor from that of the file",
+        off,
+        _OTHER_SPEED,
+        name=name,
+        recommended=_NEAR_SPEED,
+        aside=f"motor {short(mean)} rev/min, file {short(asked)} rev/min",
+        fix=f"set loads.motor.ratio near {short(ratio)}",
+        note="forces, lives and vibration are those of the speed of the file" if status != "pass" else "",
+    )
 
 
 def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
@@ -216,25 +222,25 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
     if flywheel is None and design.section.motor is None:
         return
     if running.stops:
-        text = f"the machine stops: its load takes more than is stored in {running.inertia:.5g} kg m^2 of flywheel"
-        remedy = "give loads.flywheel: {fluctuation: 0.05} alone to have the least one found"
-        yield codes.SPEED_FLUCTUATION.check("fail", f"{text}; {remedy}", running.inertia, None, "kg m^2")
+        what = "the machine stops: its load takes more energy than this flywheel stores"
+        fix = "give loads.flywheel: {fluctuation: 0.05} alone to find the minimum flywheel"
+        yield codes.SPEED_FLUCTUATION.check("fail", what, running.inertia, None, "kg m^2", fix=fix)
         return
     allowed, found = getattr(flywheel, "fluctuation", None), running.fluctuation
-    text = f"the speed varies by {found:.4g} of its mean"
+    what = "speed fluctuation"
     if allowed is None:
         if found > _UNEVEN:
-            text += ", and forces, lives and vibration are those of an even speed: take a heavier flywheel, or allow it"
-            text += " by loads.flywheel.fluctuation"
-            yield codes.SPEED_FLUCTUATION.check("warn", text, found, _UNEVEN)
+            fix = "take a heavier flywheel, or allow it by loads.flywheel.fluctuation"
+            note = "forces, lives and vibration are those of a constant speed"
+            yield codes.SPEED_FLUCTUATION.check("warn", what, found, _UNEVEN, fix=fix, note=note)
     elif found > allowed * (1.0 + 1e-9):
-        needed = safely_above(running.needed or 0.0, 4)
-        message = f"{text}, more than {allowed:g}: at a constant drive torque {needed} kg m^2 would do"
-        yield codes.SPEED_FLUCTUATION.check("fail", message, found, allowed)
+        fix = f"take a flywheel of {safely_above(running.needed or 0.0)} kg m^2"
+        yield codes.SPEED_FLUCTUATION.check("fail", what, found, allowed, fix=fix)
     elif found > _NEAR * allowed and flywheel.inertia is not None:
-        yield codes.SPEED_FLUCTUATION.check("warn", f"{text}, little below {allowed:g}", found, allowed)
+        most, fix = _NEAR * allowed, "take a heavier flywheel"
+        yield codes.SPEED_FLUCTUATION.check("warn", what, found, allowed, recommended=most, fix=fix)
     else:
-        yield codes.SPEED_FLUCTUATION.check("pass", text, found, allowed)
+        yield codes.SPEED_FLUCTUATION.check("pass", what, found, allowed)
 
 
 def bearing_life(design: LoadsDesign) -> Iterator[Check]:
@@ -249,23 +255,19 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
             least = _SWING_PER_BODY / bodies if bodies else _SWING_UNKNOWN
             swing = math.degrees(pin.swing)
             if swing < least:
-                text = f"the bearing of {name} swings only {swing:.4g} deg, below {least:.4g}: its rating life does not"
-                yield codes.BEARING_LIFE.check("warn", f"{text} hold; take a plain bearing", swing, least, "deg")
+                what, fix = f"swing of the bearing of {name}, too small for a rating life", "take a plain bearing"
+                yield codes.BEARING_LIFE.check("warn", what, swing, least, "deg", fix=fix)
         if life is None or bearing.life is None:
             continue
         if axial := thrust(design, name):
-            text = f"the rating life of the bearing of {name} is that of forces in the plane: helical teeth push along"
-            text += f" their axis with up to {axial:.5g} N besides, and tilt their gear"
-            yield codes.BEARING_LIFE.check("warn", f"{text}; add what the bearing takes of it", axial, 0.0, "N")
-        text = f"the bearing of {name} has a rating life of {life:.5g} h"
-        if life < bearing.life:
-            rating = bearing.dynamic_rating * (bearing.life / life) ** (1.0 / pin.exponent)
-            message = f"{text}, below {bearing.life:g}: it needs a dynamic rating of {safely_above(rating, 4)} N"
-            yield codes.BEARING_LIFE.check("fail", message, life, bearing.life, "h")
-        elif life < _LEAST_LIFE_MARGIN * bearing.life:
-            yield codes.BEARING_LIFE.check("warn", f"{text}, little above {bearing.life:g}", life, bearing.life, "h")
-        else:
-            yield codes.BEARING_LIFE.check("pass", text, life, bearing.life, "h")
+            what, fix = f"axial force of helical teeth on the bearing of {name}", "add it to the load of the bearing"
+            note = "its rating life is that of the forces in the plane"
+            shown = Shown(axial, None, "N")
+            yield codes.BEARING_LIFE.check("warn", what, axial, 0.0, "N", shown=shown, fix=fix, note=note)
+        least = _LEAST_LIFE_MARGIN * bearing.life
+        rating = bearing.dynamic_rating * (max(least, bearing.life) / life) ** (1.0 / pin.exponent)
+        fix = f"take a bearing with a dynamic rating of {safely_above(rating)} N"
+        yield codes.BEARING_LIFE.below(life, bearing.life, least, "h", f"rating life of the bearing of {name}", fix)
 
 
 def force_amplification(design: LoadsDesign) -> Iterator[Check]:
@@ -274,21 +276,23 @@ def force_amplification(design: LoadsDesign) -> Iterator[Check]:
     if least is None:
         return
     found = 1.0 / math.sin(least)
-    text = f"the least transmission angle {math.degrees(least):.4g} deg makes pin forces {found:.4g} times as large"
-    if found > _AMPLIFICATION:
-        message = f"{text} as at 90 deg: change the links for a larger one"
-        yield codes.FORCE_AMPLIFICATION.check("warn", message, found, _AMPLIFICATION)
-    else:
-        yield codes.FORCE_AMPLIFICATION.check("pass", f"{text} as at 90 deg", found, _AMPLIFICATION)
+    yield codes.FORCE_AMPLIFICATION.check(
+        "warn" if found > _AMPLIFICATION else "pass",
+        "pin forces against those at a transmission angle of 90 deg",
+        found,
+        _AMPLIFICATION,
+        aside=f"minimum transmission angle {short(math.degrees(least))} deg",
+        fix="change the links for a larger transmission angle",
+    )
 
 
 def impact(design: LoadsDesign) -> Iterator[Check]:
     """GL614, for machines whose speed jumps."""
     energy = getattr(design, "engagement_energy", None)
     if energy is not None:
-        text = f"the driven gear starts and stops at once: {energy:.4g} J each time, the force of it is not finite"
+        what, fix = "impact energy at each start and stop of the driven gear", "add entry cams, or cut the end teeth"
         yield codes.IMPACT.check(
-            "warn", f"{text}; cut the first and the last tooth, or add entry cams", energy, 0.0, "J"
+            "warn", what, energy, 0.0, "J", fix=fix, note="the force of the impact is not computed"
         )
 
 
@@ -300,20 +304,18 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
 
     ratio, place = design.nearest_locking
     if place is None:
-        message = "with this friction there are no forces with which the mechanism moves: it locks itself"
-        yield codes.SELF_LOCKING.check("fail", f"{message}; {_LESS_FRICTION}", None, LOCKS)
+        what = "the mechanism locks itself with this friction"
+        yield codes.SELF_LOCKING.check("fail", what, None, LOCKS, fix=_LESS_FRICTION)
         return
-    text = (
-        f"a pass of the friction changes the forces by {ratio:.3g} of the pass before, at {math.degrees(place):.4g} deg"
-    )
+    what, at = "convergence ratio of the friction iteration", f"{short(math.degrees(place))} deg"
     if ratio > LOCKS or design.locks_between:
-        message = f"{text}: the mechanism locks itself; {_LESS_FRICTION}"
-        yield codes.SELF_LOCKING.check("fail", message, ratio, LOCKS)
-    elif ratio > _NEAR_LOCKING:
-        message = f"{text}: near self-locking; {_LESS_FRICTION}"
-        yield codes.SELF_LOCKING.check("warn", message, ratio, _NEAR_LOCKING)
-    else:
-        yield codes.SELF_LOCKING.check("pass", text, ratio, _NEAR_LOCKING)
+        what, shown = f"{what}, self-locking", Shown(ratio, LOCKS if ratio > LOCKS else None, "1", "<=")
+        yield codes.SELF_LOCKING.check("fail", what, ratio, LOCKS, shown=shown, at=at, fix=_LESS_FRICTION)
+        return
+    status: Status = "warn" if ratio > _NEAR_LOCKING else "pass"
+    yield codes.SELF_LOCKING.check(
+        status, what, ratio, _NEAR_LOCKING, aside=f"self-locking above {LOCKS:g}", at=at, fix=_LESS_FRICTION
+    )
 
 
 def tooth_load(design: LoadsDesign) -> Iterator[Check]:
@@ -321,12 +323,14 @@ def tooth_load(design: LoadsDesign) -> Iterator[Check]:
     for name, rated in rated_forces(design).items():
         mesh = design.meshes_found[name]
         found, back = bending_force(mesh), mesh.tooth_force_back
-        text = f"{name}: the teeth carry up to {mesh.tooth_force_max:.5g} N"
-        if back > 0.0:
-            text += f", and {back:.5g} N on the other flanks, which bends them as {found:.5g} N one way"
-        text += f", and are rated for {rated:.5g} N, K_A counted"
-        if found > rated * (1.0 + _ROUNDING):
-            text += f": their safeties are those of a smaller force; rate them for {found / rated:.4g} times the load"
-            yield codes.TOOTH_LOAD.check("warn", text, found, rated, "N")
-        else:
-            yield codes.TOOTH_LOAD.check("pass", text, found, rated, "N")
+        other = f", {short(back)} N on the other flanks" if back > 0.0 else ""
+        over = found > rated * (1.0 + _ROUNDING)
+        yield codes.TOOTH_LOAD.check(
+            "warn" if over else "pass",
+            f"{name}: tooth force against the rated one",
+            found,
+            rated,
+            "N",
+            aside=f"up to {short(mesh.tooth_force_max)} N{other}",
+            fix=f"rate the teeth for {safely_above(found / rated)} times the load",
+        )

@@ -131,10 +131,12 @@ class LoadsDesign(Design):
         """The same in the unit of the file's own key, as it stands there."""
         given: float | None = self.section.speed
         if given is None and (given := getattr(self.spec, "input_speed", None)) is None:
-            raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
+            raise MissingSection("`loads` needs the speed of the input", key="loads.speed", fix="give loads.speed")
         if abs(given) < _SLOWEST:
             words = f"{_SLOWEST:g} 1/min or more, or -{_SLOWEST:g} 1/min or less for a turn the other way"
-            raise NoSolution(f"no loads of motion at a speed of {given:g} 1/min: give {words}", key="loads.speed")
+            raise NoSolution(
+                f"no loads of motion at a speed of {given:g} 1/min", key="loads.speed", fix=f"give {words}"
+            )
         return given
 
     @property
@@ -192,8 +194,9 @@ class LoadsDesign(Design):
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and not self.shaft_inertia:
             raise MissingSection(
-                "without a mass, an inertia or a force there is no load: give loads.links or loads.forces",
+                "without a mass, an inertia or a force there is no load",
                 key="loads.links" if "links" in type(self.section).model_fields else "loads",
+                fix="give loads.links or loads.forces",
             )
         return Machine(
             self.moving,
@@ -739,8 +742,8 @@ class LoadsDesign(Design):
         for name in bearings:
             if name in self.unknown_joints:
                 keys = " and ".join(f"loads.{key}" for key in self.own_directions if getattr(section, key) is None)
-                message = f"the force on the bearing of {name} depends on where its neighbours stand: give {keys}"
-                raise MissingSection(message, key=f"loads.bearings.{name}")
+                message = f"the force on the bearing of {name} depends on where its neighbours stand"
+                raise MissingSection(message, key=f"loads.bearings.{name}", fix=f"give {keys}")
 
     def mesh(self, name: str) -> Any:
         """Greatest tooth force and reversals of a mesh; None where this design has none of the name."""

@@ -209,7 +209,7 @@ class MotorRun:
 
 def _stalls() -> NoSolution:
     return NoSolution(
-        "the motor stalls: over a period the load takes more than it gives; raise its torque (slope, rated_torque) or "
-        "no_load_speed, change ratio, or add a flywheel",
+        "the motor stalls: over a period the load takes more than it gives",
         key="loads.motor",
+        fix="raise its torque (slope, rated_torque) or no_load_speed, change ratio, or add a flywheel",
     )

@@ -28,6 +28,6 @@ def homecoming(turns: int, gears: str, key: str, remedy: str = _BALANCE) -> int:
         NoSolution - for more than are computed
     """
     if turns > MOST_TURNS:
-        message = f"{gears} only after {turns} input turns: loads are computed for at most {MOST_TURNS}; {remedy}"
-        raise NoSolution(message, key=key)
+        message = f"{gears} only after {turns} input revolutions (limit <= {MOST_TURNS})"
+        raise NoSolution(message, key=key, fix=remedy)
     return turns

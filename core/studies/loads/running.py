@@ -63,9 +63,9 @@ class Running:
         least = self.design.reflected_inertia_min + self.inertia
         if not least > 0.0:
             raise MissingSection(
-                "without any inertia on the input its speed is not defined: give loads.flywheel: {inertia: kg m^2}, or "
-                "masses in loads.links",
+                "without any inertia on the input its speed is not defined",
                 key="loads.flywheel",
+                fix="give loads.flywheel: {inertia: kg m^2}, or masses in loads.links",
             )
 
     @cached_property

@@ -49,8 +49,8 @@ def coefficients_of(given: Friction, connections: Sequence[Connection]) -> Coeff
             raise NoSolution(f"{given.joints[each.name]:g}: {allowed}", key=f"loads.friction.joints.{each.name}")
     pins = (given.joints.get(each.name, given.pins) for each in connections if isinstance(each, Pin))
     if given.pin_radius == 0.0 and any(pins):
-        words = "friction of pins acts at their radius: give loads.friction.pin_radius (mm)"
-        raise MissingSection(words, key="loads.friction")
+        words = "friction of pins acts at their radius"
+        raise MissingSection(words, key="loads.friction", fix="give loads.friction.pin_radius (mm)")
     return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius, dict(given.joints))
 
 
@@ -110,10 +110,10 @@ def _require_link(name: str, known: tuple[str, ...], key: str) -> None:
 
 def _require_sort(load: Load, slides: bool, key: str) -> None:
     if slides and load.torque is not None:
-        raise NoSolution(f"{load.on} slides: give a force in place of a torque", key=f"{key}.torque")
+        raise NoSolution(f"{load.on} slides", key=f"{key}.torque", fix="give a force in place of a torque")
     if not slides and load.force is not None and not isinstance(load.force, list):
         raise NoSolution(
-            f"{load.on} turns: give a torque, or a point and a force [x, y] that acts there", key=f"{key}.force"
+            f"{load.on} turns", key=f"{key}.force", fix="give a torque, or a point and a force [x, y] that acts there"
         )
 
 
@@ -145,7 +145,9 @@ def _spring(spring: Spring, mechanism: Mechanism, phi: Reals, key: str) -> Itera
     way = ends[1].value - ends[0].value
     length = np.abs(way)
     if not np.all(length > 1e-6):
-        raise NoSolution("this spring has no length somewhere in the turn: move one of its points", key=f"{key}.points")
+        raise NoSolution(
+            "this spring has no length somewhere in the turn", key=f"{key}.points", fix="move one of its points"
+        )
     pull = (spring.preload + spring.rate * (length - spring.free_length)) * way / length
     for name, end, sign in zip(spring.between, ends, (1.0, -1.0), strict=True):
         if name != FRAME:

@@ -189,7 +189,7 @@ class Motor(Spec):
         if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
             raise PydanticCustomError("GL106", "give rated_speed and rated_torque, or slope", {"key": "rated_speed"})
         if self.slope is not None and self.rated_speed is not None:
-            raise PydanticCustomError("GL111", "slope excludes rated_speed: give one", {"key": "slope"})
+            raise PydanticCustomError("GL111", "slope excludes rated_speed\ngive one", {"key": "slope"})
         if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
             message = (
                 f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"

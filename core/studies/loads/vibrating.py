@@ -55,8 +55,9 @@ class Vibrating:
         if found == 0.0 and self.section.stiffness is not None:
             what = "mass" if self.slides else "inertia"
             raise MissingSection(
-                f"loads.vibration.stiffness needs the {what} of {self.design.output}: give it, or frequency in place",
+                f"loads.vibration.stiffness needs the {what} of {self.design.output}",
                 key="loads.vibration.stiffness",
+                fix="give it, or frequency in place",
             )
         return found
 
@@ -65,8 +66,9 @@ class Vibrating:
         """Natural frequency and damping."""
         if self.design.jumps:
             raise NoSolution(
-                "the speed of this machine jumps: its vibration after a blow is not in the model; leave vibration out",
+                "the speed of this machine jumps: its vibration after a blow is not in the model",
                 key="loads.vibration",
+                fix="leave vibration out",
             )
         damping = ASSUMED_DAMPING if self.section.damping is None else self.section.damping
         given = "stiffness" if self.section.frequency is None else "frequency"

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.base.report import Check, Side, safely_below
+from gearlink.core.base.report import Check, Shown, Side, Status, safely_below
+from gearlink.core.base.wording import short
 from gearlink.core.studies.loads import codes
 
 if TYPE_CHECKING:
@@ -29,18 +30,18 @@ def rigid_model(design: LoadsDesign) -> Iterator[Check]:
         max(design.limit("frequency_ratio"), 1.0),
         design.vibrating,
     )
-    r = vibrating.rise_periods
-    text = f"the natural frequency is {found:.4g} times that of the input"
-    text += f"; {r:.4g} natural periods in a motion" if r is not None else ""
-    residual = vibrating.residual
-    if found < limit:
-        yield codes.RIGID_MODEL.check("warn", f"{text}: forces are those of rigid links", found, limit)
-    elif residual is not None and residual > _ONE_PERCENT * vibrating.lift:
-        share = residual / vibrating.lift
-        message = f"{text}: {100.0 * share:.3g} % of the lift are left as vibration"
-        yield codes.RIGID_MODEL.check("warn", message, share, _ONE_PERCENT)
-    else:
-        yield codes.RIGID_MODEL.check("pass", text, found, limit)
+    r, residual = vibrating.rise_periods, vibrating.residual
+    aside = f"{short(r)} natural periods per motion" if r is not None else ""
+    share = None if residual is None else residual / vibrating.lift
+    if found >= limit and share is not None and share > _ONE_PERCENT:
+        what, shown = "vibration left after the motion, over the lift", Shown(100.0 * share, 1.0, "%", "<=")
+        fix = "take a smoother motion law, or a lower speed"
+        yield codes.RIGID_MODEL.check("warn", what, share, _ONE_PERCENT, shown=shown, aside=aside, fix=fix)
+        return
+    status: Status = "warn" if found < limit else "pass"
+    what, fix = "natural frequency over that of the input", "stiffen the output, or lower the speed"
+    note = "forces are those of rigid links" if status == "warn" else ""
+    yield codes.RIGID_MODEL.check(status, what, found, limit, side=">=", aside=aside, fix=fix, note=note)
 
 
 def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
@@ -52,25 +53,21 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     vibrating = design.vibrating
     unit = "mm" if vibrating.slides else "deg"
     if not vibrating.motions:
-        text = "the output stands nowhere, so that no vibration is held against loads.vibration.allowed_residual"
-        text += "; the table harmonics has its deflection"
-        yield codes.RESIDUAL_VIBRATION.check("warn", text, None, allowed, unit)
+        what = "the output has no dwell in which vibration could be left"
+        fix = "remove loads.vibration.allowed_residual; the table harmonics has the deflection"
+        yield codes.RESIDUAL_VIBRATION.check("warn", what, None, allowed, unit, fix=fix)
         return
     found = vibrating.residual if vibrating.residual is not None else vibrating.twist
     if found is None:  # resonance tells
         return
-    text = f"the output vibrates in its dwell by {found:.4g} {unit}"
-    limit = vibrating.speed_limit
-    slower = f" (at most {safely_below(limit / design.speed_unit, 4)} {design.speed_words})" if limit else ""
-    if found > allowed:
-        message = f"{text}, more than {allowed:g}: lower the speed{slower}, or raise loads.vibration.frequency"
-        if vibration.frequency is None:
-            message = f"{text}, more than {allowed:g}: lower the speed{slower}, or raise loads.vibration.stiffness"
-        yield codes.RESIDUAL_VIBRATION.check("fail", message, found, allowed, unit)
-    elif found > _NEAR * allowed:
-        yield codes.RESIDUAL_VIBRATION.check("warn", f"{text}, little below {allowed:g}", found, allowed, unit)
-    else:
-        yield codes.RESIDUAL_VIBRATION.check("pass", text, found, allowed, unit)
+    slowest = vibrating.speed_limit
+    key = "loads.vibration.stiffness" if vibration.frequency is None else "loads.vibration.frequency"
+    fix = f"raise {key}"
+    if slowest:
+        fix = f"lower the speed to at most {safely_below(slowest / design.speed_unit)} {design.speed_words}"
+    status: Status = "fail" if found > allowed else "warn" if found > _NEAR * allowed else "pass"
+    what, most = "vibration of the output in its dwell", _NEAR * allowed
+    yield codes.RESIDUAL_VIBRATION.check(status, what, found, allowed, unit, recommended=most, fix=fix)
 
 
 def resonance(design: LoadsDesign) -> Iterator[Check]:
@@ -81,9 +78,9 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     ratio = vibrating.frequency_ratio * turns
     order = max(1, round(ratio))
     if vibrating.response.unbounded:
-        text = _nearness("nearest harmonic", order, turns, off := abs(ratio / order - 1.0))
-        message = f"{text}, without damping: the vibration grows without limit; change the speed or give damping"
-        yield codes.RESONANCE.check("fail", message, off, _NEAR_RESONANCE)
+        what = f"{_harmonic(order, turns)}, resonance without damping"
+        off, fix = abs(ratio / order - 1.0), "change the speed, or give damping"
+        yield codes.RESONANCE.check("fail", what, off, _NEAR_RESONANCE, shown=_percent(off), fix=fix)
         return
     # Of a period of several turns, or a motion of which every second harmonic is none, the nearest may be nothing.
     near = [n for n in orders_near(ratio) if abs(ratio / n - 1.0) < _NEAR_RESONANCE]
@@ -92,16 +89,16 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     if not strong:
         off = abs(ratio / order - 1.0)
         side: Side = ">=" if off >= _NEAR_RESONANCE else ""  # else one too weak to matter
-        text = _nearness("nearest harmonic", order, turns, off)
-        yield codes.RESONANCE.check("pass", text, off, _NEAR_RESONANCE, side=side)
+        shown = _percent(off, limited=off >= _NEAR_RESONANCE)
+        yield codes.RESONANCE.check("pass", _harmonic(order, turns), off, _NEAR_RESONANCE, side=side, shown=shown)
         return
     found = min(strong, key=lambda n: abs(ratio / n - 1.0))
     off = abs(ratio / found - 1.0)
-    text = _nearness("nearest harmonic" if found == order else "harmonic", found, turns, off)
     # from the fifth harmonic on the next one is as near, whatever the speed
-    remedy = "change the speed by a tenth" if found < _CLOSE * turns else "stiffen the output, or take a smoother law"
-    message = f"{text} and has {100.0 * shares[found]:.3g} % of the greatest: {remedy}"
-    yield codes.RESONANCE.check("warn", message, off, _NEAR_RESONANCE)
+    remedy = "change the speed by 10 %" if found < _CLOSE * turns else "stiffen the output, or take a smoother law"
+    aside = f"{short(100.0 * shares[found], 3)} % of the largest harmonic"
+    what, shown = _harmonic(found, turns), _percent(off)
+    yield codes.RESONANCE.check("warn", what, off, _NEAR_RESONANCE, shown=shown, aside=aside, fix=remedy)
 
 
 def orders_near(ratio: float) -> range:
@@ -116,6 +113,10 @@ def orders_near(ratio: float) -> range:
     return range(max(1, min(low, nearest)), max(high, nearest) + 1)
 
 
-def _nearness(which: str, order: int, turns: int, off: float) -> str:
-    over = f" over {turns} turns" if turns > 1 else ""
-    return f"the {which}, number {order}{over}, lies {100.0 * off:.3g} % off the natural frequency"
+def _harmonic(order: int, turns: int) -> str:
+    over = f" over {turns} revolutions" if turns > 1 else ""
+    return f"distance of harmonic {order}{over} from the natural frequency"
+
+
+def _percent(off: float, *, limited: bool = True) -> Shown:
+    return Shown(100.0 * off, 100.0 * _NEAR_RESONANCE if limited else None, "%", ">=")

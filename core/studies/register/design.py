@@ -12,8 +12,9 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, named
-from gearlink.core.base.report import Check, Status, Table, safely_above
+from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.mechanism.chain import Chain
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.studies.register.gains import Gains, Moves, Output
@@ -334,15 +335,23 @@ class RegisterDesign(Design):
             return
         band, worst = max(self.band), max(self.worst)
         status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
-        text = f"99.73 % of the machines keep +-{band:.4g} mm {self._where}, at worst {worst:.4g} mm"
+        fix = ""
         if status != "pass":
             sign = self.band.index(band)
             first = max(self.budgets[sign].rows, key=lambda row: row.share)
-            text += (
-                f"; {limit:g} mm are allowed: improve {first.source} first ({100 * first.share:.3g} % of the variance)"
-            )
-            text += f", or allow {safely_above(band if status == 'fail' else worst)} mm"
-        yield REGISTER_BUDGET.check(status, text, band, limit, "mm")
+            fix = f"tighten {first.source} ({short(100.0 * first.share, 3)} % of the variance)"
+        yield REGISTER_BUDGET.check(
+            status,
+            f"register error {self._where}, 3 sigma"
+            if status != "warn"
+            else f"register error {self._where}, worst case",
+            band,
+            limit,
+            "mm",
+            shown=Shown(worst, limit, "mm", "<=") if status == "warn" else None,
+            aside=f"worst case {short(worst)} mm" if status != "warn" else f"3 sigma {short(band)} mm",
+            fix=fix,
+        )
 
     @property
     def _where(self) -> str:
@@ -363,13 +372,23 @@ class RegisterDesign(Design):
         start, end = float(self.input_angles[0]), float(self.input_angles[-1])
         inside = [flip for flip in flips if (flip - start) % (2.0 * math.pi) < end - start]
         if not inside:
-            yield BACKLASH_IN_DWELL.check("pass", f"the {self.turning} keeps its sign {self._where}", 0.0, 0.0)
+            what = f"the {self.turning} keeps its sign {self._where}"
+            yield BACKLASH_IN_DWELL.check("pass", what, 0.0, 0.0, shown=NO_NUMBER)
             return
-        places = ", ".join(f"{math.degrees(flip):.6g}" for flip in inside)
-        text = f"the {self.turning} turns at {places} deg {self._where}"
+        places = ", ".join(short(math.degrees(flip)) for flip in inside)
+        what, note = f"the {self.turning} reverses {self._where}", ""
         if self.jump:
-            text += f", where it jumps by {self.jump:.4g} mm"
-        yield BACKLASH_IN_DWELL.check("warn", f"{text}: {self.against_flips}", float(len(inside)), 0.0)
+            note = f"the output jumps by {short(self.jump)} mm there"
+        yield BACKLASH_IN_DWELL.check(
+            "warn",
+            what,
+            float(len(inside)),
+            0.0,
+            shown=NO_NUMBER,
+            at=f"{places} deg",
+            fix=self.against_flips,
+            note=note,
+        )
 
     @property
     def against_flips(self) -> str:
@@ -404,7 +423,7 @@ def contribution(source: Scatter, gain: Any) -> Contribution:
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
     """A place that the machine does not have."""
     return NoSolution(
-        f"no place {named(at)} here: give {', '.join(known)} or an input angle in degrees", key="register.at"
+        f"no place {named(at)} here", key="register.at", fix=f"give {', '.join(known)} or an input angle in degrees"
     )
 
 

@@ -60,8 +60,8 @@ class Moves:
             return (Shift(link, tuple(each.name for each in teeth if link in (each.first, each.second))),)
         if source.key in self.errors:
             return self.errors[source.key]
-        message = f"{source.key} does not move {self.words}: leave it out of a register"
-        raise NoSolution(message, key="tolerance.sources")
+        message = f"{source.key} does not move {self.words}"
+        raise NoSolution(message, key="tolerance.sources", fix="leave it out of a register")
 
     def is_vector(self, source: Scatter) -> bool:
         """Whether an error of it has any direction."""

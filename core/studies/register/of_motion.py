@@ -76,8 +76,8 @@ class MotionRegister(RegisterDesign):
         """
         found = self.design.moving
         if found.input.unit != "rad":
-            message = "a register is taken over an input angle: drive a link in place of a slide"
-            raise NoSolution(message, key="drive.slide")
+            message = "a register is taken over an input angle"
+            raise NoSolution(message, key="drive.slide", fix="drive a link in place of a slide")
         return found
 
     @cached_property
@@ -145,8 +145,12 @@ class MotionRegister(RegisterDesign):
             return 1.0
         radius = self.section.radius or self.movable.radius
         if not radius:
-            message = "the output turns: give register.radius (mm), at which its error is measured, or --radius"
-            raise MissingSection(message, key="register.radius")
+            message = "the output turns"
+            raise MissingSection(
+                message,
+                key="register.radius",
+                fix="give register.radius (mm), at which its error is measured, or --radius",
+            )
         return radius
 
     def mechanism(self, input_angle: Reals) -> Mechanism:
@@ -203,7 +207,7 @@ class MotionRegister(RegisterDesign):
         """Circumferential backlash of each mesh on the way [mm]."""
         meshes = tuple(each.name for each in self._at_start.connections if isinstance(each, Toothed))
         if not meshes and self.section.backlash is not None:
-            raise NoSolution("no mesh lies on the way to the output: leave backlash out", key="register.backlash")
+            raise NoSolution("no mesh lies on the way to the output", key="register.backlash", fix="leave backlash out")
         return self.section.backlash_of(meshes)
 
     @cached_property
@@ -211,7 +215,9 @@ class MotionRegister(RegisterDesign):
         """The contacts with cams."""
         found = [each.name for each in self._at_start.connections if isinstance(each, (Contact, SharedContact))]
         if not found:
-            raise NoSolution("no cam lies on the way to the output: leave cam_error out", key="register.cam_error")
+            raise NoSolution(
+                "no cam lies on the way to the output", key="register.cam_error", fix="leave cam_error out"
+            )
         return found
 
     @cached_property

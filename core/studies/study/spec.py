@@ -45,15 +45,15 @@ class VariableSpec(Spec):
                     message = "values goes without from, to, step, points and times: give the one or the others"
                     raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
             if self.log:
-                raise PydanticCustomError("GL111", "values are taken as they are: leave log out", {"key": "log"})
+                raise PydanticCustomError("GL111", "values are taken as they are\nleave log out", {"key": "log"})
             return self
         if self.from_ is None or self.to is None:
             missing = "from" if self.from_ is None else "to"
             raise PydanticCustomError("GL106", "give from and to, or values", {"key": missing})
         if self.step is not None and self.points is not None:
-            raise PydanticCustomError("GL111", "step and points exclude each other: give one", {"key": "points"})
+            raise PydanticCustomError("GL111", "step and points exclude each other\ngive one", {"key": "points"})
         if self.times is not None and self.points is not None:
-            raise PydanticCustomError("GL111", "points goes without times: give step", {"key": "points"})
+            raise PydanticCustomError("GL111", "points goes without times\ngive step", {"key": "points"})
         if self.to < self.from_:
             words = "the range is empty: from {low} is above to {high}; exchange them"
             numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}

@@ -43,8 +43,8 @@ def radial_clearance(bore: float, group: str) -> tuple[float, float]:
         raise NoSolution(f"no clearance group {named(group)}: ISO 5753-1 has {', '.join(GROUPS)}")
     if not 0 < bore <= _BORES[-1]:
         raise NoSolution(
-            f"the table of bearing clearances reaches to a bore of {_BORES[-1]} mm, not {bore:g} mm:"
-            " give clearance: [least, greatest]"
+            f"the table of bearing clearances reaches to a bore of {_BORES[-1]} mm, not {bore:g} mm",
+            fix="give clearance: [least, greatest]",
         )
     least, greatest = _ROWS[bisect_left(_BORES, bore)][GROUPS.index(group)]
     return least / 1000, greatest / 1000

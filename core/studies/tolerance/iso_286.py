@@ -236,8 +236,8 @@ def limit_deviations(size: float, tolerance_class: str) -> tuple[float, float]:
     match = _CLASS.fullmatch(tolerance_class)
     if not match:
         raise NoSolution(
-            f"no tolerance class {named(tolerance_class)}: write a letter a-h, j, js, k, m, n, p, r, s, u"
-            " (capital for a hole) and a grade, as in H7 or g6"
+            f"no tolerance class {named(tolerance_class)}",
+            fix=("write a letter a-h, j, js, k, m, n, p, r, s, u (capital for a hole) and a grade, as in H7 or g6"),
         )
     letter, grade = match[1], int(match[2])
     lower, upper = (_shaft if letter.islower() else _hole)(_size(size), letter, grade)
@@ -265,14 +265,17 @@ def fit_parts(size: float, fit: str) -> tuple[tuple[float, float], tuple[float, 
     """Deviations (lower, upper) of the hole and of the shaft of a fit [mm]."""
     hole, slash, shaft = fit.partition("/")
     if not slash or not hole[:1].isupper() or not shaft[:1].islower():
-        raise NoSolution(f"no fit {named(fit)}: write the hole's class, a slash and the shaft's class, as in H7/g6")
+        raise NoSolution(
+            f"no fit {named(fit)}", fix="write the hole's class, a slash and the shaft's class, as in H7/g6"
+        )
     return limit_deviations(size, hole), limit_deviations(size, shaft)
 
 
 def _size(size: float) -> float:
     if not 0 < size <= GREATEST_SIZE:
         raise NoSolution(
-            f"the tables of ISO 286 reach from above 0 to {GREATEST_SIZE:g} mm, not {size:g} mm: give limits instead"
+            f"the tables of ISO 286 reach from above 0 to {GREATEST_SIZE:g} mm, not {size:g} mm",
+            fix="give limits instead",
         )
     return size
 
@@ -327,7 +330,7 @@ def _hole(size: float, letter: str, grade: int) -> tuple[float, float]:
 def _upper_of_hole(size: float, small: str, grade: int) -> float:
     """ES of K to U: turned about from the shaft's, with the step of the grades where the standard adds it."""
     if small == "k" and grade > 8 and size > 3:
-        raise NoSolution(f"K{grade} is not standardised above 3 mm: use K8 or finer, or JS{grade}")
+        raise NoSolution(f"K{grade} is not standardised above 3 mm", fix=f"use K8 or finer, or JS{grade}")
     if small == "n" and grade > 8:
         return 0.0 if size > 3 else -_cell(_EI["n"], size)
     if small == "m" and grade == 6 and 250 < size <= 315:

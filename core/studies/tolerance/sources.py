@@ -129,7 +129,7 @@ def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatt
             return _gear(key, name, entry, parts, place)
         return _size(key, group, name, entry, spec, parts, place)
     except NoSolution as error:
-        raise _no({"grade": "GL174"}.get(entry.form, "GL173"), error.message, place) from error
+        raise _no({"grade": "GL174"}.get(entry.form, "GL173"), str(error), place) from error
 
 
 def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:

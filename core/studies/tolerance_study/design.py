@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Shown, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.study.faults import WrongStudy
@@ -230,18 +230,21 @@ class ToleranceStudy(Design):
         if target is None:
             return
         good = self.result.good
-        ends = f"{100 * good.low:.5g} to {100 * good.high:.5g} %"
-        text = f"{100 * good.value:.5g} % of the designs as made are good (95 %: {ends})"
-        short = good.low < target
-        if short:
-            text += f", {100 * target:.6g} % are wanted: {self._remedy(good.value, target)}"
-        yield TARGET_YIELD.check("fail" if short else "pass", text, good.low, target)
+        short_of = good.low < target
+        aside = f"95 % interval {100 * good.low:.4g} to {100 * good.high:.4g} %"
+        shown = Shown(100.0 * good.low if short_of else 100.0 * good.value, 100.0 * target, "%", ">=")
+        what = "lower bound of the yield" if short_of else "yield"
+        fix = self._remedy(good.value, target) if short_of else ""
+        note = "the yield may well be reached: too few samples" if short_of and good.high >= target else ""
+        yield TARGET_YIELD.check(
+            "fail" if short_of else "pass", what, good.low, target, shown=shown, aside=aside, fix=fix, note=note
+        )
 
     def _remedy(self, value: float, target: float) -> str:
         """More samples where the yield may well be there, else what to tighten."""
         if value == 1.0:
             needed = math.ceil(math.log(0.05) / math.log(target))
-            return f"none failed, but so few samples prove no more; take --samples {needed}"
+            return f"take --samples {needed}"
         return self._what_to_tighten()
 
     def _what_to_tighten(self) -> str:
@@ -252,10 +255,10 @@ class ToleranceStudy(Design):
         text = min(passes, key=lambda name: passes[name])
         worst = next((one for one in self.problem.requirements if one.text == text), None)
         if worst is None:
-            return f"the check {text} fails most: give it more room in the design"
+            return f"give the check {text}, which fails most, more margin in the design"
         name = next(iter(worst.expression.names), "")
         if name not in self.slopes:
-            return f"the requirement {text} fails most"
+            return f"relax the requirement {text}, which fails most"
         rows = self.slopes[name]
         most = max(range(len(rows)), key=lambda i: rows[i].sigma if math.isfinite(rows[i].sigma) else 0.0)
         return f"tighten {self.problem.sources[most].key}, which adds most to {name}"
@@ -264,8 +267,8 @@ class ToleranceStudy(Design):
         """GL177 where samples do not exist."""
         missing = self.result.missing
         if missing > 0.0:
-            text = f"{100 * missing:.4g} % of the designs as made do not exist: tighten the links, or change the design"
-            yield NO_MECHANISM.check("warn", text, missing, 0.0)
+            what, shown = "manufactured designs that do not exist", Shown(100.0 * missing, 0.0, "%", "<=")
+            yield NO_MECHANISM.check("warn", what, missing, 0.0, shown=shown, fix="tighten the tolerances of the links")
 
     def check_linear_shares(self) -> Iterator[Check]:
         """GL178 for the quantities of requirements whose slopes do not explain their scatter."""
@@ -276,8 +279,9 @@ class ToleranceStudy(Design):
                 continue
             share = sum(row.sigma**2 for row in rows) / self.result.spreads[name].sigma.value ** 2
             if share < _EXPLAINED:
-                text = f"the slopes explain {100 * share:.3g} % of the variance of {name}: ask for --sobol"
-                yield NOT_LINEAR.check("warn", text, share, _EXPLAINED)
+                what = f"variance of {name} that the sensitivities explain"
+                shown = Shown(100.0 * share, 100.0 * _EXPLAINED, "%", ">=")
+                yield NOT_LINEAR.check("warn", what, share, _EXPLAINED, shown=shown, fix="ask for --sobol")
 
 
 def _scatters(spread: Spread) -> bool:

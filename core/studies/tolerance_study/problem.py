@@ -284,7 +284,9 @@ def problem(spec: Any) -> Problem:
     kind = KINDS[data["kind"]]
     if asked not in kind.commands or asked in _ABOUT:
         known = ", ".join(one for one in kind.commands if one not in _ABOUT)
-        raise NoSolution(f"no samples for the command {asked!r} of {kind.name}: take {known}", key="tolerance.command")
+        raise NoSolution(
+            f"no samples for the command {asked!r} of {kind.name}", key="tolerance.command", fix=f"take {known}"
+        )
     try:
         given = Base(data, asked)
         base = _with_links(given)

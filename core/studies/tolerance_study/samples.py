@@ -125,7 +125,7 @@ def _single(made: Problem, row: Mapping[str, Any]) -> Single:
     except Refused as error:
         return Single({}, (), error.key or "kind", str(error))
     except NoSolution as error:
-        return Single({}, (), error.key or "kind", error.message)
+        return Single({}, (), error.key or "kind", str(error))
 
 
 def _extra(made: Problem) -> Sequence[str]:

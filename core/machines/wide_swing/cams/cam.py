@@ -11,6 +11,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.cams.contact import (
     contact_end,
     fitting_roller,
@@ -98,9 +99,14 @@ class WideSwingCam:
         if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
-                f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker needs more "
-                f"than 1: reduce {self.angle_words} below {safely_below(limit)} deg, best to "
-                f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
+                (
+                    f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker "
+                    "needs more than 1"
+                ),
+                fix=(
+                    f"reduce {self.angle_words} below {safely_below(limit)} deg, best to "
+                    f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
+                ),
             )
 
     @property
@@ -215,7 +221,7 @@ class WideSwingCam:
         """
         p, q = self.cusp
         if q <= 0.0:
-            raise NoSolution(self._loop_message(q))
+            raise self._loop(q)
         return q * self.roller_radius / (p * p * self.cycle_angle)
 
     @cached_property
@@ -260,13 +266,10 @@ class WideSwingCam:
         inside = minimum_over(lambda k: self.curve.loop_measure(self.curve.state(k)), 0.0, 0.499, samples=256).value
         return min(inside, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
 
-    def _loop_message(self, value: float) -> str:
+    def _loop(self, value: float) -> NoSolution:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
-        return (
-            f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce "
-            f"{self.angle_words} to {safely_below(safe)} deg or less, where the arm is no longer than the centre "
-            "distance, or increase the swing or the spring's mounting stretch"
-        )
+        fix = f"reduce {self.angle_words} to {safely_below(safe)} deg or less"
+        return NoSolution(f"the pitch curve has a loop at mid-swing (measure {short(value)}, limit > 0)", fix=fix)
 
     def require_profile(self) -> None:
         """Refuse a profile that does not exist.
@@ -278,16 +281,20 @@ class WideSwingCam:
         """
         if self._middle_gap < 0.0:
             raise NoSolution(
-                f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm and the "
-                "pitch curve has a loop: leave the rocker radius out, or make it at most "
-                f"{safely_below(self.nominal_rocker_radius, 9)} mm"
+                (
+                    f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm "
+                    "and the pitch curve has a loop"
+                ),
+                fix=(f"leave the rocker radius out, or make it at most {safely_below(self.nominal_rocker_radius)} mm"),
             )
         if self.loop_margin <= 0.0:
-            raise NoSolution(self._loop_message(self.loop_margin))
+            raise self._loop(self.loop_margin)
         if self.phase_angle <= 0.0:
             raise NoSolution(
-                f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
-                f"increase {self.angle_words} above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
+                f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0",
+                fix=(
+                    f"increase {self.angle_words} above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
+                ),
             )
 
     @cached_property
@@ -384,9 +391,12 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     """
     least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
     return NoSolution(
-        f"a swing of {math.degrees(swing):.6g} deg is too small to compute a cam with: the roller "
-        f"would hardly leave the cam's own circle; set swing to at least {least} deg",
+        (
+            f"a swing of {math.degrees(swing):.6g} deg is too small to compute a cam with: the roller "
+            "would hardly leave the cam's own circle"
+        ),
         key="swing",
+        fix=f"set swing to at least {least} deg",
     )
 
 

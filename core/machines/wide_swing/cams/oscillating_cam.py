@@ -286,8 +286,8 @@ class OscillatingCam:
         """
         if self.loop_margin <= 0.0:
             raise NoSolution(
-                f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0): "
-                "put mid-swing nearer to the cam's largest speed by changing the link lengths"
+                (f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0)"),
+                fix="put mid-swing nearer to the cam's largest speed by changing the link lengths",
             )
 
     def points(self, k: Reals) -> CamPoints:

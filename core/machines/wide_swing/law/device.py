@@ -48,8 +48,8 @@ class Spring:
         _require_pivot_ratio(self.pivot_ratio)
         if not 0.0 <= self.stretch_ratio < math.inf:
             raise NoSolution(
-                f"stretch ratio {self.stretch_ratio:.6g}: the spring is slack at mid-swing; "
-                "give it a mounting stretch of at least 0 times its stroke"
+                f"stretch ratio {self.stretch_ratio:.6g}: the spring is slack at mid-swing",
+                fix="give it a mounting stretch of at least 0 times its stroke",
             )
 
 
@@ -59,8 +59,8 @@ Device = Pneumatic | Spring
 def _require_pivot_ratio(ratio: float) -> None:
     if not 1.0 < ratio < math.inf:
         raise NoSolution(
-            f"pivot ratio {ratio:.6g} is not above 1: the base pin must lie outside the circle of the arm; "
-            "increase the pivot distance or reduce the arm"
+            (f"pivot ratio {ratio:.6g} is not above 1: the base pin must lie outside the circle of the arm"),
+            fix="increase the pivot distance or reduce the arm",
         )
 
 
@@ -74,8 +74,8 @@ def require_swing(swing: float) -> None:
     """
     if not 0.0 < swing <= WIDEST_SWING * (1.0 + 1e-14):
         raise NoSolution(
-            f"swing {math.degrees(swing):.6g} deg: it must be above 0 and at most 300 deg; "
-            "reduce it or add a gear stage"
+            f"swing {math.degrees(swing):.6g} deg: it must be above 0 and at most 300 deg",
+            fix="reduce it or add a gear stage",
         )
 
 

@@ -349,9 +349,9 @@ class ElasticLaw:
             if not left.size:
                 return angle
         raise NoSolution(
-            "the law of motion turns over too sharply for its places to be told: raise the pivot ratio, or reduce the "
-            "swing",
+            "the law of motion turns over too sharply for its places to be told",
             key="unloader.pivot_ratio",
+            fix="raise the pivot ratio, or reduce the swing",
         )
 
     @cached_property

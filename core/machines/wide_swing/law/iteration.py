@@ -93,9 +93,9 @@ class _HalfSwing:
         x = 4.0 * self.device.pivot_ratio * product / (longest + length)
         if x < 0.0:
             raise NoSolution(
-                f"the source's iteration leaves the swing, at {a:.6g} of it: give more iteration_steps, "
-                f"or {_otherwise(1)}",
+                f"the source's iteration leaves the swing, at {a:.6g} of it",
                 key="method",
+                fix=f"give more iteration_steps, or {_otherwise(1)}",
             )
         energy = x * ((1.0 + self.device.stretch_ratio) * stroke - 0.5 * x) if isinstance(self.device, Spring) else x
         return math.sqrt(parameter * energy)

@@ -19,7 +19,7 @@ import numpy as np
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.remedies.ways import at_least
-from gearlink.core.base.report import Check, Quantity, Table
+from gearlink.core.base.report import Check, Quantity, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.wide_swing import bodies
@@ -29,7 +29,7 @@ from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.studies.loads import codes, tables, vibration_checks
-from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut
+from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.vibrating import Vibrating
 
@@ -65,37 +65,24 @@ def contact_pressure_of_loads(design: WideSwingLoads) -> Iterator[Check]:
         yield pressed_where_undercut("the roller presses where its cam", allowed)
         return
     rest = design.pressing.hardest_rest
-    text = f"the roller presses with {found:.5g} N/mm^2" + (f" in the {rest.words}" if rest is not None else "")
-    if found > allowed:
-        message = f"{text}, above {allowed:g}: take a wider roller"
-        yield codes.CONTACT_PRESSURE.check("fail", message, found, allowed, "N/mm^2")
-    elif found > _NEAR * allowed:
-        yield codes.CONTACT_PRESSURE.check("warn", f"{text}, little below {allowed:g}", found, allowed, "N/mm^2")
-    else:
-        yield codes.CONTACT_PRESSURE.check("pass", text, found, allowed, "N/mm^2")
+    at = "" if rest is None else f"the {rest.words}"
+    yield pressure_check("contact pressure of the roller", found, allowed, at)
 
 
 def contact_loss_of_loads(design: WideSwingLoads) -> Iterator[Check]:
     """GL608: the device holds the roller on its cam up to the speed of lift-off, and against all that acts besides."""
     speed, limit = design.spec.speed, design.lift_off_speed
-    text = f"the roller leaves its cam at {limit:.5g} rev/min"
-    if limit < speed * (1.0 - 1e-9):
-        message = f"{text}, below the design's {speed:g}: raise unloader.reserve"
-        yield codes.CONTACT_LOSS.check("fail", message, limit, speed, "1/min")
-    else:
-        yield codes.CONTACT_LOSS.check("pass", text, limit, speed, "1/min")
+    status: Status = "fail" if limit < speed * (1.0 - 1e-9) else "pass"
+    fix = "raise unloader.reserve"
+    yield codes.CONTACT_LOSS.check(status, "lift-off speed of the roller", limit, speed, "1/min", fix=fix)
     if not design.own_forces and design.spec.slider is None:
         return
     least = design.least_contact_force
-    text = f"with all that acts the roller presses its cam with at least {least:.5g} N"
-    if least < 0.0:
-        remedy = "raise unloader.reserve, or reduce loads.forces"
-        if design.spec.slider is not None and changes_apart(design):
-            remedy = f"the device changes sides before or after the roller; {side_words(design.spec.slider)}"
-        message = f"{text}: it leaves the profile; {remedy}"
-        yield codes.CONTACT_LOSS.check("fail", message, least, 0.0, "N")
-    else:
-        yield codes.CONTACT_LOSS.check("pass", text, least, 0.0, "N")
+    if design.spec.slider is not None and changes_apart(design):
+        fix = side_words(design.spec.slider)
+    status = "fail" if least < 0.0 else "pass"
+    what, overlap = "minimum contact force of the roller", "contact force lacking: the roller leaves its cam"
+    yield codes.CONTACT_LOSS.check(status, what, least, 0.0, "N", overlap=overlap, fix=fix)
 
 
 def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
@@ -239,8 +226,8 @@ def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table
     if not design.whole:
         if design.spec.slider is not None:
             raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
-        message = "harmonics are those of a whole turn: give cycle in place of cycle_angle"
-        raise MissingSection(message, key="cycle_angle")
+        message = "harmonics are those of a whole turn"
+        raise MissingSection(message, key="cycle_angle", fix="give cycle in place of cycle_angle")
     return tables.harmonics(design, samples)
 
 
@@ -253,8 +240,8 @@ class SwingVibrating(Vibrating):
     def inertia(self) -> float:
         """That of the rocker; with a slider it changes over the stroke, and a stiffness has no frequency."""
         if self.design.spec.slider is not None:
-            message = "with a slider the inertia changes over the stroke: give loads.vibration.frequency in place"
-            raise NoSolution(message, key="loads.vibration.stiffness")
+            message = "with a slider the inertia changes over the stroke"
+            raise NoSolution(message, key="loads.vibration.stiffness", fix="give loads.vibration.frequency in place")
         return super().inertia
 
     @cached_property
@@ -399,7 +386,7 @@ class WideSwingLoads(LoadsDesign):
         has |= dict.fromkeys(("crank", "coupler"), spec.drive is not None)
         for name, given in self.section.links:
             if given is not None and not has.get(name, True):
-                raise NoSolution(f"this mechanism has no {name}: leave its mass out", key=f"loads.links.{name}")
+                raise NoSolution(f"this mechanism has no {name}", key=f"loads.links.{name}", fix="leave its mass out")
         return tuple(name for name in self.links if has.get(name, True))
 
     @property
@@ -451,10 +438,10 @@ class WideSwingLoads(LoadsDesign):
             key, has = f"{name}_direction", getattr(self.spec, name) is not None
             given = getattr(self.section, key) is not None
             if given and not has:
-                raise NoSolution(f"this mechanism has no {name}: leave {key} out", key=f"loads.{key}")
+                raise NoSolution(f"this mechanism has no {name}", key=f"loads.{key}", fix=f"leave {key} out")
             if has and not given and any(self.section.gravity):
-                words = f"the weight depends on which way the {name} stands: give loads.{key}"
-                raise MissingSection(words, key="loads.gravity")
+                words = f"the weight depends on which way the {name} stands"
+                raise MissingSection(words, key="loads.gravity", fix=f"give loads.{key}")
 
     @property
     def own_joints(self) -> list[float]:

@@ -208,7 +208,7 @@ class RatingSpec(Spec):
             raise PydanticCustomError("GL111", message, {"key": "spectrum"})
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
             raise PydanticCustomError(
-                "GL111", "the spectrum carries no load: give a torque above 0", {"key": "spectrum"}
+                "GL111", "the spectrum carries no load\ngive a torque above 0", {"key": "spectrum"}
             )
         for place, (low, high) in enumerate(_WEBS if self.web is not None else ()):
             if self.web is not None and not low <= self.web[place] <= high:

@@ -68,7 +68,7 @@ def thickness_allowances(series: str, diameter: float) -> tuple[float, float]:
     row = bisect_left(_UP_TO, diameter)
     if row == len(_UP_TO):
         raise NoSolution(
-            f"reference diameter {diameter:.6g} mm lies beyond DIN 3967, which ends at 10000 mm: give limits"
+            f"reference diameter {diameter:.6g} mm lies beyond DIN 3967, which ends at 10000 mm", fix="give limits"
         )
     upper = _UPPER[found[2]][row]
     return -upper / 1000.0 + 0.0, -(upper + _TOLERANCE[found[1]][row]) / 1000.0
@@ -93,6 +93,6 @@ def js7(distance: float) -> float:
     row = bisect_left(_JS_UP_TO, distance)
     if row == len(_JS_UP_TO):
         raise NoSolution(
-            f"centre distance {distance:.6g} mm lies beyond js7's table, which ends at 3150 mm: give a number"
+            f"centre distance {distance:.6g} mm lies beyond js7's table, which ends at 3150 mm", fix="give a number"
         )
     return _IT7[row] / 2000.0

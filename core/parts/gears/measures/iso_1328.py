@@ -86,8 +86,8 @@ class ToothTolerances:
         for (name, low, high), size in zip(_RANGES[self.edition], self._sizes, strict=True):
             if not low <= size <= high:
                 raise NoSolution(
-                    f"ISO 1328-1:{self.edition} holds for a {name} of {low:g} to {high:g} mm, not {size:.6g} mm:"
-                    " give the deviation itself"
+                    (f"ISO 1328-1:{self.edition} holds for a {name} of {low:g} to {high:g} mm, not {size:.6g} mm"),
+                    fix="give the deviation itself",
                 )
 
     @property

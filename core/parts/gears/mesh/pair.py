@@ -281,9 +281,11 @@ class GearPair(PitchPair):
     def _specific_sliding_of(self, gear: int) -> float:
         if not self._left_at_root(gear) * self.signs[gear] > 0.0:
             raise NoSolution(
-                f"tip of gear {2 - gear} reaches {-self.interference_margin[1 - gear]:.6g} mm beyond the base tangent "
-                f"point of gear {gear + 1}, where sliding has no bound: lower its profile shift or the addendum, or "
-                "take more teeth"
+                (
+                    f"tip of gear {2 - gear} reaches {-self.interference_margin[1 - gear]:.6g} mm beyond the "
+                    f"base tangent point of gear {gear + 1}, where sliding has no bound"
+                ),
+                fix="lower its profile shift or the addendum, or take more teeth",
             )
         return self._sliding_at_root(gear)
 

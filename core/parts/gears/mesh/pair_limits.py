@@ -35,7 +35,7 @@ def require_profile(pair: GearPair) -> None:
         raise NoSolution(f"pressure angle {degrees:g} deg: it must lie between 0 and 90 deg, usually 20 deg")
     if not 0.0 <= pair.helix_angle < math.pi / 2:
         raise NoSolution(
-            f"helix angle {math.degrees(pair.helix_angle):g} deg: give its magnitude, from 0 to below 90 deg"
+            f"helix angle {math.degrees(pair.helix_angle):g} deg", fix="give its magnitude, from 0 to below 90 deg"
         )
     if not (0.0 < pair.addendum < math.inf and 0.0 <= pair.clearance < math.inf):
         raise NoSolution(
@@ -50,7 +50,7 @@ def _require_teeth(pair: GearPair) -> None:
         if isinstance(z, bool) or not isinstance(z, int) or z == 0:
             raise NoSolution(f"teeth {z!r}: a gear has a whole number of teeth, at least 1")
     if first < 0:
-        raise NoSolution(f"teeth {first!r}: gear 1 is external; name the ring as gear 2", key="teeth[0]")
+        raise NoSolution(f"teeth {first!r}: gear 1 is external", key="teeth[0]", fix="name the ring as gear 2")
     if second < 0 and -second <= first:
         raise NoSolution(
             f"a ring of {-second} teeth does not take a gear of {first}: it needs more teeth", key="teeth[1]"
@@ -85,9 +85,12 @@ def require_distance(pair: GearPair, distance: float) -> None:
         return
     sum_of = "difference" if pair.internal else "sum"
     raise NoSolution(
-        f"centre distance {distance:.6g} mm does not suit gears of {pair.teeth[0]} and "
-        f"{pair.teeth[1]} teeth of module {pair.module:g} mm: the least is the {sum_of} of the base radii, "
-        f"{safely_above(least, 9)} mm; change it or the teeth"
+        (
+            f"centre distance {distance:.6g} mm does not suit gears of {pair.teeth[0]} and "
+            f"{pair.teeth[1]} teeth of module {pair.module:g} mm: the least is the {sum_of} of the "
+            f"base radii, {safely_above(least)} mm"
+        ),
+        fix="change it or the teeth",
     )
 
 
@@ -101,15 +104,20 @@ def require_shift(pair: GearPair) -> None:
     total = pair.shift_sum
     if not pair.internal and not bound <= total < math.inf:
         raise NoSolution(
-            f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} and "
-            f"{pair.teeth[1]} teeth: the sum must be at least {safely_above(bound, 6)}; raise a shift or "
-            "take more teeth"
+            (
+                f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} and "
+                f"{pair.teeth[1]} teeth: the sum must be at least {safely_above(bound)}"
+            ),
+            fix="raise a shift or take more teeth",
         )
     if pair.internal and not -math.inf < total <= bound:
         raise NoSolution(
-            f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} teeth in a ring of "
-            f"{-pair.teeth[1]}: the sum must be at most {safely_below(bound, 6)} (a positive shift thickens the teeth "
-            "of a ring too); lower a shift"
+            (
+                f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} "
+                f"teeth in a ring of {-pair.teeth[1]}: the sum must be at most {safely_below(bound)} "
+                "(a positive shift thickens the teeth of a ring too)"
+            ),
+            fix="lower a shift",
         )
 
 
@@ -121,15 +129,18 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
         return _no_tip_left(pair, gear)
     if pair.teeth[gear] > 0:
         return NoSolution(
-            f"tip radius {tip:.6g} mm of gear {gear + 1} lies below its base radius {base:.6g} mm: "
-            f"no involute is left; raise its profile shift or the addendum by at least {missing:.3g} modules"
+            (
+                f"tip radius {tip:.6g} mm of gear {gear + 1} lies below its base radius {base:.6g} mm: no "
+                "involute is left"
+            ),
+            fix=f"raise its profile shift or the addendum by at least {missing:.3g} modules",
         )
     teeth = least_ring(pair)
-    enough = "" if teeth is None else f"give it at least {teeth} teeth or "
+    fix = f"lower its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
     return NoSolution(
-        f"tip radius {tip:.6g} mm of the ring lies inside its base radius {base:.6g} mm, where there is no involute: "
-        f"{enough}lower its profile shift or its addendum by at least {missing:.3g} modules",
+        f"tip radius {tip:.6g} mm of the ring lies inside its base radius {base:.6g} mm, where there is no involute",
         key="teeth[1]",
+        fix=fix if teeth is None else f"give it at least {teeth} teeth",
     )
 
 
@@ -148,8 +159,14 @@ def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
     distance = pair.center_distance
     fitting = pair.module * distance / pair.reference_center_distance
     return NoSolution(
-        f"no tip is left to gear {gear + 1}: at the centre distance {distance:.6g} mm gears of {first} and {second} "
-        f"teeth of module {pair.module:g} mm take profile shifts with the sum {pair.shift_sum:.3g}, and their tips are "
-        f"shortened by {-pair.tip_alteration[gear]:.3g} modules; bring the distance near to "
-        f"{pair.reference_center_distance:.6g} mm, or take a module near {fitting:.3g} mm or more teeth"
+        (
+            f"no tip is left to gear {gear + 1}: at the centre distance {distance:.6g} mm gears of "
+            f"{first} and {second} teeth of module {pair.module:g} mm take profile shifts with the "
+            f"sum {pair.shift_sum:.3g}, and their tips are shortened by "
+            f"{-pair.tip_alteration[gear]:.3g} modules"
+        ),
+        fix=(
+            f"bring the distance near to {pair.reference_center_distance:.6g} mm, or take a module "
+            f"near {fitting:.3g} mm or more teeth"
+        ),
     )

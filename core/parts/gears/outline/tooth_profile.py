@@ -71,18 +71,21 @@ class ToothProfile:
             raise NoSolution(
                 f"a tool with the addendum {self.tool_addendum:.6g} and the pressure angle "
                 f"{math.degrees(self.pressure_angle):.6g} deg is pointed: addendum and clearance together must stay "
-                f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle), 6)} modules"
+                f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle))} modules"
             )
         most = sharp
         if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
             raise NoSolution(
-                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most, 6)} modules, "
+                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most)} modules, "
                 "a full round"
             )
         if not self._root > 0.0:
             raise NoSolution(
-                f"a gear of {self.teeth} teeth with the profile shift {self.shift:.6g} has no root circle left: take "
-                f"at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or raise the shift"
+                (f"a gear of {self.teeth} teeth with the profile shift {self.shift:.6g} has no root circle left"),
+                fix=(
+                    f"take at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or "
+                    "raise the shift"
+                ),
             )
         if not self._form < self._top:
             remedy = "raise" if self.undercut and not self._top < self.tip_radius / self.module else "lower"

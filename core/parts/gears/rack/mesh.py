@@ -7,18 +7,21 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check, Status
+from gearlink.core.base.report import Check, Rule, Status
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.parts.gears.checks import (
     FILLET_NOISE,
     GEAR_QUANTITIES,
+    Measured,
     contact_check,
     gear_check,
     gear_quantity,
     most_sliding,
+    tip_check,
 )
-from gearlink.core.parts.gears.codes import AT_LIMITS, BACKLASH, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
-from gearlink.core.parts.gears.drawing_checks import drawing_check
+from gearlink.core.parts.gears.codes import AT_LIMITS, FILLET, INTERFERENCE, SLIDING
+from gearlink.core.parts.gears.drawing_checks import backlash_check, drawing_check
 from gearlink.core.parts.gears.drawing_names import RATING
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
@@ -55,7 +58,6 @@ _OWN = frozenset(
 """Quantities that stand here under their own names."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
 _OF_PAIR = ("inspection", "pitting", "bending")
-_NO_BACKLASH = -1e-6
 _USUAL_TIP = 0.15
 
 
@@ -223,7 +225,7 @@ class RackMesh:
         """The findings of a check on gear and rack."""
         if name in _OF_TOOTH:
             found = list(gear_check(name, self.pair, limits, shifts=True))
-            yield from (each for each in found if "gear 1" in each.message)
+            yield from (each for each in found if "gear 1" in each.what)
         if name in _CHECKS:
             yield from _CHECKS[name](self, limits)
         if name in _OF_PAIR:
@@ -237,31 +239,27 @@ class RackMesh:
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
     total = rack.path.total_contact_ratio
     eps = total if rack.pair.helix_angle and total else rack.contact_ratio
-    yield contact_check(eps, limits, "the contact ratio", "take more teeth or less profile shift")
+    yield contact_check(eps, limits, "contact ratio", "take more teeth or less profile shift")
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
-    good, bad = "stays {:.4g} mm short of", "goes {:.4g} mm beyond"
-    words = f"the rack's tip {bad if rack.path.start < 0.0 else good} the base tangent point"
-    yield _judged(INTERFERENCE.check, words, rack.path.start, 0.0)
+    what = "rack's tip {} the base tangent point of gear 1"
+    yield _judged(INTERFERENCE, (what.format("to"), what.format("beyond")), rack.path.start, 0.0)
 
 
 def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
     noise = -FILLET_NOISE * rack.pair.module
     if rack.pair.form_radius[0] is not None:
         margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.path.start > 0.0 else rack.path.start
-        yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
+        yield _judged(FILLET, _contact("the root fillet of gear 1"), margin, noise)
     margin = rack.form_depth - rack.end_depth
-    words = f"contact {_side(margin, noise)} the root rounding of the rack"
-    remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
     if margin >= noise and (corner := _corner_in_rack(rack, noise)):
-        margin = corner.gap
-        words = (
-            "the corner of the tip of gear 1 cuts {:.4g} mm into the root rounding of the rack, "
-            f"{corner.place:.7g} mm below its datum line, outside the path of contact"
-        )
-        remedy = "shorten the tips of gear 1, or take a tool with a smaller rounding for the rack"
-    yield _judged(FILLET.check, words, margin, noise, remedy)
+        what = "cut of the tip corner of gear 1 into the root rounding of the rack"
+        at = f"{short(corner.place)} mm below the datum line"
+        yield _judged(FILLET, (what, what), corner.gap, noise, "shorten the tips of gear 1", at)
+        return
+    fix = "lower the profile shift or the addendum of gear 1"
+    yield _judged(FILLET, _contact("the root rounding of the rack"), margin, noise, fix)
 
 
 def _corner_in_rack(rack: RackMesh, noise: float) -> CornerGap | None:
@@ -273,14 +271,15 @@ def _corner_in_rack(rack: RackMesh, noise: float) -> CornerGap | None:
     return corner.least if near and corner.least.gap < noise else None
 
 
-def _side(margin: float, noise: float) -> str:
-    return "goes {:.4g} mm into" if margin < noise else "stays {:.4g} mm off"
+def _contact(where: str) -> tuple[str, str]:
+    return f"clearance of the contact from {where}", f"contact within {where}"
 
 
 def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
     share, limit = rack.tip_width / rack.pair.module, limits.tip_thickness
-    subject = "the tip width of the rack over the module"
-    yield TIP_THICKNESS.below(share, limit, limit + _USUAL_TIP, "1", subject, "lower the addendum")
+    subject = "tip width of the rack over the module"
+    found = Measured(share, limit, limit + _USUAL_TIP)
+    yield tip_check(found, subject, "the teeth of the rack", "lower the addendum")
 
 
 def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
@@ -288,25 +287,16 @@ def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
     limit = most_sliding(limits)
     if found is None or (limits.sliding is None and abs(found[0]) <= limit):
         return
-    text = f"the specific sliding at the root of gear 1 is {found[0]:.5g}"
-    over = abs(found[0]) > limit
-    if over:
-        text += f", beyond the limit of {limit:g}: raise its profile shift or take more teeth"
-    yield SLIDING.check("warn" if over else "pass", text, abs(found[0]), limit)
+    status: Status = "warn" if abs(found[0]) > limit else "pass"
+    fix = "raise its profile shift or take more teeth"
+    yield SLIDING.check(status, "specific sliding at the root of gear 1", abs(found[0]), limit, fix=fix)
 
 
 def _backlash(rack: RackMesh, limits: Any) -> Iterator[Check]:
     found = rack.backlash_normal
     if found is None:
         return
-    status: Status = "pass"
-    text = f"the theoretical normal backlash is {found[0]:.4g} to {found[1]:.4g} mm"
-    if found[0] < _NO_BACKLASH * rack.pair.module:
-        status = "fail"
-        text += ": gear and rack do not assemble; thin the teeth (allowances) or move the axis away"
-    elif found[0] < limits.backlash:
-        status, text = "warn", f"{text}, below {limits.backlash:g} mm: thin the teeth (allowances)"
-    yield BACKLASH.check(status, text, found[0], limits.backlash, "mm")
+    yield backlash_check(*found, limits.backlash, rack.pair.module, "gear and rack do not assemble")
 
 
 _CHECKS: dict[str, Callable[[RackMesh, Any], Iterator[Check]]] = {
@@ -320,13 +310,13 @@ _CHECKS: dict[str, Callable[[RackMesh, Any], Iterator[Check]]] = {
 
 
 def _judged(
-    make: Any,
-    words: str,
+    rule: Rule,
+    what: tuple[str, str],
     margin: float,
     limit: float,
-    remedy: str = "raise the profile shift of gear 1 or take more teeth",
+    fix: str = "raise the profile shift of gear 1 or take more teeth",
+    at: str = "",
 ) -> Check:
+    """A finding that fails below its limit; `what` is kept, and what goes beyond where the margin is negative."""
     status: Status = "fail" if margin < limit else "pass"
-    text = words.format(abs(margin)) + (f": {remedy}" if status == "fail" else "")
-    check: Check = make(status, text, margin, limit, "mm")
-    return check
+    return rule.check(status, what[0], margin, limit, "mm", overlap=what[1], at=at, fix=fix)

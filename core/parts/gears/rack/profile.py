@@ -56,15 +56,17 @@ class RackProfile:
         self.tool.require_tip(self.pressure_angle)
         if self.tool.residual_undercut:
             raise NoSolution(
-                "the step that a protuberance leaves in a rack depends on the tool and is not known: "
-                "give the rack a tool without one (tool: [{...}, {addendum: ..., rounding: ...}])",
+                "the step that a protuberance leaves in a rack depends on the tool and is not known",
                 key="tool",
+                fix="give the rack a tool without one (tool: [{...}, {addendum: ..., rounding: ...}])",
             )
         if self.tip_width <= 0.0:
-            most = safely_below(math.pi / (4.0 * math.tan(self.pressure_angle)), 6)
-            raise NoSolution(f"the teeth of the rack are pointed: keep its addendum below {most} modules")
+            most = safely_below(math.pi / (4.0 * math.tan(self.pressure_angle)))
+            raise NoSolution("the teeth of the rack are pointed", fix=f"keep its addendum below {most} modules")
         if not self.tool.straight_end(self.pressure_angle) + self.height > 0.0:
-            raise NoSolution("the rounding at the root of the rack leaves no flank: lower the rounding of its tool")
+            raise NoSolution(
+                "the rounding at the root of the rack leaves no flank", fix="lower the rounding of its tool"
+            )
 
     @property
     def tip_width(self) -> float:

@@ -47,7 +47,7 @@ def candidates_table(data: GearData) -> Table:
         try:
             found.append((name, diagonal.split(name, strength_of(data))))
         except NoSolution as error:
-            found.append((name, Split(float("nan"), error.message)))
+            found.append((name, Split(float("nan"), str(error))))
     rows = [_values(data, diagonal, split.first) for _, split in found]
     columns: dict[str, tuple[Column, str]] = {"split": ([name for name, _ in found], "1")}
     for name in _COLUMNS:

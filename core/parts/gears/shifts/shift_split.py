@@ -99,12 +99,14 @@ class Diagonal:
         else:
             high.append(self._where_tip_is(0, math.hypot(base[0], self.line)))
         if not max(low) < min(high):
-            raise NoSolution("no share of the shift sum keeps contact on both involutes: take more teeth")
+            raise NoSolution("no share of the shift sum keeps contact on both involutes", fix="take more teeth")
         return max(low), min(high)
 
     def _require_shares(self) -> None:
         if self.pair.given_tip_radius is not None:
-            raise NoSolution("with given tip diameters sliding and contact do not change with the share: give a number")
+            raise NoSolution(
+                "with given tip diameters sliding and contact do not change with the share", fix="give a number"
+            )
 
     def equal_sliding(self) -> Split:
         """x_1 of equal specific sliding at both roots: rho_A2 rho_E2 = u^2 rho_A1 rho_E1.
@@ -161,8 +163,11 @@ class Diagonal:
         if low > high:
             needed = self.shift_sum + low - high
             raise NoSolution(
-                f"a shift sum of {self.shift_sum:.6g} leaves one of the gears undercut: both are free of it from "
-                f"{safely_above(needed, 6)} on; take a larger centre distance or more teeth"
+                (
+                    f"a shift sum of {self.shift_sum:.6g} leaves one of the gears undercut: both are free of "
+                    f"it from {safely_above(needed)} on"
+                ),
+                fix="take a larger centre distance or more teeth",
             )
         return low, high
 

@@ -87,7 +87,7 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
         base = radius * math.cos(pressure_angle)
         raise NoSolution(
             f"{what} {radius + increase:.6g} mm lies inside the base circle, where there is no involute: "
-            f"it must be at least {safely_above(base, 6)} mm"
+            f"it must be at least {safely_above(base)} mm"
         )
     return rise_between(radius, increase, pressure_angle)
 

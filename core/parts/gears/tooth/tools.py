@@ -59,13 +59,15 @@ class RackTool:
         if most <= 0.0:
             deepest = (math.pi / 4.0 + self.residual_undercut / math.cos(pressure_angle)) / math.tan(pressure_angle)
             raise NoSolution(
-                f"a tool with the addendum {self.addendum:.6g} and the pressure angle "
-                f"{math.degrees(pressure_angle):.6g} deg is pointed: keep the addendum below "
-                f"{safely_below(deepest, 6)} modules"
+                (
+                    f"a tool with the addendum {self.addendum:.6g} and the pressure angle "
+                    f"{math.degrees(pressure_angle):.6g} deg is pointed"
+                ),
+                fix=f"keep the addendum below {safely_below(deepest)} modules",
             )
         raise NoSolution(
             f"tool rounding {self.rounding:.6g} does not fit on a tool with the addendum {self.addendum:.6g}: it must "
-            f"be at most {safely_below(most, 6)} modules, a full round"
+            f"be at most {safely_below(most)} modules, a full round"
         )
 
 

@@ -131,7 +131,7 @@ class TrainKeys(ToothKeys):
         rings = self.rings()
         for key in ("cutter", "assembly"):
             if getattr(self, key) is not None and not any(rings):
-                raise PydanticCustomError("GL111", "{key} goes with a ring gear: leave it out", {"key": key})
+                raise PydanticCustomError("GL111", "{key} goes with a ring gear\nleave it out", {"key": key})
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:

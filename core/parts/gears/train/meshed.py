@@ -136,9 +136,9 @@ class Meshed(GearQuantities, Design):
             rim, root = self.rim_of(name), abs(pair.root_radius[1])
             if pair.internal and rim is not None and rim <= root:
                 raise NoSolution(
-                    f"the rim's radius {rim:g} mm lies within the root circle of the ring gear, {root:.6g} mm: make "
-                    "it larger",
+                    f"the rim's radius {rim:g} mm lies within the root circle of the ring gear, {root:.6g} mm",
                     key="gears.rim",
+                    fix="make it larger",
                 )
         return found
 

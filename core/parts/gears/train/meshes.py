@@ -106,8 +106,8 @@ class Train:
     def _cutter(self, ring: int) -> PinionCutter:
         given = self.keys.cutter
         if given.teeth >= ring:
-            message = f"a cutter of {given.teeth} teeth does not go into a ring of {ring}: take a smaller one"
-            raise NoSolution(message, key="cutter.teeth")
+            message = f"a cutter of {given.teeth} teeth does not go into a ring of {ring}"
+            raise NoSolution(message, key="cutter.teeth", fix="take a smaller one")
         return PinionCutter(**given.model_dump())
 
     def data(self, place: Place, pair: GearPair, rim: float | None = None) -> GearData:

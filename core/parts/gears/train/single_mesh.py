@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import Check, Shown
 from gearlink.core.parts.gears.checks import (
     FILLET_NOISE,
     GEAR_CHECKS,
@@ -61,7 +61,7 @@ def mesh_checks(
             [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts, roles))
         )
     before = f"{label.replace('_', '-')} mesh: " if label else ""
-    return [replace(check, message=before + check.message) for check in _in_ring(name, mesh, limits)]
+    return [replace(check, what=before + check.what) for check in _in_ring(name, mesh, limits)]
 
 
 def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
@@ -81,9 +81,9 @@ def _in_ring(name: str, mesh: GearPair, limits: Any) -> Iterator[Check]:
 
 def _without_involutes(mesh: GearPair) -> Check:
     teeth, margin = least_ring(mesh), mesh.ring_tip_margin
-    remedy = "take a larger pressure angle" if teeth is None else f"it needs at least {teeth} teeth"
-    text = f"the tips of the ring gear cut {-margin:.4g} mm into its base circle, where it has no involute: {remedy}"
-    return INTERFERENCE.check("fail", text, margin, 0.0, "mm")
+    fix = "take a larger pressure angle" if teeth is None else f"give the ring gear at least {teeth} teeth"
+    what = "tips of the ring gear within its base circle"
+    return INTERFERENCE.check("fail", what, margin, 0.0, "mm", overlap=what, aside="no involute there", fix=fix)
 
 
 def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
@@ -98,8 +98,14 @@ def _ring_tips_on_fillet(mesh: GearPair) -> Iterator[Check]:
     if form is None:
         return
     margin, limit = used - form, -FILLET_NOISE * mesh.module
-    text = f"the ring gear's tips touch the planet down to {used:.7g} mm; cut by a standard tool its flank ends at"
-    text += f" {form:.7g} mm"
-    if margin < limit:
-        text += ": shorten the tips of the ring gear, or shift the profiles"
-    yield FILLET.check("warn" if margin < limit else "pass", text, margin, limit, "mm", name=RING_TIPS)
+    yield FILLET.check(
+        "warn" if margin < limit else "pass",
+        "start of the ring gear's contact at the root of the planet",
+        margin,
+        limit,
+        "mm",
+        name=RING_TIPS,
+        shown=Shown(used, form, "mm"),
+        aside="form radius by a standard tool",
+        fix="shorten the tips of the ring gear",
+    )

@@ -17,6 +17,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 
 Triangle: TypeAlias = tuple[float, float, float, float, float, float]
 
@@ -104,11 +105,11 @@ def rocker_rate(reading: Reading, phi: float) -> float:
 def _triangle(reading: Reading, phi: float, order: int) -> Triangle:
     """`triangle`, or the refusal of an angle at which there is none, or no rate."""
     if not math.isfinite(phi):
-        raise NoSolution(refusal(reading, phi, math.nan, math.nan))
+        raise refusal(reading, phi, math.nan, math.nan)
     sin_phi, cc, ss, n2, p, q = triangle(reading, math.sin(0.5 * phi), math.cos(0.5 * phi))
     pq = p * q
     if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
-        raise NoSolution(refusal(reading, phi, p, q))
+        raise refusal(reading, phi, p, q)
     return sin_phi, cc, ss, n2, math.sqrt(pq), 0.5 * (p - q)
 
 
@@ -210,31 +211,31 @@ def closing_range(reading: Reading) -> tuple[float, float]:
     return (low, high) if d > 0.0 else (math.pi - high, math.pi - low)
 
 
-def refusal(reading: Reading, phi: float, p: float, q: float) -> str:
+def refusal(reading: Reading, phi: float, p: float, q: float) -> NoSolution:
     """Why there is no position, or no rate, at this driving angle (p, q: signs of P and Q), and what to change.
 
     Example
         >>> reading = make_reading(150.0, 160.0, 100.0, 300.0, 1)
-        >>> refusal(reading, math.pi / 2, -1.0, 1.0)[:91]
-        'the four-bar does not close at crank angle 90 deg: |BD| = 335.410197 mm is 75.4 mm too long'
+        >>> refusal(reading, math.pi / 2, -1.0, 1.0).message
+        'the four-bar does not close at crank angle 90 deg: BD 335.4 mm is 75.4 mm too long (reach 60 to 260 mm)'
     """
     a, b, c, d = reading[:4]
     driver, ends, far = ("crank", "BD", "rocker") if d > 0.0 else ("rocker", "AC", "crank")
     if not math.isfinite(phi):
-        return f"{driver} angle is {phi!r}; it must be finite"
+        return NoSolution(f"{driver} angle is {phi!r}; it must be finite")
     n = math.hypot((d - a) * math.cos(0.5 * phi), (d + a) * math.sin(0.5 * phi))
-    where = f"at {driver} angle {math.degrees(phi):.9g} deg: |{ends}| = {n:.9g} mm"
-    limits = f"coupler and {far} span {abs(b - c):.9g} to {b + c:.9g} mm"
+    where = f"at {driver} angle {math.degrees(phi):.6g} deg"
     if p < 0.0 or q < 0.0:
         excess = n - (b + c) if p < 0.0 else abs(b - c) - n
-        wrong = f"{max(excess, math.ulp(n)):.3g} mm too {'long' if p < 0.0 else 'short'}"
-        return f"the four-bar does not close {where} is {wrong} ({limits}); {_remedy(reading, driver, far)}"
+        wrong = f"{ends} {short(n)} mm is {max(excess, math.ulp(n)):.3g} mm too {'long' if p < 0.0 else 'short'}"
+        reach = f"reach {short(abs(b - c))} to {short(b + c)} mm"
+        text = f"the four-bar does not close {where}: {wrong} ({reach})"
+        return NoSolution(text, fix=_remedy(reading, driver, far))
     if n == 0.0:
-        return f"the position is not determined {where}; make coupler and {far}, or {driver} and frame, differ"
-    return (
-        f"the four-bar stands in a dead point {where} ({limits}): coupler and {far} align and their rates are "
-        f"not determined; move the {driver} angle off it or change a length"
-    )
+        text = f"the position is not determined {where}"
+        return NoSolution(text, fix=f"make coupler and {far}, or {driver} and frame, differ")
+    text = f"the four-bar is in a dead centre {where}: coupler and {far} are collinear, their rates not determined"
+    return NoSolution(text, fix=f"move the {driver} angle off it or change a length")
 
 
 def _remedy(reading: Reading, driver: str, far: str) -> str:

@@ -64,8 +64,11 @@ def _angle(p: float, q: float, opposite: float) -> float:
     far = (p + q - opposite) * (p + q + opposite)
     if near < 0.0 or far < 0.0:
         raise NoSolution(
-            f"the linkage stands within rounding of a change point (sides {p:.6g}, {q:.6g} and {opposite:.6g} mm "
-            "lie in line): shorten the crank"
+            (
+                f"the linkage stands within rounding of a change point (sides {p:.6g}, {q:.6g} and "
+                f"{opposite:.6g} mm lie in line)"
+            ),
+            fix="shorten the crank",
         )
     return 2.0 * math.atan2(math.sqrt(near), math.sqrt(far))
 
@@ -75,8 +78,11 @@ def _require_full_turn(crank: float, coupler: float, rocker: float, frame: float
     if abs(frame - crank) > least and frame + crank < most:
         return
     raise NoSolution(
-        f"crank {crank:.6g} mm cannot turn fully between coupler {coupler:.6g}, rocker {rocker:.6g} and frame "
-        f"{frame:.6g} mm: |frame - crank| = {abs(frame - crank):.6g} mm must exceed |coupler - rocker| = {least:.6g} "
-        f"mm, frame + crank = {frame + crank:.6g} mm must stay below coupler + rocker = {most:.6g} mm: "
-        "shorten the crank"
+        (
+            f"crank {crank:.6g} mm cannot turn fully between coupler {coupler:.6g}, rocker "
+            f"{rocker:.6g} and frame {frame:.6g} mm: |frame - crank| = {abs(frame - crank):.6g} mm "
+            f"must exceed |coupler - rocker| = {least:.6g} mm, frame + crank = {frame + crank:.6g} mm "
+            f"must stay below coupler + rocker = {most:.6g} mm"
+        ),
+        fix="shorten the crank",
     )

@@ -171,9 +171,12 @@ def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals) -> Reals:
     if not good.all():
         at = np.unravel_index(np.argmin(good), good.shape)
         raise NoSolution(
-            f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
-            f"{math.degrees(phi[at]):.9g} deg: the loop is open by {residual[at]:.3g} mm (limit {limit[at]:.3g} mm) "
-            f"after at most {MOST_ITERATIONS} iterations; the linkage does not close there, or the start lies too far "
-            f"off: take the closed form's position as the start"
+            (
+                f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
+                f"{math.degrees(phi[at]):.6g} deg: the loop is open by {residual[at]:.3g} mm (limit "
+                f"{limit[at]:.3g} mm) after at most {MOST_ITERATIONS} iterations; the linkage does not "
+                "close there, or the start lies too far off"
+            ),
+            fix="take the closed form's position as the start",
         )
     return np.asarray(residual)

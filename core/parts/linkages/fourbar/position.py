@@ -112,7 +112,7 @@ class FourBar:
             thesis (4-3)
         """
         if not self.turns_fully():
-            raise NoSolution(_not_turning(self))
+            raise _not_turning(self)
         at_0 = 2.0 * math.atan2(math.sqrt(self.reading.q_0), math.sqrt(self.reading.p_0))
         at_pi = 2.0 * math.atan2(math.sqrt(self.reading.q_pi), math.sqrt(self.reading.p_pi))
         return at_0, at_pi
@@ -285,13 +285,13 @@ def inverse_reading(linkage: FourBar) -> Reading:
     return make_reading(linkage.rocker, linkage.coupler, linkage.crank, -linkage.frame, -linkage.assembly)
 
 
-def _not_turning(linkage: FourBar) -> str:
-    """Message for a crank that is asked to turn fully and cannot."""
+def _not_turning(linkage: FourBar) -> NoSolution:
+    """The refusal of a crank that is asked to turn fully and cannot."""
     if not closes_somewhere(linkage.reading):
-        return f"the crank does not turn fully: the four-bar {never_closes(linkage.reading)}"
+        return NoSolution(f"the crank does not turn fully: the four-bar {never_closes(linkage.reading)}")
     low, high = (math.degrees(x) for x in closing_range(linkage.reading))
-    return (
+    return NoSolution(
         f"the crank does not turn fully: the {linkage.kind()} of {linkage.crank:g}, {linkage.coupler:g}, "
-        f"{linkage.rocker:g}, {linkage.frame:g} mm closes between {low:.9g} and {high:.9g} deg only; make crank or "
-        f"frame the shortest link, and shortest + longest less than the other two together"
+        f"{linkage.rocker:g}, {linkage.frame:g} mm closes between {low:.6g} and {high:.6g} deg only",
+        fix="change the lengths to a crank-rocker or drag link",
     )

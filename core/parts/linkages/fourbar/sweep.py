@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.linkages.fourbar.loop import Reading, refusal
 from gearlink.core.parts.linkages.fourbar.position import FourBar, inverse_reading
@@ -255,7 +254,7 @@ def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Rea
     good = (product > 0.0) | ((product == 0.0) & (n > 0.0)) if order == 0 else product > 0.0
     if not good.all():
         i = int(np.argmin(good))
-        raise NoSolution(refusal(reading, float(phi[i]), float(p[i]), float(q[i])))
+        raise refusal(reading, float(phi[i]), float(p[i]), float(q[i]))
 
 
 def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 
@@ -249,7 +250,8 @@ def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
     """Message for a crank position at which the rod does not reach the slide line."""
     return (
         f"rod {rod:.6g} mm does not reach the slide line at crank direction {math.degrees(psi):.6g} deg (crank "
-        f"{crank:.6g} mm, offset {offset:.6g} mm): a full turn needs a rod longer than {crank + abs(offset):.6g} mm"
+        f"{crank:.6g} mm, offset {offset:.6g} mm): a full revolution needs a rod longer than "
+        f"{safely_above(crank + abs(offset))} mm"
     )
 
 
@@ -266,8 +268,11 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
         raise NoSolution(f"stroke {stroke:g} mm: it must be positive")
     if not stroke < largest:
         raise NoSolution(
-            f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it must stay below "
-            f"{largest:.9g} mm; shorten it, lengthen the rod or reduce the offset"
+            (
+                f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it "
+                f"must stay below {safely_below(largest)} mm"
+            ),
+            fix="shorten it, lengthen the rod or reduce the offset",
         )
 
 
@@ -287,7 +292,7 @@ def _check_crank(crank: float, rod: float, offset: float) -> None:
     if not e <= difference:
         raise NoSolution(
             f"crank {crank:.6g} mm cannot make a full turn with rod {rod:.6g} mm and offset {offset:.6g} mm: "
-            f"it must not exceed rod less offset, {rod - e:.6g} mm"
+            f"it must not exceed rod less offset, {safely_below(rod - e)} mm"
         )
 
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.base.report import Check, safely_above
-from gearlink.core.base.wording import amount
+from gearlink.core.base.report import NO_NUMBER, Check, Status, safely_above
+from gearlink.core.base.wording import amount, short
 from gearlink.core.studies.loads import checks, codes
 
 if TYPE_CHECKING:
@@ -20,14 +20,22 @@ _LEAST_SHARE = 0.1
 
 def no_width(allowed: float) -> Check:
     """GL607 of a file that allows a pressure, and gives no width."""
-    message = "without a width there is no pressure to hold against the allowed one: give loads.roller: {width: mm}"
-    return codes.CONTACT_PRESSURE.check("warn", message, None, allowed, "N/mm^2")
+    what, fix = "no contact pressure without the width of the roller", "give loads.roller: {width: mm}"
+    return codes.CONTACT_PRESSURE.check("warn", what, None, allowed, "N/mm^2", fix=fix)
 
 
 def pressed_where_undercut(words: str, allowed: float) -> Check:
     """GL607 of a roller that would press where its profile is cut away."""
-    message = f"{words} is undercut, and no pressure holds: enlarge the cam, or take a smaller roller"
-    return codes.CONTACT_PRESSURE.check("fail", message, None, allowed, "N/mm^2")
+    what, fix = f"{words} is undercut: no contact pressure", "enlarge the cam, or take a smaller roller"
+    return codes.CONTACT_PRESSURE.check("fail", what, None, allowed, "N/mm^2", fix=fix)
+
+
+def pressure_check(what: str, found: float, allowed: float, at: str) -> Check:
+    """GL607 of a contact pressure [N/mm^2]."""
+    status: Status = "fail" if found > allowed else "warn" if found > _NEAR * allowed else "pass"
+    fix = "take a wider roller"
+    most = _NEAR * allowed
+    return codes.CONTACT_PRESSURE.check(status, what, found, allowed, "N/mm^2", recommended=most, at=at, fix=fix)
 
 
 def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
@@ -44,15 +52,8 @@ def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
         if extreme is None:
             yield pressed_where_undercut(f"the {name} roller presses where its cam", allowed)
             continue
-        text = f"the {name} roller presses with {extreme.value:.5g} N/mm^2 at {math.degrees(extreme.place):.5g} deg"
-        if extreme.value > allowed:
-            message = f"{text}, above {allowed:g}: take wider rollers"
-            yield codes.CONTACT_PRESSURE.check("fail", message, extreme.value, allowed, "N/mm^2")
-        elif extreme.value > _NEAR * allowed:
-            message = f"{text}, little below {allowed:g}"
-            yield codes.CONTACT_PRESSURE.check("warn", message, extreme.value, allowed, "N/mm^2")
-        else:
-            yield codes.CONTACT_PRESSURE.check("pass", text, extreme.value, allowed, "N/mm^2")
+        at = f"{short(math.degrees(extreme.place))} deg"
+        yield pressure_check(f"contact pressure of the {name} roller", extreme.value, allowed, at)
 
 
 def load_reversal(design: CamLoadsDesign) -> Iterator[Check]:
@@ -66,11 +67,18 @@ def load_reversal(design: CamLoadsDesign) -> Iterator[Check]:
     size = max(abs(high.value) for _, high in design.force_extremes)
     found = [math.degrees(place) for place in places(design.side_force, design.machine, size)]
     if found:
-        text = f"the follower changes cams {amount(len(found), 'time')} over the period, at {checks.listed(found)} deg"
-        message = f"{text}: it strikes there; press both rollers on (loads.roller.preload)"
-        yield codes.LOAD_REVERSAL.check("warn", message, float(len(found)), 0.0)
+        what, fix = "the follower changes cams", "press both rollers on (loads.roller.preload)"
+        yield codes.LOAD_REVERSAL.check(
+            "warn",
+            f"{what} {amount(len(found), 'time')} over the period and strikes there",
+            float(len(found)),
+            0.0,
+            shown=NO_NUMBER,
+            at=f"{checks.listed(found)} deg",
+            fix=fix,
+        )
     else:
-        yield codes.LOAD_REVERSAL.check("pass", "the follower stays on one cam", 0.0, 0.0)
+        yield codes.LOAD_REVERSAL.check("pass", "the follower stays on one cam", 0.0, 0.0, shown=NO_NUMBER)
 
 
 def contact_loss(design: CamLoadsDesign) -> Iterator[Check]:
@@ -81,15 +89,18 @@ def contact_loss(design: CamLoadsDesign) -> Iterator[Check]:
         import numpy as np
 
         mean = design.machine.mean(lambda phi, name=name: np.abs(design.contact_force(name, phi)))  # type: ignore[misc]
-        text = f"the {name} roller presses with at least {low.value:.5g} N, at {math.degrees(low.place):.5g} deg"
-        if low.value < 0.0:
-            message = f"the {name} roller leaves its cam at {math.degrees(low.place):.5g} deg: {design.closing_remedy}"
-            yield codes.CONTACT_LOSS.check("fail", message, low.value, 0.0, "N")
-        elif low.value < _LEAST_SHARE * mean:
-            message = f"{text}, under a tenth of its mean {mean:.5g}: {design.closing_remedy}"
-            yield codes.CONTACT_LOSS.check("warn", message, low.value, 0.0, "N")
-        else:
-            yield codes.CONTACT_LOSS.check("pass", text, low.value, 0.0, "N")
+        status: Status = "fail" if low.value < 0.0 else "warn" if low.value < _LEAST_SHARE * mean else "pass"
+        yield codes.CONTACT_LOSS.check(
+            status,
+            f"minimum contact force of the {name} roller",
+            low.value,
+            0.0,
+            "N",
+            overlap=f"contact force lacking: the {name} roller leaves its cam",
+            recommended=_LEAST_SHARE * mean,
+            at=f"{short(math.degrees(low.place))} deg",
+            fix=design.closing_remedy,
+        )
 
 
 def roller_skid(design: CamLoadsDesign) -> Iterator[Check]:
@@ -100,15 +111,12 @@ def roller_skid(design: CamLoadsDesign) -> Iterator[Check]:
     limit = design.section.roller.friction
     for name, share in zip(design.own_rollers, found, strict=True):
         if share is None:
-            message = f"the {name} roller leaves its cam, where nothing drives it round: press it harder"
-            yield codes.ROLLER_SKID.check("warn", message, None, limit)
+            what, fix = f"the {name} roller leaves its cam, where nothing drives it round", "press it harder"
+            yield codes.ROLLER_SKID.check("warn", what, None, limit, fix=fix)
             continue
-        text = f"the {name} roller needs {share:.3g} of its contact force to be driven round"
-        if share > limit:
-            message = f"{text}, more than the friction {limit:g}: take a lighter roller, or press it harder"
-            yield codes.ROLLER_SKID.check("warn", message, share, limit)
-        else:
-            yield codes.ROLLER_SKID.check("pass", text, share, limit)
+        what = f"friction that drives the {name} roller round, over its contact force"
+        status: Status = "warn" if share > limit else "pass"
+        yield codes.ROLLER_SKID.check(status, what, share, limit, fix="take a lighter roller, or press it harder")
 
 
 def preload(design: CamLoadsDesign) -> Iterator[Check]:
@@ -117,9 +125,6 @@ def preload(design: CamLoadsDesign) -> Iterator[Check]:
     if needed is None or not design.section.roller.preload:
         return
     given = design.section.roller.preload
-    text = f"both rollers stay on their cams with a preload of {needed:.5g} N"
-    if given < needed:
-        message = f"{text}, {given:g} N is given: set loads.roller.preload to {safely_above(needed, 4)}"
-        yield codes.PRELOAD.check("warn", message, given, needed, "N")
-    else:
-        yield codes.PRELOAD.check("pass", text, given, needed, "N")
+    status: Status = "warn" if given < needed else "pass"
+    fix = f"set loads.roller.preload to {safely_above(needed)}"
+    yield codes.PRELOAD.check(status, "preload that holds both rollers on their cams", given, needed, "N", fix=fix)
