@@ -223,10 +223,13 @@ class CamGear(Grooved):
         over = math.floor(top.value / math.pi + _IN_LINE) * math.pi
         if over >= low.value - _IN_LINE:
             raise NoSolution(
-                f"the lever comes in line with its carrier: its angle runs from {math.degrees(low.value):.6g} to "
-                f"{math.degrees(top.value):.6g} deg, over {math.degrees(over):.6g} deg; set lever.angle so that it "
-                "keeps between 0 and 180 deg, or take fewer sun teeth",
+                (
+                    "the lever comes in line with its carrier: its angle runs from "
+                    f"{math.degrees(low.value):.6g} to {math.degrees(top.value):.6g} deg, over "
+                    f"{math.degrees(over):.6g} deg"
+                ),
                 key="lever.angle",
+                fix="set lever.angle so that it keeps between 0 and 180 deg, or take fewer sun teeth",
             )
 
     def path(self, theta: Reals) -> Path:
@@ -315,10 +318,13 @@ class CamLinkage(Grooved):
         open_at = far if far.value >= most else near if near.value <= least else None
         if open_at is not None:
             raise NoSolution(
-                f"coupler and follower do not close at input angle {math.degrees(open_at.place):.6g} deg: B and D are "
-                f"{open_at.value:.6g} mm apart there, it must be between {least:.6g} and {most:.6g} mm; change "
-                "links.coupler or links.follower, or phase",
+                (
+                    f"coupler and follower do not close at input angle {math.degrees(open_at.place):.6g} deg: "
+                    f"B and D are {open_at.value:.6g} mm apart there, it must be between {least:.6g} and "
+                    f"{most:.6g} mm"
+                ),
                 key="links",
+                fix="change links.coupler or links.follower, or phase",
             )
 
     def path(self, theta: Reals) -> Path:

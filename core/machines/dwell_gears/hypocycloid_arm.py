@@ -46,8 +46,11 @@ class SlottedArm:
     def __post_init__(self) -> None:
         if not 0.0 < self.ratio < self.teeth - 1.0:
             raise NoSolution(
-                f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from the planet's "
-                f"axis, not at {self.ratio:g}: choose a place between them"
+                (
+                    f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
+                    f"the planet's axis, not at {self.ratio:g}"
+                ),
+                fix="choose a place between them",
             )
 
     @property

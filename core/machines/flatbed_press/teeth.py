@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import MissingSection, in_section
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import Check, Status
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.flatbed_press.codes import RACK_LENGTH
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, gear_quantity
@@ -115,7 +115,7 @@ class PressTeeth:
         if spec.bed.pinion is not None:
             with in_section("bed.pinion"):
                 for found in self.pinion.checks(name, spec.limits):
-                    yield replace(found, message=f"{PINION}: {found.message}")
+                    yield replace(found, what=f"{PINION}: {found.what}")
 
     def check_racks(self) -> Iterator[Check]:
         """GL346: teeth of both racks against what the travel takes."""
@@ -124,9 +124,10 @@ class PressTeeth:
         for name, has, needs in zip(
             ("lower", "upper"), self.design.spec.bed.rack_teeth, self.least_rack_teeth, strict=True
         ):
-            text = f"the {name} rack has {has} teeth, travel and path of contact take {needs}"
-            text += ": give it more, or leave bed.rack_teeth out" if has < needs else ""
-            yield RACK_LENGTH.check("fail" if has < needs else "pass", text, float(has), float(needs), "teeth")
+            what, aside = f"length of the {name} rack", "travel and path of contact"
+            status: Status = "fail" if has < needs else "pass"
+            fix = f"give it {needs} teeth (bed.rack_teeth)"
+            yield RACK_LENGTH.check(status, what, float(has), float(needs), "teeth", aside=aside, fix=fix)
 
 
 def polygons(design: FlatbedPress, samples: int | None = None) -> dict[str, tuple[Any, str]]:

@@ -12,8 +12,9 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
-from gearlink.core.base.report import Check, Quantity, Status, Table
+from gearlink.core.base.report import Check, Quantity, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.machine import codes
 from gearlink.core.machines.machine.design import Machine, OfMembers
 from gearlink.core.machines.machine.series import MOST_TURNS, OnShaft
@@ -74,10 +75,10 @@ class Felt:
         with in_section(f"members.{self.place.name}.design"):
             found = self.loads.machine
             if found.stroke:
-                raise NoSolution("these loads are those of a stroke: give the whole cycle", key="loads")
+                raise NoSolution("these loads are those of a stroke", key="loads", fix="give the whole cycle")
             if found.friction is not None and self.place.driver is not None:
-                message = "friction of a member behind another depends on how its driver runs: leave it out"
-                raise NoSolution(message, key="loads.friction")
+                message = "friction of a member behind another depends on how its driver runs"
+                raise NoSolution(message, key="loads.friction", fix="leave it out")
             return found
 
     @kept
@@ -257,14 +258,16 @@ class MachineLoads(OfMembers, LoadsDesign):
                     found[name] = member.kind.design("loads", self._spec_of(name))  # type: ignore[assignment]
                     self._refuse_drives(found[name])
         if not found:
-            raise MissingSection("no member has loads: give one of them the section loads", key="members")
+            raise MissingSection("no member has loads", key="members", fix="give one of them the section loads")
         return found
 
     def _refuse_drives(self, made: LoadsDesign) -> None:
         for key in ("motor", "flywheel"):
             if getattr(made.section, key, None) is not None:
-                message = f"the machine has one {key}: give it in loads of the machine, not in those of a member"
-                raise NoSolution(message, key=f"loads.{key}")
+                message = f"the machine has one {key}"
+                raise NoSolution(
+                    message, key=f"loads.{key}", fix="give it in loads of the machine, not in those of a member"
+                )
 
     def _spec_of(self, name: str) -> Any:
         """The spec of a member; one behind another is made at the machine's speed, and moved by its driver."""
@@ -294,7 +297,7 @@ class MachineLoads(OfMembers, LoadsDesign):
     def given_speed(self) -> float:
         """Speed of the main shaft [1/min]."""
         if self.spec.speed is None:
-            raise MissingSection("`loads` needs the speed of the main shaft: give speed (rev/min)", key="speed")
+            raise MissingSection("`loads` needs the speed of the main shaft", key="speed", fix="give speed (rev/min)")
         return self.spec.speed
 
     @property
@@ -316,8 +319,8 @@ class MachineLoads(OfMembers, LoadsDesign):
         """Turns of the main shaft after which everything repeats."""
         found = math.lcm(self.members.turns, *(each.turns for each in self.felt.values()))
         if found > MOST_TURNS:
-            message = f"the loads repeat only after {found} turns, more than {MOST_TURNS}: take simpler ratios"
-            raise NoSolution(message, key="members")
+            message = f"the loads repeat only after {found} turns, more than {MOST_TURNS}"
+            raise NoSolution(message, key="members", fix="take simpler ratios")
         return found
 
     @cached_property
@@ -552,30 +555,31 @@ class MachineLoads(OfMembers, LoadsDesign):
             off = np.abs(orders * self.given_speed / (_SHEETS * frequency) - 1.0)
             off = np.where(whole > _SMALL * top, off, np.inf)
             near = np.flatnonzero(off < _NEAR)
-            text = f"mode {mode} of the main shaft, {frequency:.5g} Hz"
+            what = f"distance of mode {mode} of the main shaft ({short(frequency)} Hz) from harmonics of the torque"
             if not near.size:
-                clear = f"{text}: no harmonic of the torque above 1 % of the largest lies within 10 %"
                 nearest = float(off.min())
                 value = nearest if math.isfinite(nearest) else None
-                yield codes.CRITICAL_SPEED.check("pass", clear, value, _NEAR, side=">=")
+                shown = Shown(None if value is None else 100.0 * value, 100.0 * _NEAR, "%")
+                yield codes.CRITICAL_SPEED.check("pass", what, value, _NEAR, side=">=", shown=shown)
                 continue
             k = int(near[np.argmax(whole[near])])
-            text += f", is met by harmonic {orders[k]:g} of the torque, {whole[k]:.4g} N m, at"
-            text += f" {_SHEETS * frequency / orders[k]:.5g} rev/min: run at another speed, or stiffen the shaft"
-            yield codes.CRITICAL_SPEED.check("warn", text, float(off[k]), _NEAR, side=">=")
+            shown, value = Shown(100.0 * float(off[k]), 100.0 * _NEAR, "%"), float(off[k])
+            aside = f"harmonic {orders[k]:g}, {short(float(whole[k]))} N m"
+            at = f"{short(float(_SHEETS * frequency / orders[k]))} rev/min"
+            fix = "run at another speed, or stiffen the shaft"
+            yield codes.CRITICAL_SPEED.check(
+                "warn", what, value, _NEAR, side=">=", shown=shown, aside=aside, at=at, fix=fix
+            )
 
     def check_machine_speed(self) -> Iterator[Check]:
         """GL533: the machine's speed against what its members bear."""
         if not self.limits:
             return
         first = self.limits[0]
-        text = f"{first.member} bears {first.speed:.6g} rev/min of the main shaft ({first.check})"
-        status: Status = "pass"
-        if self.given_speed > first.speed:
-            status, text = (
-                "fail",
-                f"{text}, the machine turns at {self.given_speed:g}: run slower, or mend it",
-            )
-        elif self.given_speed > _NEAR_LIMIT * first.speed:
-            status, text = "warn", f"{text}, little above the machine's {self.given_speed:g}"
-        yield codes.MACHINE_SPEED.check(status, text, self.given_speed, first.speed, "1/min")
+        speed, most = self.given_speed, _NEAR_LIMIT * first.speed
+        status: Status = "fail" if speed > first.speed else "warn" if speed > most else "pass"
+        what, aside = "speed of the main shaft", f"{first.member}, {first.check}"
+        fix = f"run at {safely_below(most)} 1/min or less"
+        yield codes.MACHINE_SPEED.check(
+            status, what, speed, first.speed, "1/min", side="<=", recommended=most, aside=aside, fix=fix
+        )

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, in_section
-from gearlink.core.base.report import Check, Status, Table, safely_above
+from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.machine.design import Machine
 from gearlink.core.machines.machine.speeds import speed_changes
-from gearlink.core.studies.tolerance.codes import REGISTER_BUDGET
 
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.loads import MachineLoads
@@ -87,8 +87,8 @@ class RegisterOfMachine(Design):
         with in_section(f"members.{name}.design"):
             member = self.spec.members[name]
             if "register" not in member.kind.commands or not getattr(member.spec, "tolerance", None):
-                message = f"{name} stands in register.chain: give it tolerance: {{sources: {{...}}}}"
-                raise MissingSection(message, key="tolerance.sources")
+                message = f"{name} stands in register.chain"
+                raise MissingSection(message, key="tolerance.sources", fix="give it tolerance: {sources: {...}}")
             register: RegisterDesign = member.kind.design("register", self._spec_of(name, float(own[0]) / place.scale))  # type: ignore[assignment]
             worse = max(register.budgets, key=lambda each: float(each.band.max()))
             moved = float(
@@ -193,14 +193,16 @@ class RegisterOfMachine(Design):
 
     def check_register_budget(self) -> Iterator[Check]:
         """GL520 where the file names what may be lost."""
+        from gearlink.core.studies.register.design import budget_check
+
         limit = self.section.tolerance
         if limit is None:
             return
         status: Status = "fail" if self.band > limit else "warn" if self.worst > limit else "pass"
-        text = f"99.73 % keep +-{self.band:.4g} mm at {self.section.at:g} deg, at worst it is {self.worst:.4g} mm"
+        fix = ""
         if status != "pass":
             table = self.table_budget()
             first, share = f"{table['source'][0]} of {table['member'][0]}", 100.0 * float(table["share"][0])
-            text += f"; {limit:g} mm are allowed: improve {first} first ({share:.3g} % of the variance)"
-            text += f", or allow {safely_above(self.band if status == 'fail' else self.worst)} mm"
-        yield REGISTER_BUDGET.check(status, text, self.band, limit, "mm")
+            fix = f"tighten {first} ({short(share, 3)} % of the variance)"
+        at = f"{short(self.section.at)} deg"
+        yield budget_check(status, "register error", self.band, self.worst, limit, fix, at=at)

@@ -103,7 +103,7 @@ class Member(Spec):
             NoSolution - where its file was not read
         """
         if self.design is None:
-            raise NoSolution(f"the file {self.of} was not read: give its keys under design", key="of")
+            raise NoSolution(f"the file {self.of} was not read", key="of", fix="give its keys under design")
         return self.design
 
     @property

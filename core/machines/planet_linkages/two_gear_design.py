@@ -213,7 +213,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         """The four-bar, with the frame that meets the task of a synthesis."""
         frame = self.spec.links.frame
         if self.seeks and frame is not None:
-            raise NoSolution("links.frame is what this command seeks: leave it out", key="links.frame")
+            raise NoSolution("links.frame is what this command seeks", key="links.frame", fix="leave it out")
         return self.linkage_of(self.sought_frame() if frame is None else frame)
 
     def sought_frame(self) -> float:

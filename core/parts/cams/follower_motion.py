@@ -343,7 +343,7 @@ def _facing(beside: Piece, end: str, key: str, unit: float) -> tuple[float, floa
     given = None if beside.waits is None else getattr(beside.waits.law, end)
     if beside.coefficients or given == "join":
         raise NoSolution(
-            f"{key}: join takes the values of a neighbour that has its own: give it a law, or them", key=key
+            f"{key}: join takes the values of a neighbour that has its own", key=key, fix="give it a law, or them"
         )
     if given is None:
         return beside.ends[("start", "end").index(end)]

@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Check, Shown, Status, Table
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, extremes_over, least_convex_radius
-from gearlink.core.parts.cams.checks import ROLLER_SHARE, is_steep
+from gearlink.core.parts.cams.checks import ROLLER_SHARE, against_curvature, is_steep
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.undercut import undercut
 
@@ -69,7 +70,9 @@ class Groove:
         still = speed <= _STANDS * np.max(np.abs(path.place))
         if np.any(still):
             place = math.degrees(float(theta[int(np.argmax(still))]))
-            raise NoSolution(f"the roller stands still in its groove at input angle {place:.6g} deg: change the motion")
+            raise NoSolution(
+                f"the roller stands still in its groove at input angle {place:.6g} deg", fix="change the motion"
+            )
         return np.asarray(path.first / speed)
 
     def pressure_angle(self, theta: Reals) -> Reals:
@@ -150,25 +153,23 @@ class Groove:
     def check_pressure_angle(self, limit: float, remedy: str) -> Check:
         """GL401; the limit in degrees."""
         value, place = math.degrees(self.steepest.value), math.degrees(self.steepest.place)
-        over = is_steep(value, limit)
-        text = f"the pressure angle in the groove reaches {value:.6g} deg at input angle {place:.5g} deg"
-        text += f", above the limit {limit:g} deg: {remedy}" if over else ""
-        return PRESSURE_ANGLE.check("fail" if over else "pass", text, value, limit, "deg")
+        status: Status = "fail" if is_steep(value, limit) else "pass"
+        what, at = "pressure angle in the groove", f"input angle {short(place)} deg"
+        return PRESSURE_ANGLE.check(status, what, value, limit, "deg", at=at, fix=remedy)
 
     def check_undercut(self, remedy: str) -> Iterator[Check]:
         """GL402 of both walls: the roller against the least radius of the path, and what it cuts elsewhere."""
         for name, found, side in (("inner", self.sharpest, 0), ("outer", self.hollow, 1)):
             share = self.roller_radius / found.value
-            where = f"at input angle {math.degrees(found.place):.5g} deg"
             status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
-            text = f"roller radius {self.roller_radius:g} mm against the least radius {found.value:.6g} mm of the path "
-            text += f"{where}, for the {name} wall"
-            if status != "pass":
-                text += f": take a smaller roller, or {remedy}"
-            else:
+            what, at = f"roller radius, {name} wall", f"input angle {short(math.degrees(found.place))} deg"
+            shown = against_curvature(self.roller_radius, found.value, status)
+            if status == "pass":
                 cut = undercut(self._wall(side), self.roller_radius)
                 if cut.depth > _CUT * self.roller_radius:
-                    place = math.degrees(cut.cam_angle)
-                    status, text = "fail", f"the roller cuts {cut.depth:.4g} mm into the {name} wall at {place:.5g} deg"
-                    text += f": take a smaller roller, or {remedy}"
-            yield CAM_UNDERCUT.check(status, text, share, 1.0)
+                    status, what = "fail", f"cut of the roller into the {name} wall"
+                    shown, at = (
+                        Shown(cut.depth, 0.0, "mm", "<="),
+                        f"input angle {short(math.degrees(cut.cam_angle))} deg",
+                    )
+            yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=remedy)

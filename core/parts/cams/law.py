@@ -84,4 +84,6 @@ def _check_range(name: str, x: Any) -> None:
     else:
         low, high = float(x.min()), float(x.max())
     if not (low >= -_REACH and high <= 1.0 + _REACH):
-        raise NoSolution(f"motion law {name}: x from {low:.9g} to {high:.9g} is outside 0 to 1: reduce it to the phase")
+        raise NoSolution(
+            f"motion law {name}: x from {low:.9g} to {high:.9g} is outside 0 to 1", fix="reduce it to the phase"
+        )

@@ -340,18 +340,7 @@ class RegisterDesign(Design):
             sign = self.band.index(band)
             first = max(self.budgets[sign].rows, key=lambda row: row.share)
             fix = f"tighten {first.source} ({short(100.0 * first.share, 3)} % of the variance)"
-        yield REGISTER_BUDGET.check(
-            status,
-            f"register error {self._where}, 3 sigma"
-            if status != "warn"
-            else f"register error {self._where}, worst case",
-            band,
-            limit,
-            "mm",
-            shown=Shown(worst, limit, "mm", "<=") if status == "warn" else None,
-            aside=f"worst case {short(worst)} mm" if status != "warn" else f"3 sigma {short(band)} mm",
-            fix=fix,
-        )
+        yield budget_check(status, f"register error {self._where}", band, worst, limit, fix)
 
     @property
     def _where(self) -> str:
@@ -536,3 +525,14 @@ def _scattered(own: Sequence[Contribution], points: Reals) -> Any:
 def _band(errors: Reals) -> float:
     ordered = np.sort(np.abs(errors))
     return float(ordered[min(ordered.size - 1, math.ceil(0.9973 * ordered.size) - 1)])
+
+
+def budget_check(
+    status: Status, what: str, band: float, worst: float, limit: float, fix: str, *, at: str = ""
+) -> Check:
+    """GL520 of a band of 3 sigma and a worst case [mm]; a warning is of the worst case alone."""
+    warned = status == "warn"
+    shown = Shown(worst if warned else band, limit, "mm", "<=")
+    aside = f"3 sigma {short(band)} mm" if warned else f"worst case {short(worst)} mm"
+    called = f"{what}, {'worst case' if warned else '3 sigma'}"
+    return REGISTER_BUDGET.check(status, called, band, limit, "mm", shown=shown, aside=aside, at=at, fix=fix)
