@@ -424,6 +424,18 @@ def _no_size(loaded: LoadedFile, model: type[Model], path: KeyPath, value: float
     return loaded.report("GL108", message, path, help=f"allowed: {allowed}" if allowed else "")
 
 
+def _quoted(path: str) -> str:
+    """A path with the names in quotes that are no words; empty where it is none even so.
+
+    Example
+        >>> _quoted("links.first coupler.length"), _quoted("a..b")
+        ('links."first coupler".length', '')
+    """
+    steps = path.split(".")
+    whole = ".".join(step if parse_path(step) else f'"{step}"' for step in steps)
+    return whole if all(steps) and '""' not in whole and parse_path(whole) else ""
+
+
 def _override(argument: str | Keyed) -> Override:
     if isinstance(argument, Keyed):
         path = parse_path(argument.path)
@@ -435,6 +447,8 @@ def _override(argument: str | Keyed) -> Override:
     if not sign or path is None:
         remedy = "write path=value, such as gears.crank=42 or teeth[1]=20"
         message = "no '=' after the path" if not sign else f"{name!r} is no key path"
+        if sign and (quoted := _quoted(name.strip())):
+            remedy = f"quote a name that is no word: --set '{quoted}={text[:40]}'"
         raise DesignFileError([source.report("GL114", message, 0, key=name.strip()[:100], help=remedy)])
     if len(argument) > MAX_BYTES or len(path) > MAX_DEPTH:
         raise DesignFileError([source.report("GL110", "too long or too deep", 0, key=name.strip()[:100])])

@@ -53,7 +53,7 @@ class Pneumatic(Spec):
     """A cylinder under constant pressure."""
 
     type: Literal["pneumatic"] = Field(description="kind of device")
-    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
     extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
         13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
@@ -66,7 +66,7 @@ class SpringDevice(Spec):
     """A tension spring."""
 
     type: Literal["spring"] = Field(description="kind of device")
-    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
     stretch_ratio: Share = Field(description="mounting stretch at mid-swing over the stroke")
     closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
