@@ -132,13 +132,17 @@ def test_no_condition_that_is_met_is_listed():
 def test_an_overlap_is_no_negative_distance():
     found = RULE.check("fail", "gap", -2.5, 0.5, "mm", overlap="interference", at="input angle 0 deg", aside="AD - AB")
     assert found.message == "interference: 2.5 mm (limit <= 0 mm; AD - AB) at input angle 0 deg"
-    assert RULE.check("fail", "gap", 0.25, 0.5, "mm", overlap="interference").message == "gap: 0.25 mm (limit >= 0.5 mm)"
+    assert (
+        RULE.check("fail", "gap", 0.25, 0.5, "mm", overlap="interference").message == "gap: 0.25 mm (limit >= 0.5 mm)"
+    )
 
 
 def test_the_fix_is_the_change_that_was_tried_in_place_of_advice():
     advised = RULE.check("fail", "gap", -1.0, 0.0, "mm", fix="shorten the tips", note="nominal")
     assert advised.lines[1:] == ("fix: shorten the tips", "note: nominal")
-    tried = Check("GL301", "gap", "fail", "gap", remedy=(("gears.output", 39),), advice="shorten the tips", relaxes=True)
+    tried = Check(
+        "GL301", "gap", "fail", "gap", remedy=(("gears.output", 39),), advice="shorten the tips", relaxes=True
+    )
     assert tried.fix == "set gears.output to 39 (relaxes the requirement)"
     assert RULE.check("pass", "gap", 1.0, 0.0, "mm", fix="shorten the tips").fix is None
 
