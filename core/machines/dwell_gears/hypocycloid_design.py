@@ -177,7 +177,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     def cusps(self) -> int:
         """Cusps of the curve, ring teeth over planet teeth."""
         planet, ring = self.planet_teeth, self.ring_teeth
-        if (far := self.spec.point.ratio) >= ring / planet - 1.0:
+        if (far := self.spec.point.ratio) != 1.0 and far >= ring / planet - 1.0:
             most = ring / planet - 1.0
             message = f"point.ratio must lie between 0 and ring/planet - 1 = {most:.6g}, not at {far:g}"
             raise NoSolution(message, key="point.ratio")

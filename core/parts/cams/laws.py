@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.first_half import FirstHalf, Piece
-from gearlink.core.parts.cams.law import Law as Law
+from gearlink.core.parts.cams.motion_law import Law as Law
 from gearlink.core.parts.cams.scca import scca
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import roots_on
-from gearlink.core.parts.cams.law import Law
+from gearlink.core.parts.cams.motion_law import Law
 
 if TYPE_CHECKING:
     from gearlink.core.parts.cams.optimal import Optimum, Wish
