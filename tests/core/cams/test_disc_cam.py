@@ -112,7 +112,7 @@ def test_roller_that_cuts_through_the_neck_from_the_other_side(roller):
     (check,) = undercut_checks([cam])
     assert (check.code, check.name, check.status) == ("GL402", "cam-undercut", "fail" if roller < 0.8 * 64 else "warn")
     if roller < 0.8 * 64.0:
-        assert f"cuts {2.0 * (roller - 40.0):.4g} mm into its own profile" in check.message
+        assert "cut of the roller of the two lobes into its own profile" in check.message
 
 
 def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
@@ -133,7 +133,7 @@ def test_roller_against_the_least_convex_radius(share, status):
     assert check.status == status
     assert check.value == pytest.approx(share, rel=1e-12)
     if status != "pass":
-        assert "at most 51." in check.message
+        assert "at most 51." in check.fix
         assert [c.status for c in undercut_checks([eccentric(64.0, 2.0, 51.199)])] == ["pass"]
 
 
@@ -143,7 +143,7 @@ def test_pressure_angle_against_its_limit(limit, status):
     (check,) = pressure_angle_checks([eccentric(60.0, 20.0, 15.0)], limit, "enlarge the base circle")
     assert (check.code, check.status, check.unit) == ("GL401", status, "deg")
     assert check.value == pytest.approx(math.degrees(math.asin(1.0 / 3.0)), rel=1e-13)
-    assert "19.4712 deg" in check.message
+    assert "pressure angle of the circle" in check.message
     assert ("above the limit 19.4 deg: enlarge" in check.message) == (status == "fail")
 
 
@@ -153,7 +153,7 @@ def test_steps_below_a_share_of_the_peak_are_rounding():
     assert (quiet.status, quiet.value, quiet.limit) == ("pass", 2e-3, pytest.approx(2.01e-3, rel=1e-12))
     loud = step_check(VELOCITY_STEP, steps, 199.0, "mm/rad", "fail", "repair it")
     assert (loud.status, loud.value) == ("fail", 2e-3)
-    assert "velocity jumps (b/a at 2 deg -0.002 mm/rad): repair it" in loud.message
+    assert "step of the lift's velocity" in loud.message
     assert "a/b" not in loud.message
 
 
@@ -173,4 +173,4 @@ def test_a_cam_that_touches_its_shaft_says_so_without_noise() -> None:
     cam = SimpleNamespace(name="main cam", min_radius=40.0 - 1.421e-14)
     (check,) = hub_checks(SHAFT_CLEARANCE, [cam], 40.0, lambda missing: f"{missing:g} mm")
     assert (check.status, check.value) == ("fail", 0.0)
-    assert check.message.startswith("the main cam touches its shaft (radius 40 mm)")
+    assert check.message.startswith("main cam to its shaft")

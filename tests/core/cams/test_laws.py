@@ -346,7 +346,7 @@ def test_rounding_past_the_end_is_no_error() -> None:
 def test_refused(definition: object, words: str) -> None:
     with pytest.raises(NoSolution) as caught:
         law(definition)  # type: ignore[arg-type]
-    assert words in caught.value.message
+    assert words in str(caught.value)
 
 
 @pytest.mark.parametrize("x", [-0.01, 1.01, math.nan, np.array([0.5, 1.5]), np.array([0.5, math.nan])])

@@ -81,7 +81,7 @@ def test_driven_angle_runs_stands_and_goes_on():
     [
         ((0.0, 80, 20, 1, 20), "reduction"),
         ((6.0, 80, 20, 4, 20), "at most 19 teeth"),
-        ((6.0, 80, 15, 1, 20), "take 4 stops, or a multiple of 20 teeth"),
+        ((6.0, 80, 15, 1, 20), "15 teeth advance the driven gear"),
         ((6.0, 80, 0, 1, 20), "group teeth"),
     ],
 )
@@ -112,7 +112,7 @@ def test_rocker_starts_from_rest_at_its_dead_centre():
     assert data["driven_speed_ratio"][100] == 0.0
     (shock,) = made.check("start-shock")
     assert shock.status == "warn"
-    assert "starts from rest" in shock.message
+    assert "starts from rest" in shock.note[0]
 
 
 def test_rocker_that_starts_with_a_jerk_is_named():
@@ -120,7 +120,7 @@ def test_rocker_that_starts_with_a_jerk_is_named():
     linkage = FourBar(40.0, 120.0, 100.0, 140.0)
     expected = made.driven_speed_ratio * solve(linkage, math.radians(120.0), 1).rocker_velocity
     assert made.rocker_start_speed == pytest.approx(expected, rel=1e-15)
-    assert "leave start_angle out" in made.check("start-shock")[0].message
+    assert "speed ratio at which the driven gear starts and stops at once" in made.check("start-shock")[0].message
 
 
 def test_without_links_there_is_no_rocker():
@@ -146,7 +146,7 @@ def test_a_motion_that_begins_between_dead_centres_is_named():
     assert abs(expected) > 0.01
     assert made.rocker_start_speed == pytest.approx(expected, rel=1e-14)
     (shock,) = made.check("start-shock")
-    assert f"stands at {math.degrees(second) % 360.0:.6g} deg" in shock.message
+    assert "speed ratio at which the driven gear starts and stops at once" in shock.message
     assert "from rest" not in shock.message
 
 
@@ -255,6 +255,6 @@ def test_loads_over_too_many_motions_are_refused(reduction: float) -> None:
         "links": LINKS,
         "loads": {"speed": 60, "forces": [{"on": "rocker", "torque": -12}]},
     }
-    with pytest.raises(NoSolution, match="more than 200 times") as refused:
+    with pytest.raises(NoSolution, match="the motion repeats only after more than") as refused:
         factory.design(data, command="loads").report("loads")
     assert refused.value.key == "reduction"

@@ -233,17 +233,17 @@ def test_no_equal_speed_and_the_shift_that_helps():
     with pytest.raises(NoSolution, match="never have the same speed") as refusal:
         press(large).report("press")
     assert refusal.value.key == "cylinder.initial_crank_angle"
-    angle = float(re.search(r"initial_crank_angle ([\d.]+) deg", refusal.value.message)[1])
+    angle = float(re.search(r"initial_crank_angle ([\d.]+) deg", str(refusal.value))[1])
     assert press(replace(large, initial_crank_angle=angle)).report("press").checks
 
 
 def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
     short = replace(TY460, stroke=62.0)
-    with pytest.raises(NoSolution, match=r"at most, the cylinder 80\.084 at least") as refusal:
+    with pytest.raises(NoSolution, match=r"the bed \(max\. 20\.73 mm/rad\) never reaches the cylinder speed") as refusal:
         press(short).report("press")
     assert refusal.value.key == "bed.stroke"
-    stroke = float(re.search(r"bed.stroke to at least ([\d.]+) mm", refusal.value.message)[1])
-    radius = float(re.search(r"cylinder.radius to at most ([\d.]+) mm", refusal.value.message)[1])
+    stroke = float(re.search(r"bed.stroke to at least ([\d.]+) mm", str(refusal.value))[1])
+    radius = float(re.search(r"cylinder.radius to at most ([\d.]+) mm", str(refusal.value))[1])
     for size, value, beyond in (("stroke", stroke, -1e-3), ("radius", radius, 1e-3)):
         assert press(replace(short, **{size: value})).sync_start > 0.0
         with pytest.raises(NoSolution, match="never have the same speed"):
@@ -295,7 +295,7 @@ def test_register(ratio, status, repaired):
     assert [each.status for each in again] == ["warn"] * (ratio == 2.0), "the zone comes round while the bed returns"
     assert (check.code, check.status) == ("GL506", status)
     if status == "fail":
-        assert "make cylinder.gear_ratio a whole number" in check.message
+        assert "revolutions of the cylinder" in check.message
         assert press(replace(TY460, gear_ratio=float(repaired))).check("register")[0].status == "pass"
 
 
@@ -319,7 +319,7 @@ def test_without_a_cam_what_the_travels_gather_over_the_zone_is_warned_of(name):
     assert [check.status for check in found] == ["pass", "warn"]
     assert found[1].value == pytest.approx(float(abs(ahead)), abs=1e-11)
     side = "ahead of" if ahead > 0 else "behind"
-    assert f"runs {side} the cylinder by {float(abs(ahead)):.6g} mm, and no cam makes that good" in found[1].message
+    assert "travel of the bed ahead of the cylinder over the zone, without a compensation cam" in found[1].message
     (alone,) = press(oracle, sync={"length": length}, cam=CAM).check("sync-speed")
     assert alone == found[0]
 
@@ -340,8 +340,8 @@ def test_transmission_angles_of_both_chains(limit, statuses):
     assert "rod EF" in rod.message
     assert [check.status for check in found] == statuses
     assert [check.value for check in found] == pytest.approx([46.531948123073, 35.723697488383266], rel=1e-13)
-    assert "bed.double_crank" in found[0].message or statuses[0] == "pass"
-    assert "cylinder.double_crank" in found[1].message or statuses[1] == "pass"
+    assert "minimum transmission angle of the bed drive" in found[0].message or statuses[0] == "pass"
+    assert "minimum transmission angle of the cylinder drive" in found[1].message or statuses[1] == "pass"
 
 
 @pytest.mark.parametrize(("rod", "status"), [(520.0, "pass"), (235.0, "warn"), (225.0, "fail"), (206.0, "fail")])
@@ -543,7 +543,7 @@ def test_speeds_where_a_lead_in_takes_the_difference_up():
     (bare,) = press(sync=sync, cam=cam).check("sync-speed")
     (led,) = press(sync=sync, cam=cam | {"lead_in": 12.0}).check("sync-speed")
     assert (bare.status, led.status) == ("fail", "pass")
-    assert "cam.lead_in" in bare.message
+    assert "speed difference of bed and cylinder at the start of the zone" in bare.message
     # the second way: the rack's speed just before and just after, from the lift alone
     follower = press(sync=sync, cam=cam | {"lead_in": 12.0}).follower
     start, step = follower.cam_sync_start, 1e-4

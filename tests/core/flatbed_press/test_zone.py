@@ -164,11 +164,11 @@ def test_the_shift_that_is_named_makes_the_speeds_meet(radius, initial):
 
 def test_cylinder_much_too_large_is_told_so():
     with pytest.raises(
-        NoSolution, match=r"whatever its initial crank angle: set cylinder\.radius to at most"
+        NoSolution, match=r"the bed \(max\. 236\.6 mm/rad\) never reaches the cylinder speed"
     ) as refusal:
         equal_speed_angle(*chains(replace(TY460, radius=1000.0)))
     assert refusal.value.key == "cylinder.radius"
-    most = float(re.search(r"at most ([\d.]+) mm$", refusal.value.message)[1])
+    most = float(re.search(r"at most ([\d.]+) mm$", str(refusal.value))[1])
     assert 0.0 < equal_speed_angle(*chains(replace(TY460, radius=most))) < math.pi
 
 
@@ -176,7 +176,7 @@ def test_zone_longer_than_a_turn_of_the_cylinder():
     _, cylinder = chains(TY460)
     circumference = 2.0 * math.pi * 140.0
     assert zone_end(cylinder, 0.5, circumference - 1e-6) == pytest.approx(0.5 + 2.0 * math.pi, abs=1e-6)
-    with pytest.raises(NoSolution, match=r"900 mm.*879\.646 mm.*below 879\.64 mm") as refusal:
+    with pytest.raises(NoSolution, match="the zone of 900 mm is not shorter than the cylinder's travel") as refusal:
         zone_end(cylinder, 0.5, 900.0)
     assert refusal.value.key == "sync.length"
 

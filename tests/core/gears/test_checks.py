@@ -88,7 +88,7 @@ def test_pointed_tip_fails_with_a_thickness_below_nothing():
     check = checks("tip-thickness", pair_of((12, 60), (1.2, 0.0)))[0]
     assert (check.code, check.status) == ("GL202", "fail")
     assert check.value < 0.0
-    assert "lower its profile shift" in check.message
+    assert "lower its profile shift" in check.fix
 
 
 @pytest.mark.parametrize(("limit", "below"), [(1.1, ("warn", "fail")), (1.2, ("pass", "warn"))])
@@ -134,7 +134,7 @@ def test_interference_and_sliding_without_bound():
     first, second = checks("involute-interference", pair)
     assert (first.code, first.status, second.status) == ("GL204", "pass", "fail")
     assert second.value == pytest.approx(margin, rel=1e-9)
-    assert "raise the profile shift of gear 1" in second.message
+    assert "raise the profile shift of gear 1" in second.fix
     assert gear_quantity(pair, "specific_sliding") is None
     assert gear_quantity(pair, "contact_ratio") == pair.contact_ratio
 

@@ -439,7 +439,7 @@ def test_parallelogram_keeps_its_digits_next_to_the_change_point(offset: float) 
 def test_change_point_itself_has_a_position_and_no_rates() -> None:
     linkage = FourBar(40.0, 90.0, 40.0, 90.0)
     assert solve(linkage, 0.0).rocker_angle == 0.0
-    with pytest.raises(NoSolution, match="dead point at crank angle 0 deg"):
+    with pytest.raises(NoSolution, match="the four-bar is in a dead centre at crank angle"):
         solve(linkage, 0.0, 1)
     with pytest.raises(NoSolution, match="not determined"):
         solve(FourBar(50.0, 70.0, 70.0, 50.0), 0.0)
@@ -452,7 +452,7 @@ def test_refusal_names_angle_distance_limits_and_remedy() -> None:
     with pytest.raises(NoSolution) as caught:
         solve(DOUBLE_ROCKER, math.radians(75.0))
     for part in ("crank angle 75 deg", "|BD| = 298.67", "60 to 260 mm", "60.0734833 deg", "too long"):
-        assert part in caught.value.message
+        assert part in str(caught.value)
     with pytest.raises(NoSolution, match=r"too short \(coupler and rocker span 60 to 260 mm\)"):
         solve(FourBar(90.0, 160.0, 100.0, 140.0), 0.1)
     with pytest.raises(NoSolution, match=r"rocker angle 10 deg: \|AC\| = .* too long.*between .* deg"):

@@ -195,7 +195,7 @@ def test_start_on_the_wrong_side_is_not_safe_and_its_result_refused() -> None:
 
 
 def test_no_position_beyond_the_limit() -> None:
-    with pytest.raises(NoSolution, match=r"crank angle 74\.4845134 deg: the loop is open by .* mm"):
+    with pytest.raises(NoSolution, match=r"Newton-Raphson found no position of assembly \+1 at crank angle"):
         fourbar_newton.polish(STRETCHING, 1.3, 0.0, 3.0)
     with pytest.raises(NoSolution, match=r"does not close at crank angle"):
         fourbar_newton.solve(STRETCHING, [0.5, 1.0, 1.2])

@@ -122,7 +122,7 @@ def test_a_loop_that_jams_is_refused(asked: Any) -> None:
     with pytest.raises(GearlinkError, match="whole period") as caught:
         design(SWING, command="loads", loads=LOADS, links__coupler_2=100, range=asked).report("loads")
     assert caught.value.key == ("links" if asked is None else "range")
-    assert "range: {" not in caught.value.message
+    assert "range: {" not in str(caught.value)
 
 
 def test_a_range_within_a_turn_that_closes_has_the_loads_of_the_turn() -> None:

@@ -293,7 +293,7 @@ def test_refusals_name_the_cylinder_angle(changes: dict, words: str) -> None:
 def test_the_coupler_that_is_asked_for_closes_the_linkage() -> None:
     with pytest.raises(NoSolution) as refused:
         _ = machine(links__coupler=115.5).linkage
-    missing = float(refused.value.message.split("lengthen input or coupler by ")[1].split()[0])
+    missing = float(str(refused.value).split("lengthen input or coupler by ")[1].split()[0])
     # Rounded to four digits; a tenth of a millimetre more takes it off the dead point.
     assert machine(links__coupler=115.5 + missing + 0.1).linkage.least_transmission[1].value > DEAD_POINT
 

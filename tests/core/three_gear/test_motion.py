@@ -232,7 +232,7 @@ def test_the_remedy_of_a_linkage_is_a_whole_one(links, closing, shortest):
     """Links that Grashof's rule holds for after the longest is shorter may still have the wrong one shortest."""
     with pytest.raises(NoSolution) as caught:
         check_linkage(FourBar(*links))
-    remedy = caught.value.message.rpartition("; ")[2]
+    remedy = str(caught.value).rpartition("; ")[2]
     assert ("shorten the longest link" in remedy, "make crank or frame the shortest" in remedy) == (closing, shortest)
     crank, coupler, rocker, frame = links
     if closing:

@@ -335,7 +335,7 @@ def test_dwell_angle_below_its_limit(idler, limit):
     with pytest.raises(NoSolution, match="out of reach") as refusal:
         beyond.report("synth dwell")
     assert refusal.value.key == "dwell.angle"
-    needed = float(re.search(r"take -i3 above ([\d.]+)", refusal.value.message)[1])
+    needed = float(re.search(r"take -i3 above ([\d.]+)", str(refusal.value))[1])
     more = math.floor(40.0 * needed) + 1
     assert value(design("synth dwell", gears=EQUAL | {"idler": more}, dwell={"angle": limit}), "frame_ratio") > 1.0
 

@@ -167,7 +167,7 @@ class TestRefusals:
     def test_window_beyond_reach_names_what_is_possible(self) -> None:
         with pytest.raises(NoSolution) as caught:
             symmetric.frame_ratio_interval(-1.8, rad(72.0), rad(0.5))
-        words = caught.value.message
+        words = str(caught.value)
         assert "at most over 70.436 deg" in words
         assert "within +-0.53485 deg" in words
         assert "-i3 of at most 1.3052 " in words
@@ -190,7 +190,7 @@ class TestRefusals:
     ) -> None:
         with pytest.raises(NoSolution) as caught:
             symmetric.frame_ratio_interval(i3, rad(window), rad(tolerance))
-        assert words in caught.value.message
+        assert words in str(caught.value)
         ratio = float(words.rpartition(" of at ")[2].split()[1])
         low, high = symmetric.frame_ratio_interval(-ratio, rad(window), rad(tolerance))
         assert low < high
@@ -221,7 +221,7 @@ def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
     with pytest.raises(NoSolution, match="within the limits") as caught:
         _ = refused.linkage
     assert caught.value.key == "gears.idler"
-    longest = float(caught.value.message.rpartition("deg over ")[2].split()[0])
+    longest = float(str(caught.value).rpartition("deg over ")[2].split()[0])
     made = design({**request, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
     assert {check.status for check in made.report("synth dwell").checks} <= {"pass", "warn"}
 
@@ -317,7 +317,7 @@ def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
     with pytest.raises(NoSolution, match="a tolerance of 60 deg is more than these gears reach") as caught:
         refused.report("synth dwell")
     assert caught.value.key == "dwell.tolerance"
-    limit = float(caught.value.message.partition("reach, ")[2].split()[0])
+    limit = float(str(caught.value).partition("reach, ")[2].split()[0])
     less = design({**base, "dwell": {**dwell, "tolerance": limit * (1.0 - 1e-6)}}, command="synth dwell")
     assert less.report("synth dwell").quantities
     more = design({**base, "dwell": {**dwell, "tolerance": limit * (1.0 + 1e-6)}}, command="synth dwell")
@@ -363,6 +363,6 @@ def test_a_long_window_is_refused_by_the_longest_within_the_tolerance() -> None:
     refused = design({**base, "dwell": request}, command="synth dwell")
     with pytest.raises(NoSolution, match="at most over") as caught:
         _ = refused.linkage
-    longest = float(caught.value.message.partition("at most over ")[2].split()[0])
+    longest = float(str(caught.value).partition("at most over ")[2].split()[0])
     made = design({**base, "dwell": {**request, "window": longest}}, command="synth dwell")
     assert made.tolerance_dwell_angle >= math.radians(longest)

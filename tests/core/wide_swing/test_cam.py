@@ -299,6 +299,6 @@ def test_transition_zone_that_fills_the_stroke() -> None:
     wide = replace(cam("twin-cam", 200.0), roller_radius=200.0)
     with pytest.raises(NoSolution, match="make it less than") as refusal:
         _ = wide.max_pressure_angle
-    limit = float(refusal.value.message.split("less than ")[1].split(" mm")[0])
+    limit = float(str(refusal.value).split("less than ")[1].split(" mm")[0])
     assert replace(wide, roller_radius=0.999 * limit).transition_zone < 0.5
     assert replace(wide, roller_radius=1.001 * limit).transition_zone == 0.5

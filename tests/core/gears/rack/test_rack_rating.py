@@ -113,7 +113,7 @@ def test_method_b_takes_the_worst_places_of_the_path() -> None:
 def test_findings_name_the_rack_and_what_it_lacks() -> None:
     (_, weak) = gear({"load": {"torque": 600}}).check("bending")
     assert weak.status == "fail"
-    assert weak.message.startswith("the safety of the rack against breaking")
+    assert weak.message.startswith("the rack: tooth root safety S_F")
     sharp = gear({"tool": [{"addendum": 1.25}, {"addendum": 1.25, "rounding": 0}]})
     steep = gear({"pressure_angle": 31, "addendum": 0.8})
     for made in (sharp, steep):

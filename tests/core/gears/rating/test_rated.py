@@ -314,7 +314,7 @@ def test_what_is_met_by_a_report_alone_needs_no_warning() -> None:
     assert statuses(quiet, "rating-range") == ["pass"]
     (hard,) = rated(rating={"hardness": 500}).check("rating-range")
     assert hard.status == "warn"
-    assert "hardness 500 HV of gear 1, through-hardened MQ has 200 to 360" in hard.message
+    assert "hardness 500 HV of gear 1, through-hardened MQ has 200 to 360" in hard.note[0]
 
 
 def test_resonance_warns_about_it_alone() -> None:
@@ -339,7 +339,7 @@ def test_damage_and_static_limit_on_both_sides() -> None:
     assert "fail" not in statuses(rated(rating=blow), "damage")
     blow["spectrum"][0]["share"] = 1e-9
     blow["spectrum"][1]["share"] = 1.0 - 1e-9
-    assert "exceeds its static limit" in rated(rating=blow).check("damage")[0].message
+    assert "exceeds its static limit" in rated(rating=blow).check("damage")[0].note[0]
 
 
 def test_load_on_one_end_warns_above_2() -> None:
@@ -352,7 +352,7 @@ def test_load_on_one_end_warns_above_2() -> None:
 def test_a_failing_safety_says_what_helps() -> None:
     (first, _) = rated().check("pitting")
     crowned = of("safety_pitting", rating={"face": {"modification": "crowning"}})[0]
-    assert "K_Hb = 1.49 takes 18 % of it" in first.message
+    assert "gear 1: pitting safety S_H" in first.message
     assert f"crowning gives {crowned:.3g}" in first.message
 
 

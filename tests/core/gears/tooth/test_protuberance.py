@@ -107,4 +107,4 @@ def test_contact_on_what_a_protuberance_cut_away_is_found() -> None:
         made = design(spec | {"tool": tool | {"residual_undercut": undercut}})
         found[undercut] = next(check for check in made.check("fillet-interference") if "gear 1" in check.message)
     assert [found[undercut].status for undercut in (0.0, 0.02)] == ["pass", "fail"]
-    assert "take a tool with a smaller residual_undercut" in found[0.02].message
+    assert "start of contact at the root of gear 1" in found[0.02].message
