@@ -18,6 +18,8 @@ from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
 from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.machines.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.parts.gears.checks import GEAR_CHECKS
+from gearlink.core.parts.gears.codes import TRUE_FILLET
+from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed
 from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
@@ -33,6 +35,7 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, sha
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+    from gearlink.core.parts.gears.rating.true_root import TrueRoot
 
 _TURN = 2.0 * math.pi
 _SHOWN_CYCLES = 100
@@ -135,7 +138,8 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         **train_ways(2, *_TEETH),
     }
 
-    extra_tables = ("drawing", "factors", "candidates")
+    extra_tables = ("drawing", "factors", "root", "candidates")
+    beside_tables = {"root": Outline(*BESIDE_ROOT)}
 
     def __init__(self, spec: Any) -> None:
         self.asked = spec
@@ -161,6 +165,54 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         from gearlink.core.machines.dwell_gears.candidates import mutilated
 
         return mutilated(self)
+
+    # The root of the tooth beside a gap
+
+    @cached_property
+    def generated_roots(self) -> tuple[TrueRoot | None, TrueRoot | None]:
+        """The roots of the wheel's tooth beside a gap and of the driven gear; None of one without a flank."""
+        from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
+        from gearlink.core.parts.gears.rating.true_root import end_tooth_root
+
+        data = self.mesh_data[""]
+        return end_tooth_root(data, end_tooth_radius(self.mesh)), data.true_roots[1]
+
+    @property
+    def generated_root_factor(self) -> tuple[float | None, float | None]:
+        """Greatest tension on the generated fillet over F_t/(b m), of the tooth beside a gap and of the driven gear."""
+        one, other = (None if root is None else root.tension.factor for root in self.generated_roots)
+        return one, other
+
+    @property
+    def generated_root_stress(self) -> tuple[float | None, float | None] | None:
+        """The same with the load and its factors [N/mm^2]; None without load or width."""
+        scales = self.mesh_data[""].root_stress_scale
+        if not any(scales):
+            return None
+        one, other = (
+            None if factor is None else factor * scale
+            for factor, scale in zip(self.generated_root_factor, scales, strict=True)
+        )
+        return one, other
+
+    def table_root(self, _samples: int | None = None) -> Table:
+        """Stress along the fillets of the tooth beside a gap and of the driven gear; without load over F_t/(b m)."""
+        from gearlink.core.parts.gears.rating.true_root import root_table
+
+        scales = self.mesh_data[""].root_stress_scale
+        roots = list(zip(("tooth beside the gap", "driven gear"), self.generated_roots, strict=True))
+        return root_table(roots, scales, self.mesh.module)
+
+    def check_true_fillet(self) -> Iterator[Check]:
+        """GL219: the tooth beside a gap has no section in ISO 6336, so the boundary integral alone rates it."""
+        factor = self.generated_root_factor[0]
+        if factor is None:
+            return
+        text = (
+            f"the tooth beside a gap, cut down and loaded at its tip, bears {factor:.4g} F_t/(b m) on its generated "
+            "fillet: the boundary integral is its only rating, ISO 6336 has no section for it"
+        )
+        yield TRUE_FILLET.check("pass", text, factor)
 
     @cached_property
     def mutilated(self) -> MutilatedGear:

@@ -247,7 +247,9 @@ class GearPairDesign(GearQuantities, Design):
 
         self.require_table("root")
         with at_key("rating"):
-            return root_table(self.data)
+            data = self.data
+            roots = [(data.called(gear), root) for gear, root in enumerate(data.true_roots)]
+            return root_table(roots, data.root_stress_scale, data.pair.module)
 
     def table_path(self, samples: int | None = None) -> Table:
         """Sliding, pressure and root stress along the path of contact."""

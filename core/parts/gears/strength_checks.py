@@ -187,6 +187,8 @@ def rating_range(data: GearData, _limits: Any) -> Iterator[Check]:
 
 def _outside(rated: Rated) -> Iterator[str]:
     given, name = rated.conditions, rated.data.called
+    if "material" not in given.given:
+        yield f"no material is named: taken as {' and '.join(dict.fromkeys(steel.of for steel in rated.steels))}"
     for gear, steel in enumerate(rated.steels):
         low, high = steel.kind.range_of(given.quality)
         unit = "HBW" if steel.kind.brinell else "HV"

@@ -36,7 +36,11 @@ def cumulative_pitch(grade: int, module: float, diameter: float, width: float) -
     Source
         ISO 1328-1:2013, 5.3
     """
-    found = ToothTolerances(grade=grade, module=module, diameter=diameter, width=width).cumulative_pitch
+    try:
+        found = ToothTolerances(grade=grade, module=module, diameter=diameter, width=width).cumulative_pitch
+    except NoSolution as error:
+        remedy = "" if "grade" in str(error) else ": give the deviation itself"
+        raise NoSolution(f"{error}{remedy}") from error
     return round(found / 1000, 9)
 
 

@@ -69,7 +69,9 @@ class RootContour:
     rim: float
 
     @classmethod
-    def of(cls, pair: GearPair, gear: int, shift: float, rim: float | None) -> RootContour | None:
+    def of(
+        cls, pair: GearPair, gear: int, shift: float, rim: float | None, tip_radius: float | None = None
+    ) -> RootContour | None:
         """The contour of a gear of a pair; None of a ring whose cutter is not known, and of a tooth that is none.
 
         Parameters
@@ -77,18 +79,20 @@ class RootContour:
             gear : int - 0 or 1
             shift : float [module] - generating shift
             rim : float or None [module] - thickness below the root circle
+            tip_radius : float or None [mm] - of a gear whose tooth is cut down; None: its tip circle
         """
         try:
-            found = cls._ring(pair, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim)
+            found = cls._ring(pair, rim) if pair.teeth[gear] < 0 else cls._gear(pair, gear, shift, rim, tip_radius)
         except NoSolution:
             return None
         return None if found is None or found.is_pointed else found
 
     @classmethod
-    def _gear(cls, pair: GearPair, gear: int, shift: float, rim: float | None) -> RootContour:
+    def _gear(cls, pair: GearPair, gear: int, shift: float, rim: float | None, tip: float | None) -> RootContour:
         turned = math.cos(pair.base_helix_angle) ** 2 * math.cos(pair.helix_angle)
         teeth, tool = pair.teeth[gear] / turned, pair.tool(gear)
-        height = (pair.tip_radius[gear] - pair.reference_radius[gear]) / pair.module
+        top = pair.tip_radius[gear] if tip is None else tip
+        height = (top - pair.reference_radius[gear]) / pair.module
         profile = ToothProfile(
             module=1.0,
             teeth=cast(int, teeth),
@@ -182,8 +186,8 @@ class RootContour:
         start = math.pi / self.teeth - self.at_base if self.ring else self.at_base
         return roll, complex(self.base * (1.0 - 1j * sign * at) * np.exp(1j * (start + sign * roll)))
 
-    def load_patch(self, radius: float) -> tuple[float, float, float]:
-        """Roll angles of begin, middle and end of the load on the flank about a radius."""
+    def load_patch(self, radius: float) -> tuple[float, float]:
+        """Least and greatest roll angle of the load on the flank about a radius."""
         low, high = sorted((self.roll_at(self.form), self.tip_corner[1]))
         middle = min(max(self.roll_at(radius), low), high)
         # arc length of the involute: base roll^2/2
@@ -191,12 +195,12 @@ class RootContour:
         ends = [math.sqrt(max(0.0, middle * middle + 2.0 * side * half)) for side in (-1.0, 1.0)]
         room = 0.02 * (high - low)
         begin, end = max(ends[0], low + room), min(ends[1], high - room)
-        return begin, middle, end
+        return begin, end
 
     def pieces(self, load_radius: float) -> list[tuple[str, Curve, Sequence[float]]]:
         """Names, curves and places of panels from below the tooth counter-clockwise to the middle of its tip."""
         stand = self.standing
-        begin, _, end = sorted(self.load_patch(load_radius))
+        begin, end = self.load_patch(load_radius)
         form, radius = self.roll_at(self.form), self.tip_corner[0]
         roll, center = self.tip_corner[1], self.tip_corner[2]
         flank = [*_between(form, begin if form < roll else end, _FLANK)]

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from gearlink.core.base.errors import at_key
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
@@ -119,16 +120,17 @@ class Bodies:
             NoSolution - outside of the standard's range
         """
         pair, edition = self.path.pair, self.conditions.edition
-        one, other = (
-            ToothTolerances(
-                grade=self.conditions.grades[gear],
-                module=pair.module,
-                diameter=2.0 * abs(pair.reference_radius[gear]),
-                width=self.width,
-                edition=edition,
+        with at_key("rating.grade"):
+            one, other = (
+                ToothTolerances(
+                    grade=self.conditions.grades[gear],
+                    module=pair.module,
+                    diameter=2.0 * abs(pair.reference_radius[gear]),
+                    width=self.width,
+                    edition=edition,
+                )
+                for gear in (0, 1)
             )
-            for gear in (0, 1)
-        )
         return one, other
 
     @cached_property

@@ -8,6 +8,7 @@ stress by 3.5 %, root circles of 2.5 pitches in place of 1 by 1 %.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -154,17 +155,37 @@ def true_root(data: GearData, gear: int) -> TrueRoot | None:
     return TrueRoot(contour, abs(section.load_radius), data.pair.pressure_angle)
 
 
-def root_table(data: GearData) -> Table:
-    """The table `root`: stress along the fillets of the loaded and of the other flank, all load factors in it."""
+def end_tooth_root(data: GearData, tip_radius: float) -> TrueRoot | None:
+    """The root of a tooth of gear 1 beside a gap, cut down to a radius [mm]; None where no flank is left.
+
+    It takes up the load alone, at its tip. Its other side is the root circle, as in any tooth here: locking arcs are
+    not known.
+    """
+    rim = data.rims[0]
+    height = None if rim is None else rim / data.pair.module
+    contour = RootContour.of(data.pair, 0, data.cut_shift[0], height, tip_radius)
+    return None if contour is None else TrueRoot(contour, contour.tip, data.pair.pressure_angle)
+
+
+def root_table(roots: Sequence[tuple[str, TrueRoot | None]], scales: Sequence[float], module: float) -> Table:
+    """The table `root`: stress along the fillets of the loaded and of the other flank, all load factors in it.
+
+    Parameters
+        roots : (name of the gear, its root) in order
+        scales : float [N/mm^2] - F_t/(b m) with all factors of each; all 0 without load: then over F_t/(b m)
+        module : float [mm]
+    """
     rows: list[tuple[str, float, float, float, float]] = []
-    for gear, (found, scale) in enumerate(zip(data.true_roots, data.root_stress_scale, strict=True)):
+    loaded = any(scales)
+    for (name, found), scale in zip(roots, scales if loaded else [1.0] * len(roots), strict=True):
         if found is None:
             continue
         pulled, pressed = (side.ravel() for side in found.stresses)
         shown = sorted({*range(0, pulled.size, _EACH), int(np.argmax(pulled)), int(np.argmin(pressed))})
-        places = found.fillet.ravel()[shown] * data.pair.module
+        places = found.fillet.ravel()[shown] * module
         values = zip(places.real, abs(places.imag), scale * pulled[shown], scale * pressed[shown], strict=True)
-        rows += [(data.called(gear), float(x), float(y), float(one), float(two)) for x, y, one, two in values]
-    names, units = ("gear", "x", "y", "loaded_side", "other_side"), ("", "mm", "mm", "N/mm^2", "N/mm^2")
+        rows += [(name, float(x), float(y), float(one), float(two)) for x, y, one, two in values]
+    unit = "N/mm^2" if loaded else "1"
+    names, units = ("gear", "x", "y", "loaded_side", "other_side"), ("", "mm", "mm", unit, unit)
     columns = zip(*rows, strict=True) if rows else ([] for _ in names)
     return Table("root", names, units, tuple(list(column) for column in columns))

@@ -15,6 +15,7 @@ import pytest
 from factory import design
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
@@ -42,6 +43,9 @@ def rated(rating: Any = (), load: Any = (), **keys: Any) -> Any:
     """The design with changes of its sections."""
     data = PAIR | keys
     data |= {"rating": data["rating"] | dict(rating), "load": data["load"] | dict(load)}
+    for section in (data, data["rating"], data["load"]):
+        for key in [key for key, value in section.items() if value is None]:
+            del section[key]
     return design(data, command="gear")
 
 
@@ -354,6 +358,52 @@ def test_a_failing_safety_says_what_helps() -> None:
     crowned = of("safety_pitting", rating={"face": {"modification": "crowning"}})[0]
     assert "gear 1: pitting safety S_H" in first.message
     assert f"crowning gives {crowned:.3g}" in first.message
+
+
+WRONG: list[tuple[dict[str, Any], str, str]] = [
+    ({"rating": {"material": "42CrM04"}}, "material", "did you mean 42CrMo4"),
+    ({"rating": {"material": "through-hardened"}}, "rating.hardness", "depends on its hardness"),
+    ({"rating": {"material": None}}, "rating.material", "a steel, or both limits"),
+    ({"rating": {"grade": None}}, "rating.grade", "accuracy grade"),
+    ({"rating": {"lubricant": {"vg": 220, "viscosity_40": 220}}}, "viscosity_40", "exclude each other"),
+    ({"rating": {"lubricant": {"vg": 220, "temperature": 80}}}, "viscosity_100", "is missing"),
+    (
+        {"rating": {"lubricant": {"vg": 20, "viscosity_100": 30, "temperature": 8, "scuffing_stage": 9}}},
+        "100",
+        "thinner",
+    ),
+    ({"rating": {"spectrum": [{"share": 0.5}]}}, "spectrum", "add up to 0.5"),
+    ({"rating": {"spectrum": [{"torque": 0.0, "share": 1.0}]}}, "spectrum", "carries no load"),
+    ({"rating": {"web": [0.3, 0.5]}}, "web", "must be from 1 to 30"),
+    (
+        {"rating": {"system": "planet-ring", "planets": 3}},
+        "rating.system",
+        "planet-ring is that of a gear and its ring",
+    ),
+    ({"rating": {"system": "sun-planet"}}, "planets", "needs planets"),
+    ({"rating": {"planets": 3}}, "planets", "leave it out"),
+    ({"rating": {"face": {"misalignment": 5.0, "modification": "crowning"}}}, "modification", "all effects"),
+    ({"rating": {"face": {}}, "load": {"factors": {"face_contact": 1.2}}}, "rating.face", "leave face out"),
+    ({"load": {"speed": None}}, "load.speed", "needs load.speed"),
+    ({"face_width": None}, "face_width", "needs face_width"),
+    ({"material": {"contact_factors": 0.9}}, "material.contact_factors", "leave it out"),
+    ({"teeth": [23, "rack"], "profile_shift": [0.2, 0.0]}, "rating", "gear on a rack"),
+]
+
+
+@pytest.mark.parametrize(("keys", "key", "words"), WRONG, ids=[words for _, _, words in WRONG])
+def test_what_is_missing_or_contradicts_is_refused(keys: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(ValidationError) as refused:
+        rated(**keys)
+    (error,) = refused.value.errors()
+    assert words in error["msg"]
+    assert key in f"{error['loc']}{error.get('ctx', {}).get('key', '')}{error['msg']}"
+
+
+def test_a_gear_beyond_the_tolerances_is_refused_at_its_grade() -> None:
+    with pytest.raises(NoSolution) as refused:
+        of("dynamic_factor", rating={"grade": 12})
+    assert refused.value.key == "rating.grade"
 
 
 def test_without_rating_nothing_of_it_appears() -> None:

@@ -21,6 +21,7 @@ from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
 from gearlink.core.parts.gears.outline import root_contour
 from gearlink.core.parts.gears.outline.root_contour import RootContour
 from gearlink.core.parts.gears.rating.plane_stress import HalfContour, panels
+from gearlink.core.parts.gears.rating.true_root import TrueRoot
 from gearlink.core.parts.gears.tooth.tools import PinionCutter
 
 PAIR: dict[str, Any] = {
@@ -236,3 +237,17 @@ def test_the_standard_s_reading_is_named_beside() -> None:
     iso = made(**RINGS["56"], rating=PAIR["rating"] | {"ring_root": "iso"})
     assert iso.raw("root_fillet_radius")[1] == pytest.approx(22.243, abs=1e-3)
     assert "the shaped ring itself is 13.57 mm" in iso.rests_on("root_fillet_radius")
+
+
+def test_the_tooth_beside_a_gap_is_cut_down_and_loaded_at_its_tip() -> None:
+    gears = {"module": 3, "full_teeth": 80, "group_teeth": 20, "driven": 20}
+    wheel = design({"kind": "mutilated-gear-dwell", "gears": gears, "reduction": 6}, command="gear")
+    ending, driven = wheel.generated_roots
+    assert ending.contour.tip * 3 < wheel.raw("tip_radius")[0]
+    assert ending.load_radius == ending.contour.tip
+    assert wheel.raw("generated_root_factor") == (ending.tension.factor, driven.tension.factor)
+    low = TrueRoot(ending.contour, 0.5 * (ending.contour.form + ending.contour.tip), ending.pressure_angle)
+    assert low.tension.factor < ending.tension.factor
+    (found,) = wheel.check("true-fillet")
+    assert found.code == "GL219"
+    assert "its only rating" in found.message
