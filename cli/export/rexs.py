@@ -121,7 +121,7 @@ def _gear(
     if rated is not None:
         material = model.component("material", rated.steels[i].name, _material(rated, i))
         model.relation("reference", origin=gear, referenced=material)
-    accuracy = () if rated is None else _accuracy(rated, i)
+    accuracy = () if rated is None else tuple(_accuracy(rated, i))
     sides = [
         model.component("cylindrical_gear_flank", f"{name}, {side} flank", iter((*_flank(pair, i), *accuracy)))
         for side in _SIDES

@@ -49,6 +49,7 @@ SCALAR_LINES = [
     "synth back-step designs/thesis_example_1.yaml",
     "synth variable-speed designs/thesis_example_2.yaml",
     "gear designs/ty460_input_gears.yaml",
+    "gear designs/rated_pair.yaml",
     "gear designs/ty460.yaml",
     "crank designs/ty460_slider_crank.yaml",
     "crank designs/ty460.yaml",
@@ -153,6 +154,7 @@ _GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "mac
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (
             "gear designs/ty460_input_gears.yaml",
+    "gear designs/rated_pair.yaml",
             _RINGS | {"parts.gears.measures.backlash", "parts.gears.drawing", "parts.linkages", "parts.cams"},
         ),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "parts.cams"}),

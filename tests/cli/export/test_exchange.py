@@ -40,6 +40,13 @@ UNITS = {
         "sum_of_addendum_modification_coefficients": "none",
         "radial_contact_ratio": "none",
         "common_face_width": "mm",
+        "application_factor_iso_6336_2006": "none",
+        "mesh_load_factor_iso_6336_2006": "none",
+        "dynamic_factor_iso_6336_2006": "none",
+        "face_load_factor_contact_stress_iso_6336_2006": "none",
+        "face_load_factor_root_stress_iso_6336_2006": "none",
+        "transverse_load_factor_contact_stress_iso_6336_2006": "none",
+        "transverse_load_factor_root_stress_iso_6336_2006": "none",
     },
     "cylindrical_gear": {
         "number_of_teeth": "none",
@@ -60,6 +67,7 @@ UNITS = {
         "addendum_modification_coefficient": "none",
         "addendum_modification": "mm",
         "addendum_coefficient_basic_profile": "none",
+        "tolerance_class_according_to_iso_1328_2013": "none",
     },
     "rack_shaped_tool": {
         "normal_module": "mm",
@@ -71,6 +79,15 @@ UNITS = {
         "pitch_diameter": "mm",
         "operating_pressure_angle_in_the_transverse_section": "deg",
         "tip_clearance": "mm",
+        "safety_factor_pitting_iso_6336_2006": "none",
+        "safety_factor_tooth_root_iso_6336_2006": "none",
+    },
+    "material": {
+        "material_designation": "none",
+        "surface_hardness_vickers": "HV",
+        "surface_hardness_brinell": "HB",
+        "allowable_stress_number_contact_iso_6336_2003": "MPa",
+        "nominal_stress_number_tooth_root_iso_6336_2003": "MPa",
     },
 }
 UNITS["ring_gear"] = UNITS["cylindrical_gear"]
@@ -81,6 +98,7 @@ ROLES = {
     "flank": {"gear", "left", "right"},
     "stage_gear_data": {"stage", "gear", "stage_gear_data"},
     "manufacturing_step": {"workpiece", "tool", "manufacturing_settings"},
+    "reference": {"origin", "referenced"},
 }
 
 
@@ -120,6 +138,21 @@ def test_rexs_of_a_ring_and_its_pinion(gearlink: Any, tmp_path: Path) -> None:
     shifts = [v["addendum_modification_coefficient"] for v in values.values() if "addendum_modification" in v]
     assert shifts == ["0.3", "0.3", "-0.1", "-0.1"]
     assert sum(c.attrib["type"] == "rack_shaped_tool" for c in components.values()) == 1  # a rack cuts no ring
+
+
+def test_rexs_of_a_rated_pair_has_material_grade_and_safeties() -> None:
+    made = design("rated_pair", command="gear")
+    components, attributes = _model(as_rexs(made))
+    of_kind = {kind: [c for c in components if components[c].attrib["type"] == kind] for kind in UNITS}
+    steels = [attributes[c]["material_designation"] for c in of_kind["material"]]
+    assert steels == ["16MnCr5", "18CrNiMo7-6"]
+    grades = {attributes[c]["tolerance_class_according_to_iso_1328_2013"] for c in of_kind["cylindrical_gear_flank"]}
+    assert grades == {"6"}
+    data = of_kind["cylindrical_stage_gear_data"]
+    safeties = [float(attributes[c]["safety_factor_pitting_iso_6336_2006"]) for c in data]
+    assert tuple(safeties) == made.safety_pitting
+    (stage,) = of_kind["cylindrical_stage"]
+    assert float(attributes[stage]["dynamic_factor_iso_6336_2006"]) == made.raw("dynamic_factor")
 
 
 def test_an_idler_is_one_gear_of_two_stages(designs: Path) -> None:
