@@ -140,6 +140,12 @@ _SECTIONS = {
     "machines.three_gear.task_spec",
 }
 """Models of sections and keys that most files do not have: making them takes longer than most results."""
+_RATED = {
+    "parts.gears.rating.rated",
+    "parts.gears.rating.sheet",
+    "parts.gears.keys.rating",
+    "parts.gears.rating.materials",
+}
 _GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "machines.three_gear.as_made"}
 
 
@@ -154,8 +160,7 @@ _GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "mac
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (
             "gear designs/ty460_input_gears.yaml",
-    "gear designs/rated_pair.yaml",
-            _RINGS | {"parts.gears.measures.backlash", "parts.gears.drawing", "parts.linkages", "parts.cams"},
+            _RINGS | _RATED | {"parts.gears.measures.backlash", "parts.gears.drawing", "parts.linkages", "parts.cams"},
         ),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "parts.cams"}),
         ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "studies.loads.machine"}),
