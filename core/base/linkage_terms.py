@@ -52,6 +52,16 @@ GEAR_LINKAGE: dict[str, Term] = {
 
 REAL_SPEED: dict[str, Term] = {
     "feed_radius": Term("r_F", "mm", "radius at which the output's angle becomes travel of chain, web or belt"),
+    "feed_ratio": Term("", "1", "speed of the feed's shaft over that of the output, for a step", "thesis 3.3.2"),
+    "feed_teeth": Term("z_F", "1", "teeth of the sprocket that come nearest to a step", "thesis 3.3.2"),
+    "uniform_angle": Term("", "deg", "longest crank angle at a nearly even speed", "thesis 4.2.1; own derivation"),
+    "uniform_start": Term("", "deg", "crank angle at which that stretch starts"),
+    "uniform_ratio": Term("", "1", "level of the speed ratio in that stretch"),
+    "lay_speed": Term("v_L", "mm/s", "greatest speed of the sheet on the last way before the lay", "thesis 3.3.2"),
+    "lay_angle": Term("", "deg", "crank angle at which the sheet arrives at the lay"),
+    "lay_time": Term("", "ms", "time of the last way before the lay"),
+    "arrival_speed": Term("", "mm/s", "speed of the sheet when it arrives at the lay"),
+    "dwell_pole_line_error": Term("", "mm", "distance of A from the line of P13, P35 in standstills; 0", "thesis 4-9"),
     "feed_per_turn": Term("s_F", "mm", "net travel of what is fed per turn of the input", "thesis 3.3.2"),
     "feed_back_step": Term("s_12", "mm", "travel back of web, chain or belt in the back-step"),
     "chain_ripple": Term("1-cos(pi/z)", "1", "share by which a chain's speed falls between two teeth"),

@@ -72,7 +72,7 @@ _PLACED = ("crank", "frame", "balanced")
 _OTHERS = {
     "dwell": (*_PLACED, "window", "tolerance", "margin"),
     "back_step": _PLACED,
-    "speed": _PLACED,
+    "speed": (*_PLACED, "uniform_angle", "uniform_tolerance"),
     "momentary": ("frame", "gap", "balanced"),
     "links": (),
 }
@@ -106,7 +106,9 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
         return False
     if spec.gears.own_teeth or min(spec.gears.crank, spec.gears.output) < 0:  # or a ring gear
         return False
-    if any(getattr(spec, name) is not None for name in ("dwell_backlash", "input_speed")):
+    if any(getattr(spec, name) is not None for name in ("dwell_backlash", "input_speed", "uniform_tolerance")):
+        return False
+    if spec.feed is not None and (spec.feed.step is not None or spec.feed.lay is not None):
         return False
     if any(getattr(section, name) is not None for name in (_PLACED if batch is Windows else _OTHERS[task])):
         return False

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import MissingSection, at_key
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
@@ -15,7 +15,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.three_gear import dwell as dwells
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.machines.three_gear.codes import ratio_judged, tolerance_judged
+from gearlink.core.machines.three_gear.codes import LAY_SPEED, ratio_judged, tolerance_judged
 from gearlink.core.machines.three_gear.dwell import ByRoots, Output
 from gearlink.core.machines.three_gear.momentary import crank_with_room
 from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_for_ratio, tip_radius
@@ -31,7 +31,7 @@ from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
-from gearlink.core.parts.linkages.standstills import BackStep
+from gearlink.core.parts.linkages.standstills import BackStep, Turning, turnings
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
 from gearlink.core.studies.clearance.reach import constant, coupler_joint, crank_pin
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.families import Room
     from gearlink.core.machines.three_gear.spec import Gears, ThreeGearSpec
     from gearlink.core.machines.three_gear.synthesis import Task
+    from gearlink.core.machines.three_gear.uniform import Lay, Uniform
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
@@ -80,6 +81,13 @@ QUANTITIES = (
     "dwell_time",
     "tolerance_dwell_time",
     *FEED_QUANTITIES,
+    "uniform_angle",
+    "uniform_start",
+    "uniform_ratio",
+    "lay_speed",
+    "lay_angle",
+    "lay_time",
+    "arrival_speed",
 )
 CHECKS = (
     "gear-collision",
@@ -88,6 +96,7 @@ CHECKS = (
     "transmission-angle",
     "rounded-ratio",
     "dwell-tolerance",
+    "lay-speed",
     *MESH_CHECKS,
 )
 MESHES = ("crank_idler", "idler_output")
@@ -149,10 +158,10 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         ),
     }
     outlines = {
-        "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
+        "analyze": Outline((*QUANTITIES, "dwell_pole_line_error"), ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline((*MESH_QUANTITIES, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
-    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing", "factors")
+    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "poles", "drawing", "factors")
     ways = WAYS
 
     def __init__(self, spec: Any) -> None:
@@ -175,6 +184,19 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         yield Found("gears.i3", None)
         yield Found("links", {"crank": self.crank_length, "frame": self.frame_length}, by)
         yield from (Found(section, None) for section in ("dwell", "back_step", "speed", "momentary"))
+
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """The speed before a front lay is judged where the file has one."""
+        found, feed = super().judged(command, spec), getattr(spec, "feed", None)
+        return found if feed is not None and feed.lay is not None else tuple(x for x in found if x != "lay-speed")
+
+    def outline(self, command: str) -> Outline:
+        """The speed before a front lay is judged where the file has one."""
+        found, feed = super().outline(command), self.spec.feed
+        if feed is not None and feed.lay is not None:
+            return found
+        return found._replace(checks=tuple(name for name in found.checks if name != "lay-speed"))
 
     # Gears and links
 
@@ -399,6 +421,121 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         pole = Course("mm", lambda mechanism: [_pole(self, mechanism)])
         return motion_table("links", self, [*shown, Shown("pole_x", pole)], samples)
 
+    # Poles, even speed, the front lay
+
+    def pole_places(self, phi: Reals) -> Reals:
+        """Place of P15 on AD from A by the speeds [mm]; NaN where no digit of it is known."""
+        return _pole(self, self.moving.at(phi, 1))
+
+    def table_poles(self, samples: int | None = None) -> Table:
+        """The instant centres over a turn."""
+        from gearlink.core.machines.three_gear.poles import columns
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        return Table.of("poles", columns(self, turn_degrees(samples)))
+
+    @cached_property
+    def dwell_pole_line_error(self) -> list[float] | None:
+        """Distance of A from the line of P13 and P35 in each standstill [mm]; None without one."""
+        if not self.dwell_crank_angles:
+            return None
+        from gearlink.core.machines.three_gear.poles import line_errors
+
+        return line_errors(self)
+
+    def _forwards(self, phi: float) -> float:
+        """Speed ratio in the sense of the mean motion."""
+        return self._way * motion.output_speed(self.linkage, self.train, phi)
+
+    def _turned(self, phi: float) -> float:
+        return self._way * motion.output_angle(self.linkage, self.train, phi)
+
+    @property
+    def _way(self) -> float:
+        return math.copysign(1.0, self.mean_ratio)
+
+    @cached_property
+    def _speed_turnings(self) -> list[Turning]:
+        def bend(phi: float) -> float:
+            return self._way * motion.output_acceleration(self.linkage, self.train, phi)
+
+        return turnings(self._forwards, bend)
+
+    @cached_property
+    def even_stretch(self) -> Uniform | None:
+        """The longest stretch at a nearly even speed, where the file gives a tolerance."""
+        share = self.uniform_tolerance
+        if share is None:
+            return None
+        from gearlink.core.machines.three_gear.uniform import uniform
+
+        return uniform(self._forwards, self._speed_turnings, share)
+
+    @property
+    def uniform_tolerance(self) -> float | None:
+        """Share by which the speed may differ from its level."""
+        return self.spec.uniform_tolerance
+
+    uniform_angle: float | None = placed("even_stretch.angle")
+    uniform_start: float | None = placed("even_stretch.start")
+    uniform_ratio: float | None = placed("even_stretch.level")
+
+    @cached_property
+    def lay(self) -> Lay | None:
+        """The last way before the front lay, where the file asks for one."""
+        feed = self.spec.feed
+        if feed is None or feed.lay is None or self.travel_radius is None:
+            return None
+        from gearlink.core.machines.three_gear.uniform import gentlest, way_before
+
+        given, turned = feed.lay, feed.lay.distance / self.travel_radius
+        with at_key("feed.lay.distance"):
+            if turned >= 2.0 * math.pi * abs(self.mean_ratio):
+                step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
+                raise NoSolution(f"{given.distance:g} mm is the feed of a turn, {step:.6g} mm, or more: give less")
+            if given.angle is None:
+                return gentlest(self._forwards, self._turned, self._speed_turnings, turned)
+            at = math.radians(given.angle)
+            return way_before(self._forwards, self._turned, self._speed_turnings, turned, at)
+
+    @property
+    def lay_speed(self) -> float | None:
+        """Greatest speed of the sheet on the last way before the lay [mm/s]."""
+        return None if self.lay is None else self._of_sheet(self.lay.greatest)
+
+    def _of_sheet(self, ratio: float) -> float | None:
+        return None if self.angular_speed is None else ratio * self.angular_speed * (self.travel_radius or 0.0)
+
+    @property
+    def lay_angle(self) -> float | None:
+        """Crank angle of the arrival [rad]."""
+        return None if self.lay is None else self.lay.end % (2.0 * math.pi)
+
+    @property
+    def _lay_way(self) -> float | None:
+        return None if self.lay is None else self.lay.end - self.lay.start
+
+    lay_time: float | None = per_time("_lay_way", -1)
+
+    @property
+    def arrival_speed(self) -> float | None:
+        """Speed of the sheet at the arrival that the file gives [mm/s]."""
+        feed = self.spec.feed
+        if self.lay is None or feed is None or feed.lay.angle is None:
+            return None
+        return self._of_sheet(self.lay.arrival)
+
+    def check_lay_speed(self) -> Iterator[Check]:
+        """GL341."""
+        found, feed = self.lay_speed, self.spec.feed
+        if found is None or feed is None:
+            return
+        limit = feed.lay.speed
+        over = found > limit * (1.0 + 1e-12)
+        text = f"over the last {feed.lay.distance:g} mm before the lay the sheet reaches {found:.6g} mm/s"
+        text += f", above {limit:g} mm/s: run slower, or choose a drive that is slower there" if over else ""
+        yield LAY_SPEED.check("fail" if over else "pass", text, found, limit, "mm/s")
+
     # Checks
 
     def check_gear_collision(self) -> Iterator[Check]:
@@ -483,7 +620,12 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         return (((room.key, length),) for room in self.window_rooms for length in room.built()) if asked else ()
 
     def check_rounded_ratio(self) -> Iterator[Check]:
-        """GL304 where the file gives i3: whole teeth may change it."""
+        """GL304 where the file gives i3, or a step of a chain without its sprocket: whole teeth may change either."""
+        feed, fed = self.spec.feed, self.feed_per_turn
+        if feed is not None and self.feed_teeth is not None and fed is not None:
+            text = f"a sprocket of {self.feed_teeth} teeth feeds {abs(fed):.6g} mm per turn, {feed.step:g} mm asked for"
+            judged = ratio_judged(abs(fed), feed.step)
+            yield judged.check(text, ": change feed.ratio or pitch, or accept it", name="rounded-ratio")
         asked = self.spec.gears.i3
         if asked is None:
             return

@@ -28,7 +28,7 @@ def motion(design: ThreeGearFourBar) -> Motion:
     Source
         thesis (4-21), (4-22)
     """
-    linkage, train, rolling = design.linkage, design.train, _rolling(design)
+    linkage, train, radii = design.linkage, design.train, rolling(design)
     at_start = solve(linkage, 0.0)
     i2, i3 = -train.crank / train.idler, -train.idler / train.output
     section = design.spec.loads
@@ -42,7 +42,7 @@ def motion(design: ThreeGearFourBar) -> Motion:
         pins = four_bar_pins(links)
         links["idler"] = Link(d.at("C"), idler)
         links["output"] = Link(d.origin, mixed((i3, idler), (1.0 - i3, rocker)))
-        (r1, r3, flank), (r3_out, r5, flank_out) = rolling
+        (r1, r3, flank), (r3_out, r5, flank_out) = radii
         return Mechanism(
             links,
             [
@@ -60,7 +60,7 @@ def motion(design: ThreeGearFourBar) -> Motion:
     return Motion(make, Input("crank_angle"), outputs)
 
 
-def _rolling(design: ThreeGearFourBar) -> list[tuple[float, float, float]]:
+def rolling(design: ThreeGearFourBar) -> list[tuple[float, float, float]]:
     """Working radii [mm] of both meshes, a ring's negative and first, and the tangent of their pressure angle."""
     if design.own_teeth:
         crank, output = design.meshes.values()

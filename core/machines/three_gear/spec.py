@@ -71,6 +71,9 @@ class Gears(TrainKeys):
         return self
 
 
+UniformTolerance = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
+
+
 class Links(Spec):
     """The links that the gears do not fix."""
 
@@ -105,7 +108,10 @@ class ThreeGearSpec(DrivenSpec):
     dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
-    feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
+    uniform_tolerance: UniformTolerance | None = Field(
+        None, description="share by which the output's speed may differ from a level: the longest such stretch is given"
+    )
+    feed: Annotated[Any, Deferred("machines.three_gear.task_spec:LayFeed")] | None = Field(
         None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
@@ -131,8 +137,21 @@ class ThreeGearSpec(DrivenSpec):
         return self
 
     @model_validator(mode="after")
+    def _lay_has_a_speed(self) -> ThreeGearSpec:
+        if self.feed is not None and self.feed.lay is not None and self.input_speed is None and self.speed is None:
+            message = "the speed at the lay needs the input's: give input_speed"
+            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+        return self
+
+    @model_validator(mode="after")
     def _one_speed(self) -> ThreeGearSpec:
-        if self.speed is None or self.gears.crank != self.gears.output or self.speed.crank or self.speed.frame:
+        if (
+            self.speed is None
+            or self.speed.uniform_angle is not None
+            or self.gears.crank != self.gears.output
+            or self.speed.crank
+            or self.speed.frame
+        ):
             return self
         if wrong := other_speed(self.input_speed, 0.5 * (self.speed.min + self.speed.max)):
             raise PydanticCustomError("GL111", "{wrong}", {"key": "input_speed", "wrong": wrong})

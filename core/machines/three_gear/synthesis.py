@@ -511,6 +511,9 @@ class SpeedTask(FamilyTask):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
+        if self.request.uniform_angle is not None:
+            message = "an even stretch is sought of equal crank and output gears: give output as many teeth as crank"
+            raise NoSolution(message, key="gears.output")
         from gearlink.core.machines.three_gear.families import with_speed_quotient
 
         speed = self.request
@@ -520,13 +523,21 @@ class SpeedTask(FamilyTask):
             return with_speed_quotient(family, train, speed.min / speed.max)
 
     def frame_ratio_for(self, i3: float) -> float:
-        """Thesis (4-20)."""
+        """Thesis (4-20); for an even stretch the least frame that has it."""
         speed = self.request
+        if speed.uniform_angle is not None:
+            from gearlink.core.machines.three_gear.uniform import frame_ratio_for_window
+
+            mu = math.radians(self.spec.limits.transmission_angle)
+            with at_key("speed.uniform_angle"):
+                return frame_ratio_for_window(math.radians(speed.uniform_angle), speed.uniform_tolerance, 1.0 - i3, mu)
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             return symmetric.frame_ratio_for_speed_band(i3, speed.min, speed.max)
 
     def crank_angle_for(self, i3: float) -> float | None:  # noqa: ARG002 - whatever the gears
         """The output just stops where the least speed is zero."""
+        if self.request.uniform_angle is not None:
+            return None
         return 0.0 if self.request.min == 0.0 else None
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
@@ -561,9 +572,16 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
         return SpeedTask(self.spec)
 
     @property
-    def input_speed(self) -> float:
+    def uniform_tolerance(self) -> float | None:
+        """That of the task, or of the file."""
+        return self.task.request.uniform_tolerance or self.spec.uniform_tolerance
+
+    @property
+    def input_speed(self) -> float | None:
         """Input speed [1/min] at which the output swings between the two: their mean where I = 1."""
         speed = self.task.request
+        if speed.uniform_angle is not None:
+            return self.spec.input_speed
         greatest = self.speed_ratio_max if self.mean_ratio > 0.0 else -self.speed_ratio_min
         found = float(speed.max) / greatest if self.task.general else 0.5 * (speed.min + speed.max)
         if wrong := other_speed(self.spec.input_speed, found):
@@ -583,6 +601,9 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
     def completion(self) -> Iterator[Found]:
         """The input speed besides the links."""
         yield from super().completion()
+        if self.task.request.uniform_angle is not None:
+            yield Found("uniform_tolerance", self.task.request.uniform_tolerance, "asked of synth variable-speed")
+            return
         yield Found("input_speed", self.input_speed, "found by synth variable-speed")
 
 

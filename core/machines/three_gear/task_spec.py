@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Length, SignedLength, Spec
 from gearlink.core.machines.three_gear.dwell_spec import Placing
+from gearlink.core.parts.linkages.spec_sections import Feed
 
 
 class BackStep(Placing):
@@ -31,8 +32,49 @@ class BackStep(Placing):
 class Speed(Placing):
     """Asked of `synth variable-speed`; the input turns at the mean of the two."""
 
-    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] = Field(description="least output speed")
-    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="greatest output speed")
+    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="least output speed"
+    )
+    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="greatest output speed"
+    )
+    uniform_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="in place of min and max: crank angle in which the output runs at a nearly even speed"
+    )
+    uniform_tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="share by which that speed may differ from its level"
+    )
+
+    @model_validator(mode="after")
+    def _one_wish(self) -> Speed:
+        band = [name for name in ("min", "max") if getattr(self, name) is not None]
+        even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
+        if band and even:
+            message = "uniform_angle and uniform_tolerance stand in place of min and max: give one pair"
+            raise PydanticCustomError("GL111", message, {"key": even[0]})
+        pair = ("uniform_angle", "uniform_tolerance") if even else ("min", "max")
+        missing = [name for name in pair if getattr(self, name) is None]
+        if missing:
+            raise PydanticCustomError("GL106", "{key} is missing", {"key": missing[0]})
+        return self
+
+
+class FrontLay(Spec):
+    """The front lay that a sheet arrives at."""
+
+    distance: Length = Field(description="last way before the lay")
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] = Field(
+        description="greatest speed of the sheet on that way"
+    )
+    angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle of the arrival; left out: where the sheet arrives most gently"
+    )
+
+
+class LayFeed(Feed):
+    """A feed that may bring sheets to a front lay."""
+
+    lay: FrontLay | None = Field(None, description="the front lay, where the sheet must be slow; needs input_speed")
 
 
 class Momentary(Spec):

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 FEED_QUANTITIES = (
     "feed_radius",
+    "feed_ratio",
+    "feed_teeth",
     "feed_per_turn",
     "feed_back_step",
     "chain_ripple",
@@ -49,7 +51,7 @@ def _fed_per_time(name: str, order: int) -> Any:
     def value(design: Any) -> Any:
         if design.spec.feed is None or design.angular_speed is None:
             return None
-        return getattr(design, name) * design.angular_speed**order * design.feed_radius
+        return getattr(design, name) * design.angular_speed**order * design.travel_radius
 
     return property(value, doc=f"`{name}` of what is fed, in real time.")
 
@@ -61,9 +63,44 @@ class FeedResults(RealSpeed):
     back_step_angle: Any
 
     @property
+    def travel_radius(self) -> float | None:
+        """Radius at which the output's angle becomes travel [mm], by the step where the file gives that."""
+        feed = self.spec.feed
+        if feed is None:
+            return None
+        if feed.step is None:
+            return feed_radius(feed)
+        if self.feed_teeth is not None and feed.pitch is not None:
+            return float(feed.ratio * self.feed_teeth * feed.pitch / (2.0 * math.pi))
+        return float(feed.step / (2.0 * math.pi * abs(self.mean_ratio)))
+
+    @property
     def feed_radius(self) -> float | None:
-        """Radius at which the output's angle becomes travel [mm]."""
-        return None if self.spec.feed is None else feed_radius(self.spec.feed)
+        """Radius at which the output's angle becomes travel [mm]; of a step that of the roller, or under the belt.
+
+        s/(2 pi |I| ratio) - belt_thickness/2
+        """
+        feed, radius = self.spec.feed, self.travel_radius
+        if radius is None or feed.step is None or feed.pitch is not None:
+            return radius
+        return float(radius / feed.ratio - 0.5 * feed.belt_thickness)
+
+    @property
+    def feed_ratio(self) -> float | None:
+        """Ratio of the feed's shaft that a step needs with a given sprocket: s/(pitch teeth |I|)."""
+        feed = self.spec.feed
+        if feed is None or feed.step is None or feed.teeth is None:
+            return None
+        return float(feed.step / (feed.pitch * feed.teeth * abs(self.mean_ratio)))
+
+    @property
+    def feed_teeth(self) -> int | None:
+        """Teeth of the sprocket that come nearest to a step."""
+        feed = self.spec.feed
+        if feed is None or feed.step is None or feed.pitch is None or feed.teeth is not None:
+            return None
+        found: int = max(1, round(feed.step / (feed.pitch * feed.ratio * abs(self.mean_ratio))))
+        return found
 
     @property
     def feed_per_turn(self) -> float | None:
@@ -79,7 +116,8 @@ class FeedResults(RealSpeed):
     def chain_ripple(self) -> float | None:
         """Share by which a chain's speed falls between two teeth, 1 - cos(pi/z); none without a chain."""
         feed = self.spec.feed
-        return None if feed is None or feed.teeth is None else 2.0 * math.sin(0.5 * math.pi / feed.teeth) ** 2
+        teeth = None if feed is None else feed.teeth or self.feed_teeth
+        return None if teeth is None else 2.0 * math.sin(0.5 * math.pi / teeth) ** 2
 
     feed_velocity_max: float | None = _fed_per_time("speed_ratio_max", 1)
     feed_velocity_min: float | None = _fed_per_time("speed_ratio_min", 1)
@@ -88,13 +126,13 @@ class FeedResults(RealSpeed):
     feed_acceleration_min: float | None = _fed_per_time("acceleration_ratio_min", 2)
 
     def _fed(self, angle: float | None) -> float | None:
-        return None if angle is None or self.feed_radius is None else angle * self.feed_radius
+        return None if angle is None or self.travel_radius is None else angle * self.travel_radius
 
     def timed(
         self, columns: Mapping[str, tuple[Column, str]], angle: str, rates: Mapping[str, tuple[str, int]]
     ) -> dict[str, tuple[Column, str]]:
         """As `RealSpeed.timed`; what is fed after it, where the table has the output's motion."""
-        whole, radius = super().timed(columns, angle, rates), self.feed_radius
+        whole, radius = super().timed(columns, angle, rates), self.travel_radius
         if radius is None or "speed_ratio" not in columns:
             return whole
         whole["feed_travel"] = (radius * math.pi / 180.0 * _array(columns["output_angle"][0]), "mm")

@@ -37,10 +37,15 @@ class Feed(Spec):
         None, description="teeth of the chain's sprocket"
     )
     ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")
+    step: Length | None = Field(
+        None, description="travel per turn of the input: radius, or of a chain ratio or teeth, are found for it"
+    )
 
     @model_validator(mode="after")
     def _one_form(self) -> Feed:
         chain = [name for name in ("pitch", "teeth") if getattr(self, name) is not None]
+        if self.step is not None:
+            return self._of_step()
         if self.radius is not None and chain:
             message = "radius goes with a roller or a belt, pitch and teeth with a chain: give one of them"
             raise PydanticCustomError("GL111", message, {"key": chain[0]})
@@ -48,6 +53,24 @@ class Feed(Spec):
             raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
         if chain and self.belt_thickness:
             raise PydanticCustomError("GL111", "a chain has no belt_thickness\nleave it out", {"key": "belt_thickness"})
+        return self
+
+    def _of_step(self) -> Feed:
+        """A step leaves one size to be found."""
+        ratio = "ratio" in self.model_fields_set
+        if self.radius is not None:
+            raise PydanticCustomError("GL111", "step finds the radius: leave one of them out", {"key": "radius"})
+        if self.teeth is not None and self.pitch is None:
+            raise PydanticCustomError("GL106", "teeth go with pitch: give it", {"key": "pitch"})
+        if self.teeth is not None and ratio:
+            raise PydanticCustomError(
+                "GL111", "step finds the ratio, or the teeth: leave one of them out", {"key": "ratio"}
+            )
+        if self.pitch is not None and self.teeth is None and not ratio:
+            message = "of a chain step needs pitch and teeth, or pitch and ratio"
+            raise PydanticCustomError("GL106", message, {"key": "teeth"})
+        if self.pitch is not None and self.belt_thickness:
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness: leave it out", {"key": "belt_thickness"})
         return self
 
 

@@ -1,0 +1,212 @@
+"""Stretches of a turn in which the output runs at a nearly even speed, and the speed with which a sheet arrives.
+
+Both are windows of the crank angle whose ends stand on one level of the speed ratio W, an extreme of W between them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.standstills import Turning
+
+TURN = 2.0 * math.pi
+_STEPS = 720
+_FIRST, _GROWTH, _MOST = 1e-9, 1.02, 1e6
+Speed = Callable[[float], float]
+
+
+class Uniform(NamedTuple):
+    """The longest stretch: crank angle, start [rad], and level of the speed ratio."""
+
+    angle: float
+    start: float
+    level: float
+
+
+def uniform(speed: Speed, extremes: Sequence[Turning], share: float) -> Uniform | None:
+    """The longest crank angle in which the speed ratio stays within a share of a level above 0.
+
+    max W/min W <= rho = (1 + p)/(1 - p):  about a maximum down to W_max/rho, about a minimum above 0 up to W_min rho
+
+    Parameters
+        speed : function of the crank angle [rad] - W
+        extremes : all turnings of W over a turn
+        share : float - p
+    Returns
+        uniform : Uniform - None where the output never runs forwards
+    Source
+        thesis 4.2.1; own derivation
+    """
+    rho = (1.0 + share) / (1.0 - share)
+    values = [each.value for each in extremes]
+    top, low = max(values), min(values)
+    if top <= 0.0:
+        return None
+    if top <= rho * low:
+        return Uniform(TURN, 0.0, 0.5 * (top + low))
+    best: Uniform | None = None
+    for place, value in extremes:
+        if value <= 0.0:
+            continue
+        for bottom, ceiling in ((value / rho, value), (value, value * rho)):
+            ends = [_leaves(speed, place, way, bottom, ceiling) for way in (-1.0, 1.0)]
+            angle = ends[1] - ends[0]
+            if best is None or angle > best.angle * (1.0 + 1e-12):
+                best = Uniform(angle, ends[0] % TURN, 0.5 * (bottom + ceiling))
+    return best
+
+
+def _leaves(speed: Speed, place: float, way: float, bottom: float, ceiling: float) -> float:
+    """Where the speed leaves a band, going one way from a place within it [rad]."""
+    step, inside, slack = TURN / _STEPS, place, 1e-12 * ceiling
+    for k in range(1, _STEPS + 1):
+        there = place + way * k * step
+        value = speed(there)
+        if value < bottom - slack or value > ceiling + slack:
+            edge = bottom if value < bottom else ceiling
+            if abs(speed(inside) - edge) <= slack:
+                return inside
+            return bracketed_root(lambda x, edge=edge: speed(x) - edge, *sorted((inside, there)))  # type: ignore[misc]
+        inside = there
+    return place + way * TURN
+
+
+def window_of_family(d: float, n: float, share: float) -> float:
+    """Window about the greatest speed of equal gears [rad].
+
+    W = 1 + n G,  G up to k = 2 d/(1 + d^2):  sin phi_1 = (d^2 - 1) G/(2 d sqrt(1 - G^2)) at G = ((1 + n k)/rho - 1)/n,
+    window 180 deg - 2 phi_1
+
+    Parameters
+        d, n : float - frame over crank, 1 - i3
+        share : float - p
+    Source
+        thesis (4-7); own derivation
+    """
+    rho, k = (1.0 + share) / (1.0 - share), 2.0 * d / (1.0 + d * d)
+    g = ((1.0 + n * k) / rho - 1.0) / n
+    if g <= -k:
+        return TURN
+    return math.pi - 2.0 * math.asin((d * d - 1.0) * g / (2.0 * d * math.sqrt(1.0 - g * g)))
+
+
+def frame_ratio_for_window(angle: float, share: float, n: float, transmission: float) -> float:
+    """Least frame over crank of equal gears without back-step that has a window [rad] about its greatest speed.
+
+    d >= max(tan(45 deg + mu/2), n + sqrt(n^2 - 1))
+
+    Parameters
+        transmission : float [rad] - mu, least transmission angle
+    Raises
+        NoSolution - where no frame that could be built has it
+    """
+    d = max(math.tan(0.25 * math.pi + 0.5 * transmission), n + math.sqrt(n * n - 1.0))
+    if window_of_family(d, n, share) >= angle:
+        return d
+    before, step = d, _FIRST
+    while window_of_family(d, n, share) < angle:
+        before, step = d, max(step * 2.0, d * (_GROWTH - 1.0)) if step < d * (_GROWTH - 1.0) else d * (_GROWTH - 1.0)
+        d = before + step
+        if d > _MOST:
+            raise NoSolution(
+                f"a window of {math.degrees(angle):.6g} deg within +-{100.0 * share:g} % takes a frame of more than "
+                f"{_MOST:g} cranks: ask for a smaller angle or a greater tolerance"
+            )
+    return bracketed_root(lambda x: window_of_family(x, n, share) - angle, before, d)
+
+
+class Lay(NamedTuple):
+    """The way to the front lay: crank angles of its start and of the arrival [rad], greatest speed ratio on it, and
+    that at the arrival."""
+
+    start: float
+    end: float
+    greatest: float
+    arrival: float
+
+
+def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float, end: float) -> Lay:
+    """The last stretch before an arrival, in which the output turns by an angle.
+
+    Parameters
+        speed, angle : functions of the crank angle [rad] - W, and the output's angle, running on over turns
+        turned : float [rad] - of the output in that stretch
+        end : float [rad] - crank angle of the arrival
+    Raises
+        NoSolution - where the output turns back within it
+    """
+    step, here, goal = TURN / _STEPS, end, angle(end) - turned
+    for k in range(1, 2 * _STEPS):
+        there = end - k * step
+        if angle(there) <= goal:
+            start = bracketed_root(lambda x: angle(x) - goal, there, here)
+            return _judged(speed, extremes, start, end)
+        here = there
+    raise NoSolution("the way before the lay is longer than the feed of two turns: give less")
+
+
+def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float) -> Lay:
+    """The stretch of the least greatest speed, wherever in the turn the sheet may arrive.
+
+    About a minimum of W, with equal speeds at both ends; where none has such ends, up to the greatest speed.
+
+    Raises
+        NoSolution - where the output turns back within it
+    """
+    best: Lay | None = None
+    for place, value in extremes:
+        tops = [_next_top(extremes, place, way) for way in (-1.0, 1.0)]
+        if None in tops or any(top.value < value for top in tops if top is not None):
+            continue
+        found = _about(speed, angle, place, [top for top in tops if top is not None], turned)
+        if found is None:
+            continue
+        judged = _judged(speed, extremes, *found)
+        if best is None or judged.greatest < best.greatest:
+            best = judged
+    if best is not None:
+        return best
+    place = max(extremes, key=lambda each: each.value).place
+    return way_before(speed, angle, extremes, turned, place)
+
+
+def _next_top(extremes: Sequence[Turning], place: float, way: float) -> Turning | None:
+    """The next turning one way, its place counted on over the turn."""
+    others = [each for each in extremes if each.place != place]
+    if not others:
+        return None
+    found = min(others, key=lambda each: (way * (each.place - place)) % TURN)
+    return Turning(place + way * ((way * (found.place - place)) % TURN), found.value)
+
+
+def _about(speed: Speed, angle: Speed, place: float, tops: list[Turning], turned: float) -> tuple[float, float] | None:
+    """Ends at one speed on both sides of a minimum, between which the output turns by an angle."""
+    level = min(top.value for top in tops)
+
+    def ends(share: float) -> tuple[float, float]:
+        wanted = speed(place) + share * (level - speed(place))
+        return (
+            bracketed_root(lambda x: speed(x) - wanted, tops[0].place, place),
+            bracketed_root(lambda x: speed(x) - wanted, place, tops[1].place),
+        )
+
+    def missing(share: float) -> float:
+        start, end = ends(share)
+        return angle(end) - angle(start) - turned
+
+    most = 1.0 - 1e-12
+    if missing(most) < 0.0:
+        return None
+    return ends(bracketed_root(missing, 1e-15, most))
+
+
+def _judged(speed: Speed, extremes: Sequence[Turning], start: float, end: float) -> Lay:
+    inside = [value for place, value in extremes if (place - start) % TURN <= end - start]
+    values = [speed(start), speed(end), *inside]
+    if min(values) < 0.0:
+        raise NoSolution("the sheet goes back on this way: give less, or a drive without back-step")
+    return Lay(start, end, max(values), speed(end))
