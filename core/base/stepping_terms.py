@@ -43,9 +43,17 @@ CAM_DRIVE = {
     "path_speed_max": Term("", "mm/s", "greatest speed along the path"),
     "path_speed_min": Term("", "mm/s", "least speed along the path"),
 }
+GUIDANCE = {
+    "pose_error_max": Term("", "mm", "greatest distance of the guided body's point from a pose", "thesis 2.2.2 VI"),
+    "pose_error_rms": Term("", "mm", "root of the mean square of these distances"),
+    "pose_angle_error_max": Term("", "deg", "greatest angle by which the guided body misses a pose"),
+    "body_angle": Term("", "deg", "direction of the coupler BC less the body's angle"),
+    "frame_place": Term("", "mm", "place of A in the coordinates of the poses, where the frame is free"),
+    "frame_direction": Term("", "deg", "direction from A to E there"),
+}
 PRESS_TEETH = {
     "pinion_radius": Term("r_8", "mm", "radius with which the pinion rolls on both racks", "TY-460 report 2.4"),
     "rack_teeth": Term("", "1", "teeth of the lower and the upper rack, given or as many as the travel takes"),
     "rack_travel": Term("", "mm", "distance of the pinion along the lower and the upper rack"),
 }
-STEPPING = {**PRESS_TEETH, **GENEVA, **REDUCER, **RACKS, **STEP_TRAIN, **CAM_DRIVE}
+STEPPING = {**PRESS_TEETH, **GUIDANCE, **GENEVA, **REDUCER, **RACKS, **STEP_TRAIN, **CAM_DRIVE}

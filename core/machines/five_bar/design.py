@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.base.candidates import Sought, nothing_sought, table
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
@@ -33,7 +33,7 @@ from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quantity
 from gearlink.core.parts.gears.train.ways import train_ways
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
-from gearlink.core.parts.linkages.codes import CLOSURE
+from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
 from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
 from gearlink.core.studies.clearance.reach import Reach, constant, crank_pin
@@ -41,6 +41,7 @@ from gearlink.core.studies.clearance.reach import Reach, constant, crank_pin
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.fit import Fit
     from gearlink.core.machines.five_bar.function_fit import FunctionFit, Round
+    from gearlink.core.machines.five_bar.guidance import Guidance
     from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
     from gearlink.core.machines.five_bar.timed_fit import TimedFit
     from gearlink.core.machines.five_bar.wanted import Wanted
@@ -613,15 +614,97 @@ class FiveBarParts(Meshed):
     @cached_property
     def path_bar(self) -> PathFiveBar:
         """The five-bar of the path form, given or found; it closes over its whole period."""
-        bar = self.start_path if self.fit is None else self.fit.bar
-        with at_key("links"):
+        found = self.guidance or self.fit
+        bar = self.start_path if found is None else found.bar
+        with at_key("links" if self.guidance is None else "target.poses"):
             bar.closure()
         return bar
 
     @property
     def offset(self) -> complex:
         """The coupler point, u + i v [mm]."""
-        return self._start_offset if self.fit is None else self.fit.offset
+        found = self.guidance or self.fit
+        return self._start_offset if found is None else found.offset
+
+    # Guidance of a body
+
+    @cached_property
+    def guidance(self) -> Guidance | None:
+        """What takes a body through the poses of the file; None without them."""
+        target = self.spec.target
+        if target is None or target.poses is None:
+            return None
+        import numpy as np
+
+        from gearlink.core.machines.five_bar.guidance import Task, guide
+
+        places = np.array([complex(x, y) for x, y, _ in target.poses])
+        angles = np.radians([angle for _, _, angle in target.poses])
+        least = math.radians(self.spec.limits.transmission_angle)
+        task = Task(places, angles, self.start_path, frozenset(target.keep), target.frame == "free", least)
+        with at_key("target.poses"):
+            return guide(task)
+
+    @property
+    def pose_error_max(self) -> float | None:
+        """Greatest distance of the body's point from a pose [mm]."""
+        return None if self.guidance is None else float(self.guidance.position_errors.max())
+
+    @property
+    def pose_error_rms(self) -> float | None:
+        """Root of the mean square of these distances [mm]."""
+        return None if self.guidance is None else math.sqrt(float((self.guidance.position_errors**2).mean()))
+
+    @property
+    def pose_angle_error_max(self) -> float | None:
+        """Greatest angle by which the body misses a pose [rad]."""
+        return None if self.guidance is None else float(self.guidance.angle_errors.max())
+
+    body_angle: float | None = placed("guidance.body_angle")
+
+    @property
+    def _of_free_frame(self) -> Guidance | None:
+        target = self.spec.target
+        return None if target is None or target.frame == "fixed" else self.guidance
+
+    @property
+    def frame_place(self) -> list[float] | None:
+        """Place of A in the coordinates of the poses, where the frame is free [mm]."""
+        found = self._of_free_frame
+        return None if found is None else [found.place.real, found.place.imag]
+
+    frame_direction: float | None = placed("_of_free_frame.direction")
+
+    def table_poses(self, _samples: int | None = None) -> Table:
+        """The poses, with the input angle of each and what is missed."""
+        import numpy as np
+
+        found = self.guidance
+        if found is None:
+            raise MissingSection("the table poses needs target.poses: [[x, y, angle], ...]", key="target")
+        task = found.task
+        columns = {
+            "x": (task.places.real, "mm"),
+            "y": (task.places.imag, "mm"),
+            "angle": (np.degrees(task.angles), "deg"),
+            "input_angle": (np.degrees(found.inputs), "deg"),
+            "position_error": (found.position_errors, "mm"),
+            "angle_error": (np.degrees(found.angle_errors), "deg"),
+        }
+        return Table.of("poses", columns)
+
+    def check_pose_order(self) -> Iterator[Check]:
+        """GL340."""
+        found = self.guidance
+        if found is None:
+            return
+        one, ordered = len(set(found.assemblies)) == 1, found.in_order
+        text = "the poses follow each other in one assembly of the links"
+        if not ordered:
+            text = "the input angles neither rise nor fall in the order of the poses: keep less, or reorder them"
+        elif not one:
+            text = "two poses need different assemblies of the links: keep less, or change a pose"
+        yield POSE_ORDER.check("pass" if one and ordered else "fail", text)
 
     @cached_property
     def positions(self) -> list[tuple[float, float]] | None:
@@ -703,6 +786,8 @@ class FiveBarParts(Meshed):
 
 
 _SHOWN_TURNS = 100
+_POSE_FIT = 1e-6
+"""[mm, deg]"""
 _LISTS = ("center_distance", "contact_ratio")
 """One for each mesh, whatever their number."""
 _POSITION_TOLERANCE = math.degrees(1e-9)
@@ -778,6 +863,12 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
                 "phase_step",
                 "path_deviation_rms",
                 "path_deviation_max",
+                "pose_error_max",
+                "pose_error_rms",
+                "pose_angle_error_max",
+                "body_angle",
+                "frame_place",
+                "frame_direction",
                 "position_errors",
                 "structural_error",
                 "structural_error_at",
@@ -799,6 +890,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
             (
                 "closure",
                 "target",
+                "pose-order",
                 "gear-collision",
                 "shaft-clearance",
                 "shaft-seat",
@@ -806,7 +898,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
                 *MESH_CHECKS,
                 "backlash",
             ),
-            ("path", "function", "deviations", "structural_error", "search"),
+            ("path", "function", "deviations", "poses", "structural_error", "search"),
         ),
         "gear": Outline(
             (
@@ -999,6 +1091,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         return (
             "path",
             *(("deviations",) if self.fit is not None else ()),
+            *(("poses",) if self.spec.target is not None and self.spec.target.poses is not None else ()),
             *(("search",) if self.searches else ()),
         )
 
@@ -1032,11 +1125,22 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         aside = f"dyad spans {short(self.span_min)} to {short(self.span_max)} mm of {possible}"
         return CLOSURE.check("pass", "margin to the limits of the dyad", room, 0.0, "mm", aside=aside)
 
+    def _pose_checks(self) -> Iterator[Check]:
+        """The place of every pose, and its angle where the poses are met exactly or the file limits it."""
+        target, place, angle = self.spec.target, self.pose_error_max, self.pose_angle_error_max
+        if target is None or place is None or angle is None:
+            return
+        yield target_check("the place of a pose", place, target.tolerance or _POSE_FIT, "mm")
+        limit = target.angle_tolerance or (_POSE_FIT if target.tolerance is None else None)
+        if limit is not None:
+            yield target_check("the angle of a pose", math.degrees(angle), limit, "deg")
+
     def check_target(self) -> Iterator[Check]:
         """GL307, where the file asks for points (with a tolerance) or positions."""
         if self.position_errors is not None:
             worst = math.degrees(max(self.position_errors, key=abs))
             yield target_check("the output angle from a position", worst, _POSITION_TOLERANCE, "deg")
+        yield from self._pose_checks()
         asked = None if self.spec.target is None else self.spec.target.function
         if asked is not None and asked.tolerance is not None and self.structural_error is not None:
             yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg")

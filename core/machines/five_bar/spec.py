@@ -130,6 +130,9 @@ class WantedFunction(Spec):
         return self
 
 
+_EXACT_POSES = {"fixed": 3, "free": 5}
+
+
 class FiveBarTarget(Spec):
     """The links are found for it."""
 
@@ -151,6 +154,20 @@ class FiveBarTarget(Spec):
     input_angles: Annotated[list[TurnAngle], Field(min_length=3, max_length=200)] | None = Field(
         None, description="of a path: input angle of each point, counted from the first's, so that the points are timed"
     )
+    poses: (
+        Annotated[
+            list[Annotated[list[SignedLength], Field(min_length=3, max_length=3), Entries("[x, y, angle]")]],
+            Field(min_length=2, max_length=12),
+        ]
+        | None
+    ) = Field(None, description="of a path: poses [x, y, angle] through which a body on the coupler shall go")
+    frame: Literal["fixed", "free"] = Field("fixed", description="of poses: A and E as in the file, or anywhere")
+    keep: list[Literal["links.input", "links.follower", "links.output", "phase"]] = Field(
+        [], description="of poses: keys of the file that stay as they are"
+    )
+    angle_tolerance: Annotated[float, Field(gt=0, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="of poses: greatest angle by which the body may miss one"
+    )
     tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
     budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
         None, description="time that the search of a function or of timed points may take; left out: a fixed effort"
@@ -158,10 +175,14 @@ class FiveBarTarget(Spec):
 
     @model_validator(mode="after")
     def _one_target(self) -> FiveBarTarget:
-        given = [name for name in ("points", "positions", "function") if getattr(self, name) is not None]
+        given = [name for name in ("poses", "points", "positions", "function") if getattr(self, name) is not None]
         if len(given) > 1:
             message = "{one} and {other} exclude each other: give one"
             raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
+        if self.poses is not None and self.tolerance is None and len(self.poses) > (exact := _EXACT_POSES[self.frame]):
+            message = "with a {frame} frame at most {exact} poses are met exactly: give tolerance for {count}"
+            words = {"key": "poses", "frame": self.frame, "exact": str(exact), "count": str(len(self.poses))}
+            raise PydanticCustomError("GL111", message, words)
         timed = self.input_angles is not None
         if timed and len(self.points or ()) != len(self.input_angles or ()):
             message = "give an input angle for each point: {angles} for {points}"
@@ -232,6 +253,8 @@ class GearedFiveBarSpec(DrivenSpec):
 
     def _function(self) -> None:
         gears = self.gears
+        _refuse(self.target is not None and self.target.poses is not None, "target.poses",
+                "poses go with form: path; give positions")  # fmt: skip
         _refuse(self.target is not None and self.target.points is not None, "target.points",
                 "points go with form: path; give positions")  # fmt: skip
         sought = self.target is not None and self.target.function is not None

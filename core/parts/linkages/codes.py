@@ -137,3 +137,15 @@ CLOSURE = Rule(
     ("closure",),
     ("links", "range"),
 )
+POSE_ORDER = Rule(
+    "GL340",
+    "poses out of order",
+    "The input angles of the poses neither rise nor fall in their order, or two poses need different assemblies.",
+    "Turned on, the linkage takes the body through the poses in another order, or never reaches one of them.",
+    "Keep fewer of the links (target.keep), change a pose, or put the poses in another order.",
+    "input angles of the poses within a period, rising or falling; C on one side of B to D in all of them",
+    "thesis 2.2.2 VI; own derivation",
+    ("pose-order",),
+    ("target.poses", "target"),
+    side="",
+)
