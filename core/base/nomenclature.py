@@ -108,6 +108,13 @@ _DISC_CAM = {
 _GRIPPER = {
     "handover_speed": Term("v_F", "mm/s", "gripper speed at the handover", "swing-gripper paper 2"),
     "handover_mismatch": Term("dv", "mm/s", "gripper speed less the cylinder's surface speed"),
+    "accelerate_angle": Term("D_a", "deg", "cylinder angle of the phase accelerate", "swing-gripper paper 2"),
+    "constant_angle": Term("D_c", "deg", "cylinder angle of the phase at constant speed", "swing-gripper paper 2"),
+    "decelerate_angle": Term("D_d", "deg", "cylinder angle of the phase decelerate", "swing-gripper paper 2"),
+    "far_dwell_angle": Term("", "deg", "cylinder angle of the far dwell", "swing-gripper paper 2"),
+    "return_angle": Term("D_r", "deg", "cylinder angle of the return", "swing-gripper paper 2"),
+    "near_dwell_angle": Term("", "deg", "cylinder angle of the near dwell", "swing-gripper paper 2"),
+    "handover_angle": Term("theta_A", "deg", "cylinder angle of the handover", "swing-gripper paper 2"),
     "total_swing": Term("beta_T", "deg", "total swing of the gripper arm", "swing-gripper paper 2"),
     "spring_torque": Term("T_s,min", "N m", "least spring torque that keeps both rollers on their cams"),
     "newton_iterations": Term("", "1", "most Newton-Raphson steps at any position of the turn"),

@@ -91,10 +91,10 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
     """The drum that takes the sheet over, with its grippers where the tip meets them at the handover."""
     spec = design.spec
     center = drum_center(design)
-    meeting = complex(_positions(design, np.array([spec.handover])).f[0])
+    meeting = complex(_positions(design, np.array([design.motion.handover])).f[0])
     radius = spec.cylinder.radius
     way = (meeting - center) / abs(meeting - center)
-    turn = -spec.swing_sense * (TURN * fraction - math.radians(spec.handover))
+    turn = -spec.swing_sense * (TURN * fraction - math.radians(design.motion.handover))
     pad = radius * way * np.array([0.86, 1.0])
     shared = {"place": track(center, fraction), "turn": turn, "color": GREY}
     return [

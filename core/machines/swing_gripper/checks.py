@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared
+from gearlink.core.base.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared, up
 from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, safely_above, safely_below
 from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper import codes
@@ -24,7 +24,7 @@ from gearlink.core.studies.clearance.links import beside_line, beside_turning_ar
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy
     from gearlink.core.machines.swing_gripper.design import SwingGripper
-    from gearlink.core.machines.swing_gripper.spec import Release
+    from gearlink.core.machines.swing_gripper.spec import Phases, Release
 
 
 # Share of the surface speed that the two may differ by: rounding only.
@@ -125,6 +125,17 @@ def jerk_step(design: SwingGripper) -> Check:
     return cam_codes.JERK_STEP.check(status, what, abs(jump), limit, at=f"the {where}", fix=fix)
 
 
+def phase_allotment(design: SwingGripper) -> Check:
+    """GL420: the peak acceleration of the return over that of the phase accelerate; a limit only where given."""
+    law, limit = design.motion.law, design.spec.limits.return_acceleration
+    first, _, _, _, back, _ = design.motion.phase_angles
+    ratio = law.total_swing * law.return_.peak_acceleration * first / (back * back)
+    ratio /= law.speed * law.accelerate.peak_acceleration
+    status: Status = "fail" if limit is not None and ratio > limit else "pass"
+    what, fix = "peak acceleration of the return over that of the phase accelerate", "lengthen phases.return"
+    return codes.PHASE_ALLOTMENT.check(status, what, ratio, limit, fix=fix)
+
+
 def handover(design: SwingGripper) -> Iterator[Check]:
     """GL503: speed, place and release window."""
     yield _backward_check(design) if runs_backwards(design) else _speed_check(design)
@@ -192,7 +203,7 @@ def _place_check(design: SwingGripper, center: complex) -> Check:
 
 def _inside_check(design: SwingGripper, release: Release) -> Check:
     start, end = design.motion.law.starts[1:3]
-    room = min(design.spec.handover - start, end - design.spec.handover)
+    room = min(design.motion.handover - start, end - design.motion.handover)
     status: Status = "warn" if release.window > room else "pass"
     what = "release window on either side of the handover"
     aside = f"{short(release.window / 360.0 * 3.6e6 / design.spec.speed)} ms, at equal speed"
@@ -205,7 +216,7 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
     from gearlink.core.machines.swing_gripper.handover_geometry import widest_window
 
-    degrees = design.spec.handover + release.window * np.array([-1.0, 0.0, 1.0])
+    degrees = design.motion.handover + release.window * np.array([-1.0, 0.0, 1.0])
     _, _, path = design.handover.path(degrees)
     gap, slip = float(np.abs(path.gap).max()), float(np.abs(path.slip).max())
     status: Status = "warn" if gap > release.gap else "pass"
@@ -318,12 +329,7 @@ _WAYS = {
     "transmission-angle": _LINKAGE,
     "conditioning": _LINKAGE,
     "handover": (down("release.window"),),
-    "pressure-angle": (
-        shared("phases.return", "phases.near_dwell", step=1.0)[0],
-        shared("phases.decelerate", "phases.far_dwell", step=1.0)[0],
-        *_ROLLERS,
-        *_LINKAGE,
-    ),
+    "pressure-angle": (*_ROLLERS, *_LINKAGE),
     "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
     "lift-off": either("cam.return_roller.angle", step=1.0),
 }
@@ -335,6 +341,12 @@ def ways_of(design: SwingGripper, check: str) -> tuple[Way, ...]:
     """Ways in which a check that fails may be repaired; for cams that cannot be, those of their refusal."""
     if check == "pressure-angle" and design.cams.refusal is not None:
         return tuple(refusal_ways(design.spec, design.cams.refusal.key))
+    if check in ("pressure-angle", "phase-allotment"):
+        given = design.spec.phases
+        longer = _longer("return", "near_dwell", given)
+        if check == "phase-allotment":
+            return (*longer, down("phases.balance")) if given.balance is not None else longer
+        return (*longer, *_longer("decelerate", "far_dwell", given), *_WAYS[check])
     return _WAYS.get(check, ())
 
 
@@ -360,10 +372,11 @@ def _handover(design: SwingGripper) -> Iterator[Remedy]:
         fits = design.handover.center
         yield (("arm.direction", round(spec.arm.direction + math.degrees(off.turn), _FINE)),)
         yield _point("cylinder.center", fits, _FINE)
-    yield (("handover", 0.5 * (start + end)),)
+    if spec.handover is not None:
+        yield (("handover", 0.5 * (start + end)),)
     if spec.release is not None:
         widest = math.degrees(widest_window(spec.arm.length, spec.cylinder.radius, spec.release.gap))
-        room = min(spec.handover - start, end - spec.handover)
+        room = min(design.motion.handover - start, end - design.motion.handover)
         yield (("release.window", at_most(min(widest, room) if room > 0.0 else widest)),)
 
 
@@ -398,15 +411,41 @@ def _pressure(design: SwingGripper) -> Iterator[Remedy]:
 
 
 def _longer_acceleration(design: SwingGripper) -> Iterator[Remedy]:
-    """More of the dwell before it, with the handover as far behind."""
-    phases = design.spec.phases
+    """More of the dwell before it, with the handover as far behind; what the file leaves out follows by itself."""
+    spec, phases = design.spec, design.motion.phases
+    if spec.phases.accelerate is None:
+        return
     for more in (5.0, 10.0, 20.0, 30.0):
         if more < phases.near_dwell:
-            yield (
-                ("phases.accelerate", phases.accelerate + more),
-                ("phases.near_dwell", phases.near_dwell - more),
-                ("handover", design.spec.handover + more),
-            )
+            near = () if spec.phases.near_dwell is None else (("phases.near_dwell", phases.near_dwell - more),)
+            behind = () if spec.handover is None else (("handover", spec.handover + more),)
+            yield (("phases.accelerate", phases.accelerate + more), *near, *behind)
+
+
+def _longer(phase: str, dwell: str, given: Phases) -> tuple[Way, ...]:
+    """The way to more of a phase, taken from a dwell, which follows by itself where the file leaves it out."""
+    if given.given(phase) is None:
+        return ()
+    key = f"phases.{phase}"
+    return (up(key, step=1.0) if given.given(dwell) is None else shared(key, f"phases.{dwell}", step=1.0)[0],)
+
+
+def _balanced(design: SwingGripper) -> Iterator[Remedy]:
+    """The three moving phases with equal accelerations round the constant speed, and the return within its limit."""
+    from gearlink.core.machines.swing_gripper.law import balanced
+
+    spec, phases, law = design.spec, design.motion.phases, design.motion.law
+    limit = spec.limits.return_acceleration
+    if limit is None or spec.phases.balance is not None:
+        return
+    rest = (phases.constant, phases.far_dwell, phases.near_dwell)
+    for share in (0.98, 0.9):
+        found = balanced(rest, share * limit, (law.accelerate, law.decelerate, law.return_))
+        first, second = at_most(found.accelerate, 0.5), at_most(found.decelerate, 0.5)
+        sized = {"accelerate": first, "decelerate": second, "return": 360.0 - sum(rest) - first - second}
+        behind = () if spec.handover is None else (("handover", first + 0.5 * phases.constant),)
+        keys = ((f"phases.{key}", value) for key, value in sized.items() if spec.phases.given(key) is not None)
+        yield (*keys, *behind)
 
 
 def _rollers(design: SwingGripper) -> Iterator[Remedy]:
@@ -468,6 +507,7 @@ _CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
     "velocity-step": lambda design: _laws(design, _QUIET),
     "jerk-step": lambda design: _laws(design, _QUIETER),
     "lift-off": _closing,
+    "phase-allotment": _balanced,
 }
 
 

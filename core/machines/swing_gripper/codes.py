@@ -19,6 +19,20 @@ CONDITIONING = Rule(
     ("limits.condition_number", "links", "pivots"),
     side="<=",
 )
+PHASE_ALLOTMENT = Rule(
+    "GL420",
+    "return too short for its phase accelerate",
+    "The peak acceleration of the return is more than limits.return_acceleration times that of the phase accelerate; "
+    "judged only with that limit.",
+    "The short return lifts rollers and shakes the machine while the sheet's own way is gentle.",
+    "Lengthen phases.return at the cost of accelerate or near_dwell; or leave out accelerate, decelerate, return and "
+    "give phases.balance, the ratio itself.",
+    "max|beta''| of the return / max|beta''| of accelerate <= limits.return_acceleration",
+    "own derivation; swing-gripper paper 1 names the allotment",
+    ("phase-allotment",),
+    ("phases", "limits.return_acceleration"),
+    side="<=",
+)
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",

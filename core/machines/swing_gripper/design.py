@@ -48,7 +48,7 @@ def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Angles, velocities and accelerations of both rockers over the turn."""
     import numpy as np
 
-    degrees, motion = design.motion.rows(samples)
+    degrees, motion = design.motion.rows(samples, 3)
     speed, square = design.motion.shaft_speed, design.motion.shaft_speed**2
     columns = {
         "theta": (degrees, "deg"),
@@ -60,6 +60,9 @@ def motion_table(design: SwingGripper, samples: int | None = None) -> Table:
         "output_velocity": (motion.output_velocity * speed, "rad/s"),
         "input_acceleration": (motion.input_acceleration * square, "rad/s^2"),
         "output_acceleration": (motion.output_acceleration * square, "rad/s^2"),
+        "coupler_velocity": (motion.coupler_velocity * speed, "rad/s"),
+        "coupler_acceleration": (motion.coupler_acceleration * square, "rad/s^2"),
+        "input_jerk": (motion.input_jerk * speed**3, "rad/s^3"),
     }
     return Table.of("motion", columns)
 
@@ -149,7 +152,7 @@ def handover_window_table(design: SwingGripper, _samples: int | None = None) -> 
     from gearlink.core.machines.swing_gripper.handover_geometry import speed_difference
 
     half = design.spec.release.window if design.spec.release is not None else _WINDOW
-    degrees = design.spec.handover + half * np.linspace(-1.0, 1.0, _ROWS)
+    degrees = design.motion.handover + half * np.linspace(-1.0, 1.0, _ROWS)
     lead, speed, path = design.handover.path(degrees)
     difference = speed_difference(path, lead, speed, design.motion.shaft_speed, design.spec.cylinder.radius)
     columns = {
@@ -500,7 +503,7 @@ class Handover:
         """Swing angle [rad] and its rate by the cylinder angle at the handover."""
         import numpy as np
 
-        beta, rate = self.motion.law.evaluate(np.array([self.spec.handover]), 1)
+        beta, rate = self.motion.law.evaluate(np.array([self.motion.handover]), 1)
         return float(beta[0]), float(rate[0])
 
     @cached_property
@@ -532,13 +535,22 @@ class Handover:
             lead_0 = self.spec.swing_sense * cmath.phase((self.tip - pivot) / line)
         beta, rate = self.motion.law.evaluate(np.fmod(degrees + 360.0, 360.0), 1)
         lead = lead_0 + beta - self.state[0]
-        turned = np.radians(degrees - self.spec.handover)
+        turned = np.radians(degrees - self.motion.handover)
         return lead, arm * rate * self.motion.shaft_speed, tip_path(arm, radius, distance, lead, turned, lead_0)
 
 
 _CAM_PLACES = ("max_pressure_angle_at", "min_curvature_radius_at")
 _CAM = ("max_pressure_angle", "min_curvature_radius", *_CAM_PLACES, "max_radius", "min_radius")
 _LAW = ("handover_speed", "handover_mismatch", "handover_center", "total_swing", "min_transmission_angle")
+_PHASES = (
+    "accelerate_angle",
+    "constant_angle",
+    "decelerate_angle",
+    "far_dwell_angle",
+    "return_angle",
+    "near_dwell_angle",
+    "handover_angle",
+)
 _LOOP = ("newton_agreement", "newton_iterations", "condition_number")
 _CLOSURE = ("closing_torque", "lift_off_speed")
 _LAW_CHECKS = (
@@ -603,9 +615,9 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         ),
     }
     outlines = {
-        "gripper": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
+        "gripper": Outline((*_LAW, *_PHASES, *_LOOP), _LAW_CHECKS, ("motion",)),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
-        "analyze": Outline((*_LAW, *_LOOP, *_EXTREMES), _LAW_CHECKS, ("motion",)),
+        "analyze": Outline((*_LAW, *_PHASES, *_LOOP, *_EXTREMES), _LAW_CHECKS, ("motion",)),
     }
     extra_tables = ("forces", "newton", "handover_window", "tip", LAW_TABLE)
 
@@ -670,6 +682,13 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     # Quantities
 
     total_swing: float = placed("motion.law.total_swing")
+    accelerate_angle: float = placed("motion.phase_angles.accelerate")
+    constant_angle: float = placed("motion.phase_angles.constant")
+    decelerate_angle: float = placed("motion.phase_angles.decelerate")
+    far_dwell_angle: float = placed("motion.phase_angles.far_dwell")
+    return_angle: float = placed("motion.phase_angles.return_")
+    near_dwell_angle: float = placed("motion.phase_angles.near_dwell")
+    handover_angle: float = placed("motion.handover_angle")
     min_transmission_angle: tuple[float, float] = placed("motion.min_transmission_angle")
     newton_agreement: float = placed("motion.newton_agreement")
     newton_iterations: int = placed("motion.newton_iterations")
@@ -691,7 +710,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
-        return (*_LAW, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
+        return (*_LAW, *_PHASES, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
 
     def varied(self, spec: SwingGripperSpec) -> SwingGripper:
         """The design of another file; law and linkage are kept where it differs in the cams alone."""
@@ -719,6 +738,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     check_transmission_angle, check_conditioning = checks.transmission_angle, checks.conditioning
     check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
+    check_phase_allotment = checks.phase_allotment
     check_jerk_step, check_handover = checks.jerk_step, checks.handover
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
     check_shaft_clearance, check_lift_off = checks.shaft_clearance, checks.lift_off
@@ -734,6 +754,8 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         outline, spec = self.outlines[command], self.spec
         if command == "cam":
             return self._of_cams(outline)
+        if spec.limits.return_acceleration is not None:
+            outline = outline._replace(checks=(*outline.checks, "phase-allotment"))
         if spec.cam is None:
             return outline
         if self.cams.is_refused:

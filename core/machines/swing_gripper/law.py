@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,43 @@ from gearlink.core.parts.cams.laws import Law
 
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
 _NEAR_DWELL = 5
+
+
+class SixPhases(NamedTuple):
+    """A value for each phase of a turn, in their order."""
+
+    accelerate: float
+    constant: float
+    decelerate: float
+    far_dwell: float
+    return_: float
+    near_dwell: float
+
+
+def balanced(rest: tuple[float, float, float], ratio: float, laws: tuple[Law, Law, Law]) -> SixPhases:
+    """Phases whose accelerations have equal peaks before and after the constant speed, and `ratio` times it on return.
+
+    D_d = D_a a_d/a_a,  D_r = S - D_a - D_d,  (k_a D_a + D_c + k_d D_d) C_a/D_r^2 = q a_a/D_a
+
+    Parameters
+        rest : three floats [deg] - constant, far dwell and near dwell; S is what they leave of 360
+        ratio : float - q, peak of the return over that of the other two
+        laws : accelerate, decelerate, return
+    Notes
+        The left side over the right rises from 0 to infinity as D_a goes from 0 to S/(1 + a_d/a_a): one root.
+    Source
+        own derivation; the swing-gripper paper, 1, asks for a long phase accelerate and gives no rule
+    """
+    (constant, far, near), (fast, slow, back) = rest, laws
+    room, share = 360.0 - sum(rest), slow.peak_acceleration / fast.peak_acceleration
+
+    def excess(first: float) -> float:
+        left = room - (1.0 + share) * first
+        swing = (fast.kappa + slow.kappa * share) * first + constant
+        return swing * back.peak_acceleration * first - ratio * fast.peak_acceleration * left * left
+
+    first = bracketed_root(excess, 0.0, room / (1.0 + share))
+    return SixPhases(first, constant, share * first, far, room - (1.0 + share) * first, near)
 
 
 @dataclass(frozen=True)
@@ -47,24 +84,8 @@ class SixPhaseLaw:
     return_: Law
 
     def __post_init__(self) -> None:
-        for phase, law, kind in (
-            ("accelerate", self.accelerate, "rest-to-speed"),
-            ("decelerate", self.decelerate, "rest-to-speed"),
-            ("return", self.return_, "rest-to-rest"),
-        ):
-            if law.kind != kind:
-                usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
-                raise NoSolution(
-                    f"phase {phase} needs a {kind} law; {law.name} is {law.kind}",
-                    key=f"laws.{phase}",
-                    fix=f"take {usual}",
-                )
-            if law.end_jumps:
-                raise NoSolution(
-                    (f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell"),
-                    key=f"laws.{phase}",
-                    fix="take cycloidal, modified-sine or polynomial-345",
-                )
+        for phase, law in (("accelerate", self.accelerate), ("decelerate", self.decelerate), ("return", self.return_)):
+            require_law(phase, law)
 
     @cached_property
     def starts(self) -> tuple[float, ...]:
@@ -151,3 +172,19 @@ class SixPhaseLaw:
         after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 3)]) for i in range(6)]
         jumps: Reals = np.array(after) - np.array(before)
         return jumps
+
+
+def require_law(phase: str, law: Law) -> None:
+    """Refuse a law of the wrong kind for a moving phase, or one that jumps where it joins a dwell."""
+    kind = "rest-to-rest" if phase == "return" else "rest-to-speed"
+    if law.kind != kind:
+        usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
+        raise NoSolution(
+            f"phase {phase} needs a {kind} law; {law.name} is {law.kind}", key=f"laws.{phase}", fix=f"take {usual}"
+        )
+    if law.end_jumps:
+        raise NoSolution(
+            f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell",
+            key=f"laws.{phase}",
+            fix="take cycloidal, modified-sine or polynomial-345",
+        )

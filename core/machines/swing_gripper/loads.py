@@ -115,7 +115,7 @@ class GripperLoads(CamLoadsDesign):
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """Both dwells."""
-        a, b, c, far, back, near = (math.radians(length) for length in self.spec.phases.lengths())
+        a, b, c, far, back, near = (math.radians(length) for length in self.design.motion.phases)
         return [(a + b + c, far), (a + b + c + far + back, near)]
 
     @property

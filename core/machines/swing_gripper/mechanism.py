@@ -123,7 +123,7 @@ def _linkage(design: SwingGripper, phi: Reals, order: int) -> tuple[dict[str, Li
 
 def _joints(design: SwingGripper) -> tuple[float, ...]:
     """Cylinder angles at which the law of the swing changes, its pieces among them [rad]."""
-    law, lengths = design.law, design.spec.phases.lengths()
+    law, lengths = design.law, design.motion.phases
     starts = law.starts
     found = list(starts[1:])
     for k, joints in ((0, law.accelerate.joints), (2, law.decelerate.joints), (4, law.return_.joints)):

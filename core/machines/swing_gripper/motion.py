@@ -11,7 +11,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
+    from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion
     from gearlink.core.machines.swing_gripper.loop import TwoWays
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
@@ -48,15 +48,74 @@ class Motion:
         return 2e3 * math.pi / self.shaft_speed
 
     @cached_property
+    def phases(self) -> SixPhases:
+        """Lengths of the six phases [deg]: as given, with the remainder, or sized by balance."""
+        from gearlink.core.machines.swing_gripper.law import SixPhases, balanced
+
+        given = self.spec.phases
+        lengths = given.lengths()
+        if lengths is not None:
+            return SixPhases(*lengths)
+        fast, slow, back = (self._law_alone(phase) for phase in ("accelerate", "decelerate", "return"))
+        rest = (given.constant or 0.0, given.far_dwell or 0.0, given.near_dwell or 0.0)
+        found = balanced(rest, given.balance or 1.0, (fast, slow, back))
+        start, end = found.accelerate, found.accelerate + found.constant
+        if self.spec.handover is not None and not start <= self.spec.handover <= end:
+            raise NoSolution(
+                f"handover outside the constant-speed phase: {self.spec.handover:g} deg (by balance from {start:.6g} to "
+                f"{end:.6g} deg)",
+                key="handover",
+                fix="leave it out for the middle of the phase",
+            )
+        return found
+
+    @cached_property
+    def phase_angles(self) -> SixPhases:
+        """Lengths of the six phases [rad]."""
+        from gearlink.core.machines.swing_gripper.law import SixPhases
+
+        return SixPhases(*map(math.radians, self.phases))
+
+    @property
+    def handover(self) -> float:
+        """Cylinder angle of the handover [deg]."""
+        given = self.spec.handover
+        return self.phases.accelerate + 0.5 * self.phases.constant if given is None else given
+
+    @property
+    def handover_angle(self) -> float:
+        """The same [rad]."""
+        return math.radians(self.handover)
+
+    @cached_property
+    def _drive(self) -> Drive:
+        from gearlink.core.parts.cams.shaped import Drive
+
+        return Drive.of(self.spec, rate=_TURN / 3600.0, unit="sheets/h")
+
+    def _law_alone(self, phase: str) -> Law:
+        """The law of a phase whose length is not known yet."""
+        from gearlink.core.machines.swing_gripper.law import require_law
+        from gearlink.core.parts.cams.laws import law
+        from gearlink.core.parts.cams.shaped import Phase
+
+        known = Phase(damping=self._drive.damping, to_speed=phase != "return")
+        definition = getattr(self.spec.laws, phase if phase != "return" else "return_")
+        with in_section(f"laws.{phase}"):
+            found = law(definition, known)
+        require_law(phase, found)
+        return found
+
+    @cached_property
     def law(self) -> SixPhaseLaw:
         """The six-phase law; its constant speed is R/l_EF."""
         from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 
-        spec, speed = self.spec, self.spec.cylinder.radius / self.spec.arm.length
+        speed = self.spec.cylinder.radius / self.spec.arm.length
         fast, slow = (self._law_of(phase, speed) for phase in ("accelerate", "decelerate"))
-        phases = spec.phases
+        phases = self.phases
         swing = speed * (fast.kappa * phases.accelerate + phases.constant + slow.kappa * phases.decelerate)
-        made = SixPhaseLaw(phases.lengths(), speed, fast, slow, self._law_of("return", swing))
+        made = SixPhaseLaw(phases, speed, fast, slow, self._law_of("return", swing))
         self._require_swing_below_a_turn(made)
         self._require_stated_swing(made)
         return made
@@ -77,13 +136,10 @@ class Motion:
 
     def phase(self, name: str, rise: float | None = None) -> Phase:
         """What a law is told of its phase; `rise` as of the return in deg, else per deg of the phase."""
-        from gearlink.core.parts.cams.shaped import Drive
-
         to_speed = name != "return"
-        length = self.spec.phases.return_ if not to_speed else getattr(self.spec.phases, name)
+        length = getattr(self.phases, name if to_speed else "return_")
         whole = rise * length if to_speed and rise is not None else rise
-        drive = Drive.of(self.spec, rate=_TURN / 3600.0, unit="sheets/h")
-        return drive.phase(math.radians(length), whole, to_speed=to_speed)
+        return self._drive.phase(math.radians(length), whole, to_speed=to_speed)
 
     def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
         swing = math.degrees(law.total_swing)
@@ -107,7 +163,7 @@ class Motion:
         if stated is None or abs(stated - swing) <= _STATED:
             return
         short = stated - swing
-        kappa = law.accelerate.kappa + short / (law.speed * self.spec.phases.accelerate)
+        kappa = law.accelerate.kappa + short / (law.speed * self.phases.accelerate)
         free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
         raise NoSolution(
             (f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg"),
@@ -151,12 +207,12 @@ class Motion:
                 key="pivots",
             )
 
-    def rows(self, samples: int | None = None) -> tuple[Reals, GripperMotion]:
+    def rows(self, samples: int | None = None, order: int = 2) -> tuple[Reals, GripperMotion]:
         """Cylinder angles in degrees and the motion there, for the tables."""
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)
-        return degrees, self.linkage.motion(degrees, 2)
+        return degrees, self.linkage.motion(degrees, order)
 
     @cached_property
     def extremes(self) -> dict[str, float]:

@@ -67,7 +67,7 @@ class GripperRegister(RegisterDesign):
         """The handover, one angle."""
         if at != "handover":
             raise no_such_place(at, ("handover",))
-        angle = math.radians(self.spec.handover)
+        angle = self.design.motion.handover_angle
         return angle, angle
 
     @property

@@ -62,37 +62,86 @@ class Pivots(Spec):
 
 
 class Phases(Spec):
-    """The six phases of a turn; they add up to 360 deg."""
+    """The six phases of a turn: they add up to 360 deg, and one may be left to them; or three are sized by balance."""
 
-    accelerate: Phase = Field(description="from the bite to the constant speed")
-    constant: Phase = Field(description="at the speed of the cylinder; the handover lies in it")
-    decelerate: Phase = Field(description="to the far dwell")
-    far_dwell: Phase = Field(description="rest at the far end")
-    return_: Phase = Field(alias="return", description="back to the bite")
-    near_dwell: Phase = Field(description="rest at the bite")
+    accelerate: Phase | None = Field(None, description="from the bite to the constant speed")
+    constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
+    decelerate: Phase | None = Field(None, description="to the far dwell")
+    far_dwell: Phase | None = Field(None, description="rest at the far end")
+    return_: Phase | None = Field(None, alias="return", description="back to the bite")
+    near_dwell: Phase | None = Field(None, description="rest at the bite; any one phase left out takes the rest")
+    balance: Annotated[float, Field(ge=0.01, le=100, json_schema_extra={"unit": "1"})] | None = Field(
+        None,
+        description="sizes accelerate, decelerate and return: peak acceleration of the return over theirs, which are "
+        "equal",
+    )
 
     @model_validator(mode="after")
     def _whole_turn(self) -> Phases:
-        total = sum(self.lengths())
-        if abs(total - 360.0) > 1e-9:
-            raise PydanticCustomError(
-                "GL111",
-                "sum of the six phases: {total} deg (required 360 deg)",
-                {"total": f"{total:g}", "help": self._help(360.0 - total)},
+        given = {key: value for key, value in self._by_key().items() if value is not None}
+        total, missing = sum(given.values()), [key for key in self._by_key() if key not in given]
+        if self.balance is not None:
+            self._require_sized(missing)
+        elif len(missing) > 1:
+            raise _phases("at most one phase may be omitted", f"give all but one of {', '.join(missing)}")
+        if missing and total >= 360.0:
+            left = "accelerate, decelerate and return" if self.balance is not None else missing[0]
+            longest = max(given, key=lambda key: given[key])
+            raise _phases(
+                "the given phases add up to {total} deg; nothing is left for {left}",
+                f"shorten {longest}, so that they add up to less than 360 deg",
+                total=f"{total:g}",
+                left=left,
             )
+        if not missing and abs(total - 360.0) > 1e-9:
+            text = "sum of the six phases: {total} deg (required 360 deg)"
+            raise _phases(text, self._help(given, 360.0 - total), total=f"{total:g}")
         return self
 
-    def _help(self, change: float) -> str:
+    def _require_sized(self, missing: list[str]) -> None:
+        """Refuse a balance beside a phase that it sizes, or without one that it needs."""
+        surplus = [key for key in SIZED if key not in missing]
+        lacking = [key for key in missing if key not in SIZED]
+        if surplus or lacking:
+            fix = f"leave out {', '.join(surplus)}" if surplus else f"give {', '.join(lacking)}"
+            raise _phases("balance sizes accelerate, decelerate and return, from the other three", fix)
+
+    def _help(self, given: dict[str, float], change: float) -> str:
         """Which phase may take up the change [deg], the longest."""
-        names = ("accelerate", "constant", "decelerate", "far_dwell", "return", "near_dwell")
-        longest, name = max(zip(self.lengths(), names, strict=True))
+        longest, name = max((length, name) for name, length in given.items())
         if longest + change > 0.0:
             return f"set phases.{name} to {longest + change:g} deg"
         return f"reduce the phases by {-change:g} deg together"
 
-    def lengths(self) -> tuple[float, ...]:
-        """The six lengths in their order [deg]."""
-        return (self.accelerate, self.constant, self.decelerate, self.far_dwell, self.return_, self.near_dwell)
+    def _by_key(self) -> dict[str, float | None]:
+        return {
+            "accelerate": self.accelerate,
+            "constant": self.constant,
+            "decelerate": self.decelerate,
+            "far_dwell": self.far_dwell,
+            "return": self.return_,
+            "near_dwell": self.near_dwell,
+        }
+
+    def given(self, key: str) -> float | None:
+        """The length of a phase as the file has it [deg]; None where it is left out."""
+        return self._by_key()[key]
+
+    def lengths(self) -> tuple[float, ...] | None:
+        """The six lengths in their order [deg], the remainder among them; None where balance sizes three."""
+        if self.balance is not None:
+            return None
+        found = [*self._by_key().values()]
+        rest = 360.0 - sum(value for value in found if value is not None)
+        return tuple(rest if value is None else value for value in found)
+
+
+SIZED = ("accelerate", "decelerate", "return")
+"""The phases that `balance` sizes."""
+
+
+def _phases(message: LiteralString, fix: str, **words: str) -> PydanticCustomError:
+    return PydanticCustomError("GL111", message, {"help": fix, **words})
 
 
 class Laws(Spec):
@@ -208,6 +257,9 @@ class GripperLimits(LoadLimits):
     least_shaft: Length | None = Field(
         None, description="radius of the thinnest shaft that would be built; left out: that of the roller"
     )
+    return_acceleration: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="peak acceleration of the return over that of the phase accelerate; none: no limit"
+    )
     jerk_step: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="jump of the swing's third derivative by the cylinder angle; only warns; none: no limit"
     )
@@ -226,7 +278,9 @@ class SwingGripperSpec(TolerancedSpec):
     swing_sense: Assembly = Field(description="-1: the working stroke turns clockwise")
     assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
     phases: Phases
-    handover: Phase = Field(description="cylinder angle of the handover")
+    handover: Phase | None = Field(
+        None, description="cylinder angle of the handover; left out: the middle of the phase constant"
+    )
     total_swing: Phase | None = Field(None, description="stated swing: refused where law and phases give another")
     release: Release | None = None
     laws: Laws = Laws.model_construct()
@@ -241,7 +295,10 @@ class SwingGripperSpec(TolerancedSpec):
 
     @model_validator(mode="after")
     def _handover_at_speed(self) -> SwingGripperSpec:
-        start, end = self.phases.accelerate, self.phases.accelerate + self.phases.constant
+        lengths = self.phases.lengths()
+        if lengths is None or self.handover is None:
+            return self
+        start, end = lengths[0], lengths[0] + lengths[1]
         if not start <= self.handover <= end:
             raise PydanticCustomError(
                 "GL108",

@@ -127,6 +127,6 @@ def gripper(design: Any) -> Timing:
     named = zip(PHASES, starts, starts[1:], strict=False)
     arm = Ring("arm", tuple(panels.Phase(name, start, end) for name, start, end in named))
     held = Ring(
-        "sheet", (panels.Phase("contact", 0.0, design.spec.handover), panels.Phase("free", design.spec.handover, 360.0))
+        "sheet", (panels.Phase("contact", 0.0, design.motion.handover), panels.Phase("free", design.motion.handover, 360.0))
     )
-    return [arm, held], [("bite", 0.0), ("handover", design.spec.handover)], "cylinder"
+    return [arm, held], [("bite", 0.0), ("handover", design.motion.handover)], "cylinder"

@@ -55,18 +55,18 @@ def _law(axes: list[Axes], design: SwingGripper) -> None:
     """beta, beta', beta'' over the cylinder angle, the handover marked; the derivatives in time on the right."""
     degrees = np.arange(_ROWS) * (360.0 / _ROWS)
     values = list(design.law.evaluate(degrees, 2))
-    at_handover = [float(v[0]) for v in design.law.evaluate(np.array([design.spec.handover]), 2)]
+    at_handover = [float(v[0]) for v in design.law.evaluate(np.array([design.motion.handover]), 2)]
     values[0], at_handover[0] = np.degrees(values[0]), math.degrees(at_handover[0])
     labels = ("β [deg]", "β′ = dβ/dθ [1]", "β″ = d²β/dθ² [1]")
     for each, curve, mark, label in zip(axes, values, at_handover, labels, strict=True):
         panels.turn_panel(each, label)
         each.plot(degrees, curve, color=style.BLUE, linewidth=1.6)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
-        each.axvline(design.spec.handover, color=_HANDOVER, linewidth=0.9, linestyle="--")
-        each.plot([design.spec.handover], [mark], "o", color=_HANDOVER, markersize=4.5)
+        each.axvline(design.motion.handover, color=_HANDOVER, linewidth=0.9, linestyle="--")
+        each.plot([design.motion.handover], [mark], "o", color=_HANDOVER, markersize=4.5)
     time_axes.in_time(axes[1], design.shaft_speed, 1, "rad")
     time_axes.in_time(axes[2], design.shaft_speed, 2, "rad")
-    handover = f"handover (dashed) at {design.spec.handover:g}°, {design.handover_speed:.6g} mm/s"
+    handover = f"handover (dashed) at {design.motion.handover:g}°, {design.handover_speed:.6g} mm/s"
     panels.heading(axes[0], f"Swing β of the gripper arm; {handover}")
 
 
@@ -103,7 +103,7 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
     far = design.law.starts[3]
     stations = (
         ("bite", 0.0, style.BLUE, "-"),
-        ("handover", design.spec.handover, _HANDOVER, style.DASHED),
+        ("handover", design.motion.handover, _HANDOVER, style.DASHED),
         ("far dwell", far, style.GREEN, style.DOTTED),
     )
     scene = build(design, np.array([degrees for _, degrees, _, _ in stations]) / 360.0)
