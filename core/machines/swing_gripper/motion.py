@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
-    from gearlink.core.parts.cams.shaped import Phase
+    from gearlink.core.parts.cams.shaped import Drive, Phase
 
 _STATED = 1e-6
 _TURN = 2.0 * math.pi

@@ -126,7 +126,6 @@ def gripper(design: Any) -> Timing:
     starts = design.law.starts
     named = zip(PHASES, starts, starts[1:], strict=False)
     arm = Ring("arm", tuple(panels.Phase(name, start, end) for name, start, end in named))
-    held = Ring(
-        "sheet", (panels.Phase("contact", 0.0, design.motion.handover), panels.Phase("free", design.motion.handover, 360.0))
-    )
-    return [arm, held], [("bite", 0.0), ("handover", design.motion.handover)], "cylinder"
+    handover = design.motion.handover
+    held = Ring("sheet", (panels.Phase("contact", 0.0, handover), panels.Phase("free", handover, 360.0)))
+    return [arm, held], [("bite", 0.0), ("handover", handover)], "cylinder"
