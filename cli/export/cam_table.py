@@ -25,7 +25,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         design: Any = whole_design(kind, spec)
-        if not hasattr(design, "follower_motion"):
+        if not hasattr(type(design), "follower_motion"):
             raise wrong_kind(loaded, f"a {kind.name} has no cam that a servo drive could stand in for")
         with refusals_located(loaded):
             motion, count = design.follower_motion, _rows(design, rows, tolerance)
@@ -52,6 +52,6 @@ def _rows(design: Any, rows: int | None, tolerance: float | None) -> int:
         return rows
     given = getattr(design.spec, "servo", None)
     if tolerance is None and given is not None:
-        return int(design.making.servo_rows)
+        return int(design.servo_rows)
     within = DEFAULT_TOLERANCE if tolerance is None else tolerance
     return rows_for(design.follower_motion, math.radians(within) if design.rocks else within)

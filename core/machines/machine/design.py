@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Found, Outline, UnknownName, in_unit
-from gearlink.core.base.errors import MissingSection, at_key, in_section
+from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import Check, Quantity, Shown, Status, Table
 from gearlink.core.base.results import cached_property
@@ -21,14 +21,17 @@ if TYPE_CHECKING:
 
     from gearlink.core.machines.machine.phases import Solution, Tie
     from gearlink.core.machines.machine.relations import Moment, Relation
-    from gearlink.core.machines.machine.series import Members
+    from gearlink.core.machines.machine.series import Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
     from gearlink.core.machines.machine.spec import MachineSpec
     from gearlink.core.machines.machine.timing import Timing
     from gearlink.core.numerics.arrays import Reals
 
 _OF_MEMBER = {"phase": "deg", "phase_room": "deg"}
-OWN = ("least_margin", "limiting_relations", "cycle_turns", "natural_frequencies", "critical_speeds")
+OWN = (
+    "least_margin", "limiting_relations", "cycle_turns", "natural_frequencies", "critical_speeds", "servo_rows",
+    "servo_error",
+)  # fmt: skip
 _OWN_CHECKS = ("timing-relation", "member-speed", "critical-speed")
 _SAME_SPEED = 1e-9
 
@@ -138,6 +141,11 @@ class OfMembers(Design):
         with in_section(f"members.{member}.design"):
             return self._answering[member].raw(rest)
 
+    @property
+    def rocks(self) -> bool:
+        """Whether the output that a drive makes turns."""
+        return False
+
     def phase_of(self, _member: str, _what: str) -> float | None:
         """Phase and its room of a free member [rad]."""
         return None
@@ -146,7 +154,10 @@ class OfMembers(Design):
         """A quantity in the units of design files; of a member as its own design gives it."""
         member, _, rest = name.partition(".")
         if not rest:
-            return super().quantity(name)
+            found = super().quantity(name)
+            if found is not None and name == "servo_error" and self.rocks:
+                return replace(found, value=math.degrees(found.value), unit="deg")  # type: ignore[arg-type]
+            return found
         if rest in _OF_MEMBER and member in self.spec.free:
             entry, value = term(rest), self.raw(name)
             return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
@@ -190,7 +201,7 @@ class Machine(OfMembers):
         ),
     }
     outlines = {"analyze": Outline(OWN, _OWN_CHECKS, ("timing", "relations", "motion"))}
-    extra_tables = ("modes",)
+    extra_tables = ("modes", "servo")
     derived = frozenset(OWN)
 
     def varied(self, spec: Any) -> Machine:
@@ -313,6 +324,57 @@ class Machine(OfMembers):
         """The relations that leave free phases no greater margin; None without free phases or relations."""
         return list(self.solution.limiting) or None if self.spec.free else None
 
+    # A drive in place of a member
+
+    @cached_property
+    def follower_motion(self) -> OverMachine:
+        """The output of the member of `servo` over the machine angle.
+
+        Raises
+            MissingSection, NoSolution - without the section, or for a member that repeats only after several turns
+        """
+        from gearlink.core.machines.machine.series import OverMachine
+
+        if self.spec.servo is None:
+            raise MissingSection("the table of a drive needs servo: {member: feed, rows: 73}", key="servo")
+        name = self.spec.servo.member
+        member = self.members[name]
+        if member.turns > 1:
+            message = f"{name} repeats only after {member.turns} turns of the main shaft: a table is that of one"
+            raise NoSolution(message, key="servo.member")
+        return OverMachine(member, math.radians(self.phases[self.spec.root(name)]))
+
+    @property
+    def rocks(self) -> bool:
+        """Whether that output turns."""
+        return self.follower_motion.member.course.unit == "rad"
+
+    @cached_property
+    def servo_rows(self) -> int | None:
+        """Rows of the table of a drive, both ends."""
+        from gearlink.core.parts.cams.servo import rows_for
+
+        servo = self.spec.servo
+        if servo is None or servo.rows is not None:
+            return None if servo is None else servo.rows
+        within = servo.tolerance or 0.0
+        return rows_for(self.follower_motion, math.radians(within) if self.rocks else within)
+
+    @cached_property
+    def servo_error(self) -> float | None:
+        """Greatest error of its position between them [mm or rad]."""
+        from gearlink.core.parts.cams.servo import greatest_error
+
+        return None if self.servo_rows is None else greatest_error(self.follower_motion, self.servo_rows)
+
+    def table_servo(self, _samples: int | None = None) -> Table:
+        """The table of a drive in place of the member of `servo`, over the machine angle."""
+        from gearlink.core.parts.cams.servo import servo_table
+
+        motion = self.follower_motion
+        assert self.servo_rows is not None, "there is a section"
+        return servo_table(motion, self.servo_rows, rocks=self.rocks)
+
     # Main shaft
 
     @cached_property
@@ -388,13 +450,16 @@ class Machine(OfMembers):
         self.require_table("modes")
         shapes, shaft = self.chain.shapes, self.spec.shaft
         assert shaft is not None
-        columns: dict[str, tuple[Any, str]] = {"disc": (shaft.discs, "1")}
+        names: Any = shaft.discs if shaft.members else list(range(1, self.chain.discs + 1))
+        columns: dict[str, tuple[Any, str]] = {"disc": (names, "1")}
         return Table.of("modes", columns | {f"mode_{k + 1}": (shapes[:, k], "1") for k in range(shapes.shape[1])})
 
     def require_table(self, name: str, /) -> None:
-        """The shapes need the main shaft."""
+        """The shapes need the main shaft, the table of a drive its section."""
         if name == "modes":
             _ = self.chain
+        if name == "servo":
+            _ = self.follower_motion
 
     # Checks
 

@@ -315,6 +315,28 @@ def slug(name: str) -> str:
 
 
 @dataclass(frozen=True)
+class OverMachine:
+    """The output of a member over the machine angle, as a drive in its place makes it.
+
+    Fields
+        member : OnShaft
+        phase : float [rad] - of its row
+    """
+
+    member: OnShaft
+    phase: float
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Machine angles within a turn at which a rate may jump [rad]."""
+        return tuple(sorted((each + self.phase) % TURN for each in self.member.joints))
+
+    def evaluate(self, phi: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:
+        """Position and its derivatives by the machine angle [mm or rad, per rad]."""
+        return self.member.rates(phi - self.phase, order, side=side)
+
+
+@dataclass(frozen=True)
 class Known:
     """What is known of a member by its own file alone, so that machines that differ elsewhere share it.
 

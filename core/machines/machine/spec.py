@@ -46,7 +46,10 @@ def _first_wrong(error: ValidationError) -> tuple[str, str, str]:
     below = str((item.get("ctx") or {}).get("key", ""))
     key = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in (*steps, *filter(None, [below])))
     code = item["type"] if item["type"].startswith("GL") else "GL108"
-    return code, key.removeprefix("."), item["msg"].replace("Input should be", "it must be")
+    message = (
+        "this key is missing" if item["type"] == "missing" else item["msg"].replace("Input should be", "it must be")
+    )
+    return code, key.removeprefix("."), message
 
 
 def _made(design: Any) -> Any:
@@ -84,11 +87,17 @@ class Member(Spec):
                          "of the driver with input; of a driver that slides in deg/mm")  # fmt: skip
     input: str | None = Field(None, description="output of another member that drives it, such as feed.output")
 
+    @model_validator(mode="before")
+    @classmethod
+    def _not_both(cls, data: Any) -> Any:
+        if isinstance(data, dict) and data.get("of") is not None and data.get("design") is not None:
+            raise _refuse("GL111", "design", "give `of` or `design`, exactly one")
+        return data
+
     @model_validator(mode="after")
     def _one_design(self) -> Member:
-        if (self.of is None) == (self.design is None):
-            message = "give `of` or `design`, exactly one"
-            raise _refuse("GL111" if self.of else "GL106", "design" if self.of else "of", message)
+        if self.of is None and self.design is None:
+            raise _refuse("GL106", "of", "give `of` or `design`, exactly one")
         if self.ratio == 0.0:
             raise _refuse("GL108", "ratio", "with ratio 0 the member stands still: give another one")
         if self.phase == "free" and self.input is not None:
@@ -210,6 +219,25 @@ class MachineLoads(Spec):
     )
 
 
+class MachineServo(Spec):
+    """The table of a drive that makes the motion of a member over the machine angle."""
+
+    member: str = Field(description="the member whose output the drive makes")
+    rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
+        None, description="rows of the table, both ends"
+    )
+    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="greatest position error between rows, mm or deg, in place of rows"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> MachineServo:
+        if (self.rows is None) == (self.tolerance is None):
+            key = "rows" if self.rows is None else "tolerance"
+            raise _refuse("GL106" if self.rows is None else "GL111", key, "give rows, or tolerance in its place")
+        return self
+
+
 class MachineRegister(Spec):
     """The register between members at the print."""
 
@@ -240,6 +268,7 @@ class MachineSpec(TolerancedSpec):
     shaft: MainShaft | None = Field(None, description="the main shaft as a torsional chain")
     limits: MachineLimits = MachineLimits.model_construct()
     loads: MachineLoads | None = Field(None, description="motor and flywheel on the main shaft")
+    servo: MachineServo | None = Field(None, description="table of a drive in place of a member")
     register_: MachineRegister | None = Field(None, alias="register", description="register between members")
 
     @cached_property
@@ -285,10 +314,11 @@ class MachineSpec(TolerancedSpec):
                 parse(text).require_names(tuple(self.members), tuple(self.events))
             except NotARelation as error:
                 raise _refuse(error.code, f"require[{i}]", str(error)) from None
-        for name in self.register_.chain if self.register_ else ():
+        places = [(name, f"register.chain.{name}") for name in (self.register_.chain if self.register_ else ())]
+        places += [] if self.servo is None else [(self.servo.member, "servo.member")]
+        for name, key in places:
             if name not in self.members:
-                message = f"no member {named(name)}: there are {', '.join(self.members)}"
-                raise _refuse("GL109", f"register.chain.{name}", message)
+                raise _refuse("GL109", key, f"no member {named(name)}: there are {', '.join(self.members)}")
         return self
 
     @property

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -10,7 +12,18 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
-from gearlink.core.parts.cams.follower_motion import HERMITE, TURN, FollowerMotion
+from gearlink.core.parts.cams.follower_motion import HERMITE, TURN
+
+class FollowerMotion(Protocol):
+    """What is made by the drive over a turn of its master: the lift of a cam, or the output of any member."""
+
+    @property
+    def joints(self) -> Sequence[float]:
+        """Places at which a law changes [rad]."""
+
+    def evaluate(self, phi: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:
+        """Position and its derivatives by the master [mm or rad, per rad]."""
+
 
 STEPS = (15.0, 10.0, 7.5, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.1)
 """Steps of the table that a tolerance may take [deg]."""

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from machines import FEED, GRIPPER, ROCKER, SWUNG, cam, machine, of
 
+from gearlink.cli.opening import design
 from gearlink.core.base.errors import GearlinkError
 
 CRANK = {"kind": "slider-crank", "stroke": 60, "rod": 120}
@@ -165,3 +166,23 @@ def test_members_in_a_circle_and_wrong_members_are_refused_at_their_key() -> Non
         with pytest.raises(GearlinkError) as wrong:
             machine(members).report("analyze")
         assert wrong.value.key == key
+
+
+def test_the_table_of_a_drive_in_place_of_a_member() -> None:
+    """Over the machine angle, ratio and phase in it; as exact between rows as that of the cam alone."""
+    members = {"feed": of(cam(FEED), phase=20), "arm": of(ROCKER, phase=7, ratio=-2)}
+    found = machine(members, servo={"member": "feed", "rows": 73})
+    alone = design("cam", **cam(FEED), servo={"rows": 73})
+    table, own = found.table("servo"), alone.table("servo")
+    for name in ("slave_position", "slave_velocity", "slave_acceleration", "slave_jerk"):  # 20 deg are 4 rows of 5
+        np.testing.assert_allclose(np.roll(table[name][:-1], -4), own[name][:-1], rtol=0.0, atol=1e-10)
+    assert found.servo_error == pytest.approx(alone.quantity("servo_error").value, rel=1e-6)
+    swung = machine(members, servo={"member": "arm", "tolerance": 0.001})
+    rows, error = swung.quantity("servo_rows"), swung.quantity("servo_error")
+    assert rows is not None
+    assert error is not None
+    assert (error.unit, swung.table("servo").units[1]) == ("deg", "deg")
+    assert 0.0 < float(error.value) <= 0.001  # type: ignore[arg-type]
+    with pytest.raises(GearlinkError) as wrong:
+        machine({**members, "arm": of(ROCKER, ratio=0.5)}, servo={"member": "arm", "rows": 73}).report("analyze")
+    assert wrong.value.key == "servo.member"
