@@ -14,6 +14,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams.follower_motion import HERMITE, TURN
 
+
 class FollowerMotion(Protocol):
     """What is made by the drive over a turn of its master: the lift of a cam, or the output of any member."""
 

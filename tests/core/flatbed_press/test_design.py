@@ -239,7 +239,9 @@ def test_no_equal_speed_and_the_shift_that_helps():
 
 def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
     short = replace(TY460, stroke=62.0)
-    with pytest.raises(NoSolution, match=r"the bed \(max\. 20\.73 mm/rad\) never reaches the cylinder speed") as refusal:
+    with pytest.raises(
+        NoSolution, match=r"the bed \(max\. 20\.73 mm/rad\) never reaches the cylinder speed"
+    ) as refusal:
         press(short).report("press")
     assert refusal.value.key == "bed.stroke"
     stroke = float(re.search(r"bed.stroke to at least ([\d.]+) mm", str(refusal.value))[1])
