@@ -26,7 +26,7 @@ _ROCKER = """\
     ("text", "key", "words"),
     [
         (_ALLOWED, "center_distance_allowance", "centre distance at a limit of its allowance: -0.0"),
-        (_ROCKER, "target.swing", "next to a standstill: ask for 0.000248 deg or more"),
+        (_ROCKER, "target.swing", "next to a standstill; ask for 0.000248 deg or more"),
     ],
 )
 def test_the_key_that_is_to_change(gearlink: Any, tmp_path: Path, text: str, key: str, words: str) -> None:
@@ -36,7 +36,7 @@ def test_the_key_that_is_to_change(gearlink: Any, tmp_path: Path, text: str, key
     assert ended.status == 2
     (found,) = [each for each in ended.json["findings"] if each["status"] == "error"]
     assert found["key"] == key
-    assert words in found["message"]
+    assert words in f"{found['message']}; {found.get('help', '')}"
     assert "sign change" not in found["message"]
 
 

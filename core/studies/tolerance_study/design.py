@@ -231,7 +231,7 @@ class ToleranceStudy(Design):
             return
         good = self.result.good
         short_of = good.low < target
-        aside = f"95 % interval {100 * good.low:.4g} to {100 * good.high:.4g} %"
+        aside = f"95 % interval {safely_below(100 * good.low)} to {safely_above(100 * good.high)} %"
         shown = Shown(100.0 * good.low if short_of else 100.0 * good.value, 100.0 * target, "%", ">=")
         what = "lower bound of the yield" if short_of else "yield"
         fix = self._remedy(good.value, target) if short_of else ""

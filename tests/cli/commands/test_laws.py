@@ -102,7 +102,7 @@ def test_wrong_laws_are_refused(gearlink: Any, name: str, words: str) -> None:
     ended = gearlink("laws", "--law", name, "--format", "json")
     assert ended.status == ExitCode.WRONG_INPUT
     (error,) = ended.json["errors"]
-    assert words in error["message"]
+    assert words in f"{error['message']}; {error.get('help', '')}"
     assert error["file"] == "<--law>"
 
 

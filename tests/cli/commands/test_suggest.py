@@ -190,10 +190,9 @@ def test_one_mistyped_length_is_found(gearlink: Any, tmp_path: Path, typed: tupl
     assert checked.status == 1
     (of_dwell, of_tips) = [text for text in checked.out.splitlines() if ": fail " in text]
     assert of_dwell.startswith(f"{path}:{line}:3: fail GL313")
-    assert "with this frame the crank may be " in of_dwell
-    assert "with this crank the frame may be " in of_dwell
     assert of_tips.startswith(f"{path}:{line}:3: fail GL301")
-    assert of_tips.rpartition("; ")[2] == of_dwell.rpartition("; ")[2], "one change repairs both"
+    one, other = [text for text in checked.out.splitlines() if "  fix: " in text]
+    assert one == other, "one change repairs both"
     annotations = gearlink("batch", path, "--format", "github").out.splitlines()
     (of_dwell,) = [text for text in annotations if "GL313" in text]
     assert f"line={line},col=3," in of_dwell

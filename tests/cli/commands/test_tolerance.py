@@ -53,7 +53,7 @@ def test_a_missed_target_fails(gearlink: Any, spec: Path) -> None:
     status, out = ended.status, ended.out
     (check,) = [check for check in json.loads(out)["checks"] if check["code"] == "GL179"]
     assert (status, check["status"]) == (1, "fail")
-    assert "--samples" in check["message"]
+    assert "--samples" in check["fix"]
 
 
 def test_a_quoted_key_is_one_step_of_a_path(gearlink: Any, spec: Path) -> None:

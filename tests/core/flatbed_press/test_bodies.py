@@ -44,6 +44,6 @@ def test_a_print_that_meets_the_forme_again(turns: int, length: float, meets: bo
     assert statuses == ["pass", "warn"] if meets else statuses == ["pass"]
     if meets:
         words = design.check("register")[1].message
-        low, high = (float(part) for part in words.partition("angles ")[2].partition(" deg")[0].split(" and "))
+        low, high = (float(part) for part in words.partition("angles ")[2].partition(" deg")[0].split(" to "))
         ends = np.degrees(phi[again])[[0, -1]] % 360.0
         assert (low, high) == pytest.approx(tuple(ends), abs=0.5)

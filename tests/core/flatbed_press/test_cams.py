@@ -231,11 +231,11 @@ def test_base_radius_that_is_named_keeps_the_pressure_angle(name, limit):
     found = [check for check in failing.check("pressure-angle") if check.status == "fail"]
     assert found
     words = r"(?:set cam\.base_radius to at least|a cam\.base_radius of) ([\d.]+) mm"
-    named = re.search(rf"above the limit ([\d.]+) deg: {words}", found[0].message)
-    assert float(named[1]) == limit
-    assert status(at(float(named[2])), "pressure-angle") == ["pass", "pass"]
+    named = re.search(words, found[0].fix)
+    assert found[0].limit == limit
+    assert status(at(float(named[1])), "pressure-angle") == ["pass", "pass"]
     # and not by much more than needed
-    assert "fail" in status(at(0.999 * float(named[2])), "pressure-angle")
+    assert "fail" in status(at(0.999 * float(named[1])), "pressure-angle")
 
 
 def test_pressure_angle_limit_of_zero_names_no_radius():
@@ -250,7 +250,7 @@ def test_roller_radius_against_the_cams(roller, expected):
     assert (check.code, check.status) == ("GL402", expected)
     assert check.value == pytest.approx(roller / 44.06171463650046, rel=1e-9)
     if expected != "pass":
-        most = re.search(r"a roller of at most ([\d.]+) mm", check.message)[1]
+        most = re.search(r"a roller of at most ([\d.]+) mm", check.fix)[1]
         repaired = press(sync=REPORT, transition="arc", roller_radius=float(most))
         assert status(repaired, "cam-undercut") == ["pass", "pass"]
 
@@ -269,8 +269,7 @@ def test_zone_of_the_reports_whole_degrees_starts_without_a_step_worth_the_name(
     assert status(design, "velocity-step") == ["pass"]
     (check,) = design.check("acceleration-step")
     assert (check.code, check.status) == ("GL404", "warn")
-    for joint in ("dwell/sync at 32.319 deg", "sync/transition at 117.52 deg", "transition/return at 125 deg"):
-        assert joint in check.message
+    assert "and 2 smaller steps at other joints) at the joint transition/return, 125 deg" in check.message
 
 
 def test_acceleration_steps_go_away_as_advised():
@@ -359,7 +358,7 @@ def test_base_radius_by_curvature_against_the_roots_of_its_own_equation(cam):
 def test_base_radius_that_is_named_keeps_the_roller():
     small = press(base_radius=40.0, lead_in=12.0)
     failed = [check for check in small.check("cam-undercut") if check.status == "fail"]
-    radius = float(re.search(r"set cam\.base_radius to at least ([\d.]+) mm", failed[0].message)[1])
+    radius = float(re.search(r"([\d.]+) mm", failed[0].fix)[1])
     assert status(press(base_radius=radius, lead_in=12.0), "cam-undercut") == ["pass", "pass"]
     assert "pass" not in status(press(base_radius=0.99 * radius, lead_in=12.0), "cam-undercut")[:1]
 
@@ -391,7 +390,7 @@ def test_shaft_of_the_cams(shaft, expected):
         least = np.abs(cam.points(np.radians(np.arange(0.0, 360.0, 0.1)))[1]).min()
         assert check.value == pytest.approx(least - shaft, abs=1e-9)
         if check.status != "pass":
-            radius = float(re.search(r"set cam\.base_radius to at least ([\d.]+) mm", check.message)[1])
+            radius = float(re.search(r"set cam\.base_radius to at least ([\d.]+) mm", check.fix)[1])
             assert status(press(shaft_radius=shaft, base_radius=radius), "shaft-clearance") == ["pass", "pass"]
 
 

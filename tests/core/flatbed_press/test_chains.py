@@ -216,12 +216,6 @@ def test_only_drag_links_serve(chain, links, kind):
     with pytest.raises(NoSolution) as refusal:
         make(FourBar(*links), *numbers)
     assert refusal.value.key == f"{chain}.double_crank"
-    longest, shortest = max(links), min(links)
-    for part in (
-        chain,
-        kind,
-        f"{links[3]:g} mm",
-        f"{longest + shortest:g} mm",
-        f"{sum(links) - longest - shortest:g} mm",
-    ):
-        assert part in str(refusal.value)
+    assert refusal.value.message.startswith(f"{chain} drive: ")
+    shown = {"impossible": "cannot be assembled", "change-point": "at its change point"}
+    assert shown.get(kind, kind) in refusal.value.message

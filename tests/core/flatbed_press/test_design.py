@@ -230,7 +230,7 @@ def test_chain_that_is_no_drag_link(chain):
 
 def test_no_equal_speed_and_the_shift_that_helps():
     large = replace(TY460, radius=170.0)
-    with pytest.raises(NoSolution, match="never have the same speed") as refusal:
+    with pytest.raises(NoSolution, match="no synchronous zone") as refusal:
         press(large).report("press")
     assert refusal.value.key == "cylinder.initial_crank_angle"
     angle = float(re.search(r"initial_crank_angle ([\d.]+) deg", str(refusal.value))[1])
@@ -245,17 +245,16 @@ def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
         press(short).report("press")
     assert refusal.value.key == "bed.stroke"
     stroke = float(re.search(r"bed.stroke to at least ([\d.]+) mm", str(refusal.value))[1])
-    radius = float(re.search(r"cylinder.radius to at most ([\d.]+) mm", str(refusal.value))[1])
-    for size, value, beyond in (("stroke", stroke, -1e-3), ("radius", radius, 1e-3)):
+    for size, value, beyond in (("stroke", stroke, -1e-3),):
         assert press(replace(short, **{size: value})).sync_start > 0.0
-        with pytest.raises(NoSolution, match="never have the same speed"):
+        with pytest.raises(NoSolution, match="no synchronous zone"):
             _ = press(replace(short, **{size: value * (1.0 + beyond)})).sync_start
 
 
 @pytest.mark.parametrize("end", [20.0, 34.0])
 def test_zone_that_ends_before_it_starts(end):
     design = press(sync={"start": 34.0, "end": end})
-    with pytest.raises(NoSolution, match=rf"{end:g} deg, but starts at 34 deg: set sync\.end above 34 deg") as refusal:
+    with pytest.raises(NoSolution, match=rf"{end:g} deg, but starts at 34 deg; set sync\.end above 34 deg") as refusal:
         _ = design.sync_end
     assert refusal.value.key == "sync.end"
 
@@ -309,7 +308,7 @@ def test_speeds_at_the_start_of_the_zone(start, status):
     phi = mp.radians(start) if start else TY460.equal_speed
     share = abs(mp.diff(TY460.gap, phi) / mp.diff(TY460.q, phi))
     assert check.value == pytest.approx(float(share), abs=1e-13)
-    assert ("leave sync.start out" in check.message) == (status == "fail")
+    assert ("remove sync.start" in (check.fix or "")) == (status == "fail")
 
 
 @pytest.mark.quick(2)
@@ -467,7 +466,7 @@ def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(strok
 @pytest.mark.parametrize(
     ("cam", "words"),
     [
-        ({"transition_end": 100.0}, "the transition ends at cam angle 100 deg, but the synchronous zone only at 116.5"),
+        ({"transition_end": 100.0}, "the transition ends at cam angle 100 deg, the synchronous zone at 116.5"),
         ({"return_angle": 290.0}, "after the next sheet begins"),
         ({"return_law": "half-cycloidal"}, "rest-to-rest"),
     ],

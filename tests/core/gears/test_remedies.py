@@ -31,7 +31,7 @@ def test_a_pointed_tip_gives_its_mate_what_it_has_too_much_of() -> None:
     assert first + second == pytest.approx(0.7, abs=1e-15)
     assert failing("fail", "warn", profile_shift=[first, second]) == []
     assert failing("fail", "warn", profile_shift=[first + 0.01, second - 0.01]) != []
-    assert check.message.endswith("tip thickness of gear 1 over the module")
+    assert check.fix == "set profile_shift[0] to 0.47 and profile_shift[1] to 0.23"
 
 
 def test_interference_is_repaired() -> None:

@@ -104,7 +104,7 @@ def test_where_no_phases_will_do_the_relations_that_limit_each_other_are_named()
     failing = [each for each in found.check("timing-relation") if each.status == "fail"]
     assert len(failing) == 1
     assert failing[0].value == pytest.approx(-5.0, abs=1e-9)  # a dwell of 80 deg holds a rise of 50 with 15 to spare
-    assert "no phases do better" in failing[0].message
+    assert "no phases do better" in failing[0].note[0]
 
 
 def test_a_dial_of_several_turns() -> None:
