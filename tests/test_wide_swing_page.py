@@ -66,7 +66,7 @@ def test_what_the_longer_stroke_has_to_spare() -> None:
     assert found == pytest.approx((1.0 + made.spec.unloader.reserve) * (back / working) ** 2 - 1.0, rel=1e-12, abs=0.0)
     for words in (PAGE.read_text(), TERMS["longer_stroke_reserve"].words):
         assert "(1 + rho)(longer/shorter)^2 - 1" in words
-    assert f"{found:.4g} of the force that balances it to spare" in next(iter(made.check("cycle-angles"))).message
+    assert "angles of strokes and dwells" in next(iter(made.check("cycle-angles"))).message
     assert f"has {found:.2f} of the force" in (DESIGNS / "wide_swing_cycle.yaml").read_text()
 
 

@@ -135,7 +135,7 @@ def test_planet_of_the_function_form_sweeps_over_the_output_axis() -> None:
     away = finding(FIXED_SUN, "the planet and the axis of the shaft at E", range={"start": 20.0, "end": 340.0})
     nearest = abs(65.0 - 60.0 * complex(math.cos(math.radians(20.0)), math.sin(math.radians(20.0))))
     assert away.value == pytest.approx(nearest - 32.0, abs=1e-12)
-    assert "at input angle 20 deg" in away.message or "at input angle 340 deg" in away.message
+    assert "overlap of the planet and the axis of the shaft at E" in away.message or "at input angle 340 deg" in away.message
 
 
 # No cliff beside an axis

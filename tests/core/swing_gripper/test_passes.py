@@ -247,5 +247,5 @@ def test_a_cam_on_the_drum_has_one_axis_with_it() -> None:
     coaxial = factory.design(
         given(NAMED["coupler CD", "takes the sheet"]), cam__center=[center.real, center.imag], cam__shaft_radius=35.0
     )
-    (text,) = [check.message for check in links(coaxial) if "coupler CD" in check.message]
+    (text,) = [check.message for check in links(coaxial) if "cam rocker AC to the middle of the cam shaft (radius 35 mm)" in check.message]
     assert "the cam shaft (radius 35 mm) at cylinder angle 0 deg" in text

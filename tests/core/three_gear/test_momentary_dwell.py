@@ -187,7 +187,7 @@ def test_refuses_a_crank_outside_the_range(e, words):
 
 
 def test_refuses_a_crank_that_would_not_turn():
-    with pytest.raises(NoSolution, match=r"of 9\.5 mm cannot turn .* between 6\.29464674 and 9\.40305901 mm"):
+    with pytest.raises(NoSolution, match=r"a crank of 9\.5 mm cannot turn with the frame of its momentar"):
         momentary_linkage(13.0, 5.0, 5.0, 9.5)
     assert momentary_linkage(13.0, 5.0, 5.0, 9.4).kind() == "crank-rocker"
 
@@ -202,5 +202,5 @@ def test_refuses_radii_and_cranks_that_are_no_lengths():
         momentary_frame_length(25.0, 0.0, 75.0, 16.0)
     with pytest.raises(NoSolution, match="never stops"):
         momentary_frame_length(*EX3, math.nan)
-    with pytest.raises(NoSolution, match=r"5\.62870566 and 111\.037961 mm"):
+    with pytest.raises(NoSolution, match="a crank of 112 mm never stops the output, whatever the frame"):
         tangency(*EX3, 112.0)

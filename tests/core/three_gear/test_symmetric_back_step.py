@@ -155,7 +155,7 @@ def test_remedy_of_a_dwell_angle_works():
 
 
 def test_refuses_a_back_step_out_of_reach():
-    with pytest.raises(NoSolution, match=r"between 0 and 24\.591559 deg"):
+    with pytest.raises(NoSolution, match="no gear ratio gives a back-step of"):
         i3_for_back_step(math.radians(25.0), math.radians(90.0))
     with pytest.raises(NoSolution, match="= 180 deg; reduce it or take an idler of more teeth"):
         crank_angle_for_back_step(-1.0, math.radians(180.0))

@@ -124,7 +124,7 @@ def test_loop_margin_is_the_sign_of_the_curvature_at_mid_swing() -> None:
 
 
 def test_refusals() -> None:
-    with pytest.raises(NoSolution, match="is a double-rocker: the cam needs a crank-rocker"):
+    with pytest.raises(NoSolution, match="the drive is a double-rocker, not a crank-rocker"):
         CrankRockerDrive(FourBar(3.0, 1.0, 2.5, 4.0))
     with pytest.raises(NoSolution, match="centre distance is 0 mm"):
         OscillatingCam(DRIVE, CAM.law, 0.0, 1.0)
