@@ -161,14 +161,22 @@ def test_every_error_of_a_file_is_shown(gearlink: Any, tmp_path: Path) -> None:
 def test_every_finding_of_a_design_is_shown(gearlink: Any, designs: Path) -> None:
     line = ("batch", designs / "thesis_example_3_as_printed.yaml", "--set", "limits.transmission_angle=85")
     findings = [
-        check["message"]
+        "\n".join(
+            (
+                check["message"],
+                *([f"fix: {check['fix']}"] if check["fix"] else []),
+                *(f"note: {n}" for n in check["note"]),
+            )
+        )
         for design in gearlink(*line, "--format", "json").json["designs"]
         for check in design["checks"]
         if check["status"] != "pass"
     ]
     assert len(findings) > 1
     rows = list(csv.DictReader(io.StringIO(gearlink(*line, "--format", "csv").out)))
-    assert sorted(row["finding"].partition(": ")[2] for row in rows) == sorted(findings)
+    assert sorted(row["finding"].partition(": ")[2] for row in rows) == sorted(
+        finding.replace("\n", "\\n") for finding in findings
+    )
 
 
 @pytest.mark.quick(2)

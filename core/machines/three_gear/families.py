@@ -212,7 +212,7 @@ def solved(
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         raise NoSolution(
             (
-                f"{what} is more than these gears reach, {_deg(share * most)} deg, and that with a "
+                f"{what} is more than these gears reach, {safely_below(math.degrees(share * most), 9)} deg, and that with a "
                 f"transmission angle of {angle} deg"
             ),
             fix="ask for less",
@@ -221,7 +221,7 @@ def solved(
         raise NoSolution(
             (
                 f"{what} is less than that of any crank-rocker with this crank: its output steps back "
-                f"with every frame, and the least is {_deg(share * least)} deg"
+                f"with every frame, and the least is {safely_above(math.degrees(share * least), 9)} deg"
             ),
             fix="take a shorter crank",
         )

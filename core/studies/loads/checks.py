@@ -265,7 +265,9 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
             shown = Shown(axial, None, "N")
             yield codes.BEARING_LIFE.check("warn", what, axial, 0.0, "N", shown=shown, fix=fix, note=note)
         least = _LEAST_LIFE_MARGIN * bearing.life
-        rating = bearing.dynamic_rating * (max(least, bearing.life) / life) ** (1.0 / pin.exponent)
+        rating = bearing.dynamic_rating * ((bearing.life if life < bearing.life else least) / life) ** (
+            1.0 / pin.exponent
+        )
         fix = f"take a bearing with a dynamic rating of {safely_above(rating)} N"
         yield codes.BEARING_LIFE.below(life, bearing.life, least, "h", f"rating life of the bearing of {name}", fix)
 

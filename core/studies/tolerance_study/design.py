@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.report import Check, Shown, Table
+from gearlink.core.base.report import Check, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.study.faults import WrongStudy

@@ -63,7 +63,10 @@ def test_a_failure_stands_at_the_key_that_its_remedy_changes(gearlink: Any, tmp_
     path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
     ended = gearlink("check", path)
     assert ended.status == 1
-    assert f"{path}:4:9: fail GL301 gear-collision: interference of the crank gear and the output gear: 1.6 mm" in ended.out
+    assert (
+        f"{path}:4:9: fail GL301 gear-collision: interference of the crank gear and the output gear: 1.6 mm"
+        in ended.out
+    )
     assert "\n  links: {crank: 18, frame: 121.4}\n          ^\n" in ended.out
     assert "gearlink explain CODE" in ended.err
     assert gearlink("check", path, "--quiet").err == ""

@@ -196,7 +196,7 @@ def test_one_mistyped_length_is_found(gearlink: Any, tmp_path: Path, typed: tupl
     annotations = gearlink("batch", path, "--format", "github").out.splitlines()
     (of_dwell,) = [text for text in annotations if "GL313" in text]
     assert f"line={line},col=3," in of_dwell
-    assert f"; set links.{key} to " in of_dwell
+    assert f"%0Afix: set links.{key} to " in of_dwell
     whole = gearlink("analyze", path, "--suggest", "--save", tmp_path / "better.yaml", "--format", "json").json
     assert whole["ok"]
     (change,) = whole["suggestions"]

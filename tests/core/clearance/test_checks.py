@@ -119,7 +119,10 @@ def test_rim_of_a_ring_gear_over_the_axis_of_the_rocker(teeth: tuple[int, int], 
     assert (check.status, check.value) == ("warn", frame - rim)
     assert "overlap of the ring gear and the axis of the shaft at D" in check.message
     # a rim only just outside the root circle clears an axis that lies outside it, a thick one does not
-    assert finding(RING, "the ring gear to the axis of the shaft at D: 0.5 mm", **keys, gears__rim=frame - 0.5).value == 0.5
+    assert (
+        finding(RING, "the ring gear to the axis of the shaft at D: 0.5 mm", **keys, gears__rim=frame - 0.5).value
+        == 0.5
+    )
     assert finding(RING, "overlap of the ring gear and the shaft at D", **keys, shafts__D_radius=3.0).status == "fail"
 
 
@@ -135,7 +138,10 @@ def test_planet_of_the_function_form_sweeps_over_the_output_axis() -> None:
     away = finding(FIXED_SUN, "the planet and the axis of the shaft at E", range={"start": 20.0, "end": 340.0})
     nearest = abs(65.0 - 60.0 * complex(math.cos(math.radians(20.0)), math.sin(math.radians(20.0))))
     assert away.value == pytest.approx(nearest - 32.0, abs=1e-12)
-    assert "overlap of the planet and the axis of the shaft at E" in away.message or "at input angle 340 deg" in away.message
+    assert (
+        "overlap of the planet and the axis of the shaft at E" in away.message
+        or "at input angle 340 deg" in away.message
+    )
 
 
 # No cliff beside an axis
@@ -369,15 +375,15 @@ def test_a_shaft_that_leaves_its_gear_no_rim_is_warned_of(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("nearest", "farthest", "words", "deepest"),
+    ("nearest", "farthest", "words", "side", "deepest"),
     [
-        (20.0, 130.0, "65 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 0 deg", 15.0),
-        (20.0, 70.0, "15 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 180 deg", 15.0),
-        (78.0, 130.0, "7 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 0 deg", 7.0),
+        (20.0, 130.0, "65 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 0 deg", "without", 15.0),
+        (20.0, 70.0, "15 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 180 deg", "within", 15.0),
+        (78.0, 130.0, "7 mm (limit <= 0 mm; shaft at D radius 5 mm) at input angle 0 deg", "without", 7.0),
     ],
 )
 def test_a_moving_ring_and_a_shaft_say_what_is_missing(
-    nearest: float, farthest: float, words: str, deepest: float
+    nearest: float, farthest: float, words: str, side: str, deepest: float
 ) -> None:
     """What is missing is a length to move by; the depth at a moment, read off a scan, may be less than that."""
     ring, shaft = Gear("the ring gear", "C", outer=80.0, inner=60.0), Shaft("shaft at D", "D", 5.0, "shafts.D_radius")
@@ -389,6 +395,6 @@ def test_a_moving_ring_and_a_shaft_say_what_is_missing(
     assert -min(depths) == pytest.approx(deepest, abs=0.06)
     lacking = -check.value
     assert lacking >= deepest - 1e-12
-    moved = lacking if "without" in words else -lacking
+    moved = lacking if side == "without" else -lacking
     freed = Layout((ring,), (shaft,), {"CD": Reach(nearest + moved, farthest + moved, 0.0, math.pi)}, 4.0)
     assert [each.status for each in shaft_checks(freed)] == ["pass"]

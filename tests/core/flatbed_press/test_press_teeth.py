@@ -72,7 +72,7 @@ def test_teeth_feed_the_loads() -> None:
 
 def test_checks_and_refusals() -> None:
     short = press(bed__rack_teeth=[20, 28])
-    found = {each.message.split()[1]: each.status for each in short.check("rack-length")}
+    found = {each.message.split()[3]: each.status for each in short.check("rack-length")}
     assert found == {"lower": "fail", "upper": "pass"}
     few = press(bed__pinion__teeth=12).check("undercut")
     assert [each.status for each in few if "pinion_rack" in each.message] == ["fail"]

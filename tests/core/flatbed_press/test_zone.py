@@ -148,7 +148,7 @@ def test_the_shift_that_is_named_makes_the_speeds_meet(radius, initial):
         equal_speed_angle(bed, cylinder)
     refusal = caught.value
     assert refusal.key == "cylinder.initial_crank_angle"
-    named = re.search(r"initial_crank_angle (-?[\d.]+) deg \(([+-]\d+) deg\)", refusal.message)
+    named = re.search(r"initial_crank_angle to (-?[\d.]+) deg \(([+-]\d+) deg\)", refusal.fix)
     assert named
     value, shift = float(named[1]), int(named[2])
     assert -360.0 <= value <= 360.0

@@ -58,7 +58,7 @@ def test_undercut_at_its_limits(beyond, status):
 @pytest.mark.parametrize("teeth", range(6, 17))
 def test_shift_that_is_named_takes_the_undercut_away(teeth):
     check = checks("undercut", pair_of((teeth, 60)))[0]
-    named = float(re.search(r"raise its profile shift to (-?[\d.]+)", check.message)[1])
+    named = float(re.search(r"raise its profile shift to (-?[\d.]+)", check.fix)[1])
     assert checks("undercut", pair_of((teeth, 60), (named, 0.0)))[0].status == "pass"
     assert named == pytest.approx(1.0 - teeth * SIN2 / 2.0, rel=1e-3)
 

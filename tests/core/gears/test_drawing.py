@@ -57,7 +57,7 @@ def test_balls_that_do_not_measure_the_teeth_are_named(teeth: list[Any], pins: l
     (found,) = made.check("inspection")
     assert (found.code, found.status) == ("GL213", "warn")
     assert words in found.message
-    best = float(found.message.partition("take one of ")[2].partition(" mm")[0])
+    best = float(found.fix.partition("set pin_diameter to ")[2].partition(" mm")[0])
     mended = [pins[0], best] if "gear 2" in words else [best, pins[1]]
     assert design(known | {"pin_diameter": mended}, command="gear").check("inspection") == []
     assert design(known, command="gear").check("inspection") == []

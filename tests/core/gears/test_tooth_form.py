@@ -131,7 +131,10 @@ def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
     [
         ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "raise its profile shift or take more teeth"),
         ({"teeth": [12, 60], "profile_shift": [1.2, 0]}, "lower its profile shift or its addendum"),
-        ({"teeth": [12, 12], "profile_shift": [2, 2], "addendum": 0.3, "clearance": 0.1}, "lower the sum of the profile shifts"),
+        (
+            {"teeth": [12, 12], "profile_shift": [2, 2], "addendum": 0.3, "clearance": 0.1},
+            "lower the sum of the profile shifts",
+        ),
         ({"teeth": [900, 900], "profile_shift": [-2.2, 2.2], "addendum": 0.1}, "nearer to 0"),
     ],
 )

@@ -206,7 +206,7 @@ def test_mirror_of_the_position(psi, drawn):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: SliderCrank(399.0, 200.5, 5.0), r"must stay below 395\.96843.* mm; shorten it"),
+        (lambda: SliderCrank(399.0, 200.5, 5.0), r"must stay below 395\.9 mm; shorten it"),
         (lambda: SliderCrank(399.0, 200.5, 5.0), r"stroke 399 mm is too long for rod 200\.5 mm and offset 5 mm:"),
         (lambda: SliderCrank(400.0, 200.0), "must stay below 400 mm"),
         (lambda: SliderCrank(100.0, 200.0, -200.0), "must be below the rod length 200 mm"),

@@ -78,7 +78,7 @@ def test_the_flywheel_that_a_failed_check_names_repairs_it() -> None:
     design = feed(flywheel={"inertia": 2.0, "fluctuation": 0.05})
     failed = design.check("speed-fluctuation")[0]
     assert failed.status == "fail"
-    named = float(failed.message.rpartition(" torque ")[2].split()[0])
+    named = float(failed.fix.partition("flywheel of ")[2].split()[0])
     assert feed(flywheel={"inertia": named, "fluctuation": 0.05}).check("speed-fluctuation")[0].status != "fail"
 
 

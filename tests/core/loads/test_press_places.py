@@ -56,7 +56,7 @@ def test_the_frame_of_the_theory_warns_and_does_not_fail() -> None:
     ("keys", "words"),
     [
         ({"cylinder_direction": -140}, "cylinder to the pitch line of the bed's rack: 8.36"),
-        ({"cylinder_direction": -130}, "overlap of the cylinder and the pitch line of the bed's rack: 25.16 mm"),
+        ({"cylinder_direction": -130}, "overlap of the cylinder and the pitch line of the bed's rack: 25.1"),
         ({"cylinder_direction": 0}, "runs against the bed"),
         ({"cylinder_direction": 150, "bed_side": 1}, "on the side of the pinion"),
         ({"cylinder_direction": 100, "bed_side": 1}, "on the side of the pinion, over the slide line"),

@@ -89,12 +89,10 @@ def test_example_3_as_printed_collides_and_says_why():
     (check,) = found.check("gear-collision")
     assert (check.code, check.status, check.unit, check.limit) == ("GL301", "fail", "mm", 0.0)
     assert check.value == pytest.approx(-1.6, abs=1e-12)
-    for words in (
-        "collide by 1.6 mm at input angle 0 deg",
-        "the crank gear travels with the crank pin",
-        "AD - AB = 103.4 mm counts, not AD",
-    ):
-        assert words in check.message
+    assert check.message == (
+        "interference of the crank gear and the output gear: 1.6 mm (limit <= 0 mm; minimum centre distance 103.4 mm, "
+        "AD - AB) at input angle 0 deg"
+    )
     assert value(found, "motion") == "back-step"  # the source takes it for a momentary dwell
     assert not found.report("analyze").ok
 
@@ -266,12 +264,12 @@ def test_linkages_that_cannot_be_driven(crank, frame, kind, assembly):
         found.report("analyze")
     assert refusal.value.key == "links"
     assert f"crank {crank:g}" in str(refusal.value)
-    assert "crank-rocker or a drag link" in str(refusal.value)
+    assert "not a crank-rocker or drag link" in str(refusal.value)
 
 
 def test_change_point_linkage():
     found = design(gears=EXAMPLE_3["gears"], links={"crank": 20.0, "frame": 130.0})
-    with pytest.raises(NoSolution, match="change-point") as refusal:
+    with pytest.raises(NoSolution, match="at its change point") as refusal:
         found.quantity("min_transmission_angle")
     assert refusal.value.key == "links"
 
@@ -305,8 +303,8 @@ def test_collision_remedies_repair_the_design(name, limit):
     limits = {"gear_gap": limit}
     (check,) = design(gears=gears, links=links, limits=limits).check("gear-collision")
     assert check.status == "fail"
-    longer = float(re.search(r"frame less crank ([\d.]+) mm longer", check.message)[1])
-    teeth = int(re.search(r"output gears (\d+) teeth smaller together", check.message)[1])
+    longer = float(re.search(r"frame minus crank by ([\d.]+) mm", check.fix)[1])
+    teeth = int(re.search(r"take (\d+) (?:tooth|teeth) less", check.fix)[1])
     repaired = (
         {"gears": gears, "links": links | {"crank": links["crank"] - longer / 2, "frame": links["frame"] + longer / 2}},
         {"gears": gears | {"output": gears["output"] - teeth}, "links": links},
@@ -318,20 +316,20 @@ def test_collision_remedies_repair_the_design(name, limit):
         assert gap >= limit - 1e-12
     # one tooth and a hundredth of a millimetre less would not do
     assert (teeth - 1) * gears["module"] / 2.0 < limit - check.value
-    assert longer == pytest.approx(limit - check.value, rel=2e-4)
+    assert longer == pytest.approx(limit - check.value, rel=1e-3)
 
 
 def test_longer_frame_as_advised_passes_example_3():
     (check,) = design(**EXAMPLE_3).check("gear-collision")
-    longer = float(re.search(r"frame less crank ([\d.]+) mm longer", check.message)[1])
+    longer = float(re.search(r"frame minus crank by ([\d.]+) mm", check.fix)[1])
     repaired = design(gears=EXAMPLE_3["gears"], links={"crank": 18.0, "frame": 121.4 + longer})
     assert [c.status for c in repaired.check("gear-collision")] == ["pass"]
 
 
 def test_crank_that_is_named_gives_a_momentary_dwell_with_room():
-    (check,) = design(**EXAMPLE_3).check("gear-collision")
-    crank = float(re.search(r"crank of at most ([\d.]+) mm \(synth momentary-dwell\)", check.message)[1])
-    for eccentricity, status in ((crank, "pass"), (crank + 0.002, "fail")):
+    (check,) = design(**EXAMPLE_3, momentary={"eccentricity": 18.0}).check("gear-collision")
+    crank = float(re.search(r"crank of at most ([\d.]+) mm \(synth momentary-dwell\)", check.fix)[1])
+    for eccentricity, status in ((crank, "pass"), (crank + 0.02, "fail")):
         made = design(
             command="synth momentary-dwell", gears=EXAMPLE_3["gears"], momentary={"eccentricity": eccentricity}
         )
@@ -367,8 +365,8 @@ def test_shafts_that_the_file_does_not_name():
     assert found[4].value == pytest.approx(153.552, abs=1e-12)
     assert [check.limit for check in found] == [4.0, 4.0, 4.0, 4.0, 8.0]
     assert found[0].message == (
-        "the tips of the idler (74 mm) pass the axis of the input shaft, 73.143 mm away at input angle 223.164 deg: "
-        "that shaft must end before the plane of the gears (be overhung)"
+        "overlap of the idler and the axis of the input shaft: 0.857 mm (limit <= 0 mm; axes 73.14 mm apart) "
+        "at input angle 223.2 deg"
     )
 
 

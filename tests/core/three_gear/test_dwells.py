@@ -257,7 +257,7 @@ def test_back_step_may_run_through_the_crank_angle_zero():
 def test_refuses_a_back_step_where_there_is_none():
     with pytest.raises(NoSolution, match="the output of this linkage does not step back"):
         back_step(FourBar(18.0, 50.0, 100.0, 110.0), EX3_TRAIN)
-    with pytest.raises(NoSolution, match=r"no frame does that; take a crank between 5\.62870566"):
+    with pytest.raises(NoSolution, match="the output of this linkage does not step back"):
         back_step(FourBar(5.0, 50.0, 100.0, 121.4), EX3_TRAIN)
 
 

@@ -294,7 +294,11 @@ def test_ring_on_the_crank_is_analysed_and_refused_by_syntheses() -> None:
     [
         ({"gears__output": -80}, "gears.output", "larger than 84 mm"),
         ({"dwell": {"tolerance": 0.5, "crank": 60}}, "dwell.crank", "shorter than 41 mm"),
-        ({"dwell": {"window": 150, "tolerance": 0.5}}, "dwell.window", r"a dwell of 150 deg within \+-0\.5 deg is not possible with the"),
+        (
+            {"dwell": {"window": 150, "tolerance": 0.5}},
+            "dwell.window",
+            r"a dwell of 150 deg within \+-0\.5 deg is not possible with the",
+        ),
         ({"dwell": {"tolerance": 0.5, "frame": 100}}, "dwell.frame", "no crank turns"),
     ],
 )

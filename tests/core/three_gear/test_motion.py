@@ -216,7 +216,7 @@ def test_narrow_peaks_next_to_a_change_point_are_found():
 def test_refuses_a_crank_that_does_not_turn(links, words):
     with pytest.raises(NoSolution, match=words):
         check_linkage(FourBar(*links))
-    with pytest.raises(NoSolution, match="the linkage is a double-rocker, not a crank-rocker or drag link"):
+    with pytest.raises(NoSolution, match="not a crank-rocker or drag link"):
         speed_extremes(FourBar(*links), EX3_TRAIN)
 
 

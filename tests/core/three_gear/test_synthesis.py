@@ -442,12 +442,12 @@ def test_idler_that_is_named_keeps_the_gears_apart(task, idler, limit):
     sections = sections | {"limits": {"gear_gap": limit}}
     (check,) = design(synth, **with_idler(sections, idler)).check("gear-collision")
     assert (check.code, check.status) == ("GL301", "fail")
-    named = int(re.search(r"take an idler of (\d+) teeth or more", check.message)[1])
+    named = int(re.search(r"take an idler of (\d+) teeth or more", check.fix)[1])
     for more in (named, named + 1, named + 10, 400):
         assert [c.status for c in design(synth, **with_idler(sections, more)).check("gear-collision")] == ["pass"]
     (last,) = design(synth, **with_idler(sections, named - 1)).check("gear-collision")
     assert last.status == "fail"
-    assert f"take an idler of {named} teeth" in last.message
+    assert f"take an idler of {named} teeth" in last.fix
 
 
 @pytest.mark.parametrize("gears", [ANY | {"idler": 20}, {"module": 2.5, "crank": 40, "idler": 20, "output": 20}])
@@ -458,7 +458,7 @@ def test_crank_that_is_named_keeps_the_gears_apart(gears):
     assert check.status == "fail"
     (((key, crank),),) = made.candidates("gear-collision")
     assert key == "momentary.eccentricity"
-    idler = int(re.search(r"an idler of (\d+) teeth", check.message)[1])
+    idler = int(re.search(r"an idler of (\d+) teeth", check.fix)[1])
     for repaired in (sections | {"momentary": {"eccentricity": crank}}, with_idler(sections, idler)):
         assert [c.status for c in design("synth momentary-dwell", **repaired).check("gear-collision")] == ["pass"]
     longer = sections | {"momentary": {"eccentricity": crank + 0.1}}

@@ -335,4 +335,4 @@ def test_a_check_that_fails_more_than_any_requirement_is_named() -> None:
     made = study(data, sources=FOUR, require=["back_step_angle <= 21 deg"], samples=512, target_yield=0.9)
     (found,) = made.check("target-yield")
     assert found.status == "fail"
-    assert "GL303 fails most" in found.message
+    assert "GL303, which fails most" in found.fix

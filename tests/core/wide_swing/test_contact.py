@@ -101,10 +101,10 @@ def test_roller_too_large() -> None:
     with pytest.raises(NoSolution, match="make it less than") as refusal:
         contact_end(large)
     limit = float(str(refusal.value).split("less than ")[1].split(" mm")[0])
-    # five digits of the limit are printed
+    # four digits of the limit are printed
     assert contact_end(replace(large, roller_radius=limit)) < 1e-3
     with pytest.raises(NoSolution):
-        contact_end(replace(large, roller_radius=1.0001 * limit))
+        contact_end(replace(large, roller_radius=1.001 * limit))
 
 
 @pytest.mark.quick(2)

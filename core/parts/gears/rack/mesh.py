@@ -225,7 +225,7 @@ class RackMesh:
         """The findings of a check on gear and rack."""
         if name in _OF_TOOTH:
             found = list(gear_check(name, self.pair, limits, shifts=True))
-            yield from (each for each in found if "gear 1" in each.what)
+            yield from (each for each in found if "gear 1" in each.what + each.advice)
         if name in _CHECKS:
             yield from _CHECKS[name](self, limits)
         if name in _OF_PAIR:

@@ -205,7 +205,7 @@ def test_sharp_and_full_round_tools():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"teeth": 2}, "no root circle left: take at least 3 teeth"),
+        ({"teeth": 2}, "no root circle left; take at least 3 teeth"),
         ({"teeth": 20, "addendum": 2.5}, "pointed"),
         ({"teeth": 20, "rounding": 0.9}, "between 0 and 0.47"),
     ],

@@ -398,7 +398,11 @@ def test_gears_of_a_ring_on_the_crank_stand_in_the_order_of_the_file():
     rows = list(zip(*(table.data[i] for i in (0, 1, 3, 4)), strict=True))
     assert ("crank_idler", "number of teeth", -82, 30) in rows
     assert ("idler_output", "number of teeth", 30, 24) in rows
-    (idler,) = [check for check in one.check("undercut") if "idler-output mesh: profile shift x of gear" in check.message]
+    (idler,) = [
+        check
+        for check in one.check("undercut")
+        if check.message.startswith("crank-idler") and "gear 2" in check.message
+    ]
     assert "crank-idler mesh: profile shift x of gear 2 (30 teeth)" in idler.message
 
 
