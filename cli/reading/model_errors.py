@@ -351,7 +351,7 @@ class _Wording:
         return text_remedy(value) if kinds == {"string_type"} else ""
 
     def _own(self, finding: _Finding) -> Diagnostic:
-        """An error that a model raised with a code of ours, what would help on a line of its own; its context may name a
+        """An error that a model raised with a code of ours, with its help on a line of its own; its context may name a
         key below the model's own."""
         below = parse_path(str(finding.context.get("key", ""))) or ()
         path = finding.path + below

@@ -17,12 +17,15 @@ def key_of(data: dict[str, Any], check: Check) -> str:
     Of a section it is the key that the remedy changes, where that stands in it.
 
     Example
-        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "constant-sum", "fail", "", advice="raise cam.base_radius"))
+        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "sum", "fail", "", advice="raise cam.base_radius"))
         'cam.base_radius'
     """
     known = explanations().get(check.code)
     # The keys of a remedy may stand anywhere: what is about to be changed is not what the finding is about.
-    for path in (*_PATH.findall(f"{check.what} {check.aside} {'' if check.remedy else check.advice}"), *(known.keys if known else ())):
+    for path in (
+        *_PATH.findall(f"{check.what} {check.aside} {'' if check.remedy else check.advice}"),
+        *(known.keys if known else ()),
+    ):
         if _has(data, path):
             changed = (key for key, _ in check.remedy if key.startswith(f"{path}.") and _has(data, key))
             return next(changed, str(path))

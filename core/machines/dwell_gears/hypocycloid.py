@@ -60,7 +60,7 @@ class HypocycloidSlider:
                 else ""
             )
             raise NoSolution(
-                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.6g} mm away from the slide line",
+                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.6g} mm from the slide line",
                 fix=f"make it longer than that{usual}",
             )
 

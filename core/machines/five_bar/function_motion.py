@@ -149,7 +149,8 @@ class FunctionFiveBar:
                     f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are "
                     f"{greatest:.6g} mm apart, follower and output together only {longest:.6g} mm"
                 ),
-                fix=f"lengthen them by more than {safely_above(greatest - longest, 4)} mm together{_or('shorten the coupler', free)}",
+                fix=f"lengthen them by more than {safely_above(greatest - longest)} mm together"
+                + _or("shorten the coupler", free),
             )
         if least <= shortest:
             raise NoSolution(
@@ -157,7 +158,8 @@ class FunctionFiveBar:
                     f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.6g} "
                     f"mm apart, follower and output differ by {shortest:.6g} mm"
                 ),
-                fix=f"make them more equal by more than {safely_above(shortest - least, 4)} mm{_or('lengthen the frame', free)}",
+                fix=f"make them more equal by more than {safely_above(shortest - least)} mm"
+                + _or("lengthen the frame", free),
             )
         return (low, least), (high, greatest)
 

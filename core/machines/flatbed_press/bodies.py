@@ -33,8 +33,8 @@ def crank_axes(design: FlatbedPress) -> Iterator[Check]:
         math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame),
         LEAST_SHAFT_MODULES * gears.module,
     )
-    cranks = (("AB", "A", "G", bed), ("GH", "G", "A", design.spec.cylinder))
-    for name, own, other, part in cranks:
+    cranks = (("AB", "G", bed), ("GH", "A", design.spec.cylinder))
+    for name, other, part in cranks:
         reach = part.double_crank.crank
         gap = apart - reach - least
         yield SHAFT_CLEARANCE.check(

@@ -290,7 +290,9 @@ def _require_drag_link(linkage: FourBar, chain: str) -> None:
     if linkage.frame > shortest:
         wrong.append(f"frame {short(linkage.frame)} mm is not the shortest link")
         changes.append("make the frame the shortest link")
-    found = {"impossible": "the four links cannot be assembled", "change-point": "at its change point"}.get(kind, f"a {kind}")
+    found = {"impossible": "the four links cannot be assembled", "change-point": "at its change point"}.get(
+        kind, f"a {kind}"
+    )
     with at_key(f"{chain}.double_crank"):
         raise NoSolution(
             f"{chain} drive: {found}, not a drag link, both of whose cranks turn fully ({', '.join(wrong)})",

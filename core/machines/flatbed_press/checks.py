@@ -128,10 +128,7 @@ def _zone_length(design: FlatbedPress) -> Check:
     if asked == 0.0:
         what, aside = "length of the synchronous zone", "no print_length given"
         return codes.SYNC_LENGTH.check("pass", what, length, 0.0, "mm", shown=Shown(length, None, "mm"), aside=aside)
-    if design.spec.sync.end is None:
-        remedy = "raise sync.length"
-    else:
-        remedy = "raise sync.end"
+    remedy = "raise sync.length" if design.spec.sync.end is None else "raise sync.end"
     return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "travel of the cylinder in the zone", remedy)
 
 

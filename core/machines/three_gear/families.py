@@ -212,7 +212,7 @@ def solved(
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         raise NoSolution(
             (
-                f"{what} is more than these gears reach, {safely_below(math.degrees(share * most), 9)} deg, and that with a "
+                f"{what} is more than these gears reach, {safely_below(math.degrees(share * most), 9)} deg, with a "
                 f"transmission angle of {angle} deg"
             ),
             fix="ask for less",

@@ -122,7 +122,8 @@ def force_reserve(design: WideSwingDesign) -> Check:
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
     back, need, fix = design.unloading.way_back, design.unloading.need, ""
     if status != "pass":
-        fix = f"raise unloader.reserve to {safely_above(remedies.reserve(unloader.residual, 0.1, need))} (10 % speed margin)"
+        reserve = safely_above(remedies.reserve(unloader.residual, 0.1, need))
+        fix = f"raise unloader.reserve to {reserve} (10 % speed margin)"
     governs = back is not None and back.value > 1.0
     at = f"k = {short(back.place)} of the return stroke" if back is not None and governs else ""
     return codes.FORCE_RESERVE.check(

@@ -80,7 +80,7 @@ def undercut_checks(
 
 
 def against_curvature(roller: float, least: float, status: Status) -> Shown:
-    """What a message compares with a roller radius: the least curvature radius, of a warning the share that is usual."""
+    """What a message compares with a roller radius: the least curvature radius, or its usual share."""
     if not math.isfinite(least):
         return Shown(roller, None, "mm")
     usual = status == "warn"

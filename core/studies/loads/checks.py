@@ -161,7 +161,7 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
         if inside and play:
             lag = math.degrees(0.5 * play / mesh.radius)
             status, fix = "fail", "load the output in one direction"
-            note = f"at {short(inside[0])} deg, where the output must dwell or run true, {mesh.second} lags by {short(lag)} deg"
+            note = f"{mesh.second} lags by {short(lag)} deg at {short(inside[0])} deg, where the output must dwell"
         at, count = f"{listed(places)} deg", float(len(places))
         yield codes.LOAD_REVERSAL.check(status, what, count, 0.0, shown=NO_NUMBER, at=at, fix=fix, note=note)
 

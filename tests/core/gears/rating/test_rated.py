@@ -357,7 +357,8 @@ def test_a_failing_safety_says_what_helps() -> None:
     (first, _) = rated().check("pitting")
     crowned = of("safety_pitting", rating={"face": {"modification": "crowning"}})[0]
     assert "gear 1: pitting safety S_H" in first.message
-    assert "gear 1: pitting safety S_H" in first.message
+    assert "K_Hb = 1.49 takes 18 % of the safety" in first.note[0]
+    assert first.fix.endswith(f"crowning, which gives a safety of {crowned:.3g}")
 
 
 WRONG: list[tuple[dict[str, Any], str, str]] = [
