@@ -98,7 +98,7 @@ def within(low: float, high: float, unit: str) -> str:
 
     Example
         >>> within(114.6512, 115.2338, "mm"), within(1.000011, 1.000019, "mm")
-        ('114.7 to 115.2 mm', '1.000012 to 1.000018 mm')
+        ('114.7 to 115.2 mm', '1.000011 to 1.000019 mm')
     """
     for digits in range(DIGITS, 17):
         ends = directed(low, 1, digits), directed(high, -1, digits)

@@ -386,8 +386,8 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     Returns
         error : NoSolution - names the least swing
     Example
-        >>> print(too_small_swing(math.radians(1e-9), 1e-11).message.partition("; ")[2])
-        set swing to at least 1.0001e-08 deg
+        >>> print(too_small_swing(math.radians(1e-9), 1e-11).fix)
+        set swing to at least 1.001e-08 deg
     """
     least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
     return NoSolution(
