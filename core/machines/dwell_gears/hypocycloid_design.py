@@ -10,7 +10,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, either, up
-from gearlink.core.base.report import Check, Remedy, Shown, Table
+from gearlink.core.base.report import Check, Remedy, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
@@ -424,8 +424,11 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if asked is None or reached is None:
             return
         found = math.degrees(reached)
-        text = f"the arm stays within +-{tolerance:g} deg for {found:.6g} deg of the carrier, {asked:g} deg wanted"
-        yield DWELL_QUALITY.check("pass" if found >= asked - 1e-9 else "fail", text, found, asked, "deg")
+        met, what, fix = found >= asked - 1e-9, "dwell of the arm", "allow a larger dwell.tolerance"
+        shown = Shown(found, min(asked, found) if met else asked, "deg", ">=")
+        aside = "" if tolerance is None else f"within +-{short(tolerance)} deg"
+        status: Status = "pass" if met else "fail"
+        yield DWELL_QUALITY.check(status, what, found, asked, "deg", shown=shown, aside=aside, fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""

@@ -208,11 +208,9 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         factor = self.generated_root_factor[0]
         if factor is None:
             return
-        text = (
-            f"the tooth beside a gap, cut down and loaded at its tip, bears {factor:.4g} F_t/(b m) on its generated "
-            "fillet: the boundary integral is its only rating, ISO 6336 has no section for it"
-        )
-        yield TRUE_FILLET.check("pass", text, factor)
+        what, aside = "stress factor of the tooth beside a gap on its generated fillet", "in F_t/(b m)"
+        note = "the boundary integral is its only rating: ISO 6336 has no section for it"
+        yield TRUE_FILLET.check("pass", what, factor, aside=aside, note=note)
 
     @cached_property
     def mutilated(self) -> MutilatedGear:

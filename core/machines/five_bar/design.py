@@ -699,12 +699,12 @@ class FiveBarParts(Meshed):
         if found is None:
             return
         one, ordered = len(set(found.assemblies)) == 1, found.in_order
-        text = "the poses follow each other in one assembly of the links"
+        what, fix = "the poses follow each other in one assembly of the links", ""
         if not ordered:
-            text = "the input angles neither rise nor fall in the order of the poses: keep less, or reorder them"
+            what, fix = "the input angles neither rise nor fall in the order of the poses", "keep less, or reorder them"
         elif not one:
-            text = "two poses need different assemblies of the links: keep less, or change a pose"
-        yield POSE_ORDER.check("pass" if one and ordered else "fail", text)
+            what, fix = "two poses need different assemblies of the links", "keep less, or change a pose"
+        yield POSE_ORDER.check("pass" if one and ordered else "fail", what, fix=fix)
 
     @cached_property
     def positions(self) -> list[tuple[float, float]] | None:

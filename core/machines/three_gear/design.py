@@ -532,9 +532,9 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return
         limit = feed.lay.speed
         over = found > limit * (1.0 + 1e-12)
-        text = f"over the last {feed.lay.distance:g} mm before the lay the sheet reaches {found:.6g} mm/s"
-        text += f", above {limit:g} mm/s: run slower, or choose a drive that is slower there" if over else ""
-        yield LAY_SPEED.check("fail" if over else "pass", text, found, limit, "mm/s")
+        what, aside = "maximum speed of the sheet before the lay", f"over the last {short(feed.lay.distance)} mm"
+        fix = "run slower, or choose a drive that is slower there"
+        yield LAY_SPEED.check("fail" if over else "pass", what, found, limit, "mm/s", side="<=", aside=aside, fix=fix)
 
     # Checks
 
