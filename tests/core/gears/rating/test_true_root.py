@@ -250,4 +250,4 @@ def test_the_tooth_beside_a_gap_is_cut_down_and_loaded_at_its_tip() -> None:
     assert low.tension.factor < ending.tension.factor
     (found,) = wheel.check("true-fillet")
     assert found.code == "GL219"
-    assert "its only rating" in found.message
+    assert "its only rating" in found.note[0]
