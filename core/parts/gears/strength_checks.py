@@ -101,7 +101,8 @@ def bending(data: GearData, limits: Any) -> Iterator[Check]:
     """GL211 of both gears, and where a formula of the root leaves its range."""
     if data.load is not None:
         yield from _out_of_range(data)
-    called, note = "tooth root safety S_F", f"nominal: {_bending_inputs(data)}"
+    ring = shaped_root(data)
+    called, note = "tooth root safety S_F", f"nominal: {_bending_inputs(data)}" + (f"; {ring}" if ring else "")
     yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, called, note)
 
 

@@ -31,6 +31,7 @@ class Bodies:
 
     Parameters
         path : PathOfContact - with the common width
+        widths : (float, float) [mm] - of each gear, for its tolerances
         materials : (Material, Material) - for E
         conditions : Conditions
 
@@ -39,6 +40,7 @@ class Bodies:
     """
 
     path: PathOfContact
+    widths: Pair
     materials: tuple[Material, Material]
     conditions: Conditions
 
@@ -126,7 +128,7 @@ class Bodies:
                     grade=self.conditions.grades[gear],
                     module=pair.module,
                     diameter=2.0 * abs(pair.reference_radius[gear]),
-                    width=self.width,
+                    width=self.widths[gear],
                     edition=edition,
                 )
                 for gear in (0, 1)

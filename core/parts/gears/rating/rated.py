@@ -63,7 +63,9 @@ class Rated:
     @cached_property
     def bodies(self) -> Bodies:
         """What does not change with the load."""
-        return Bodies(path=self.data.path, materials=self.data.materials, conditions=self.conditions)
+        widths = self.data.face_width
+        assert widths is not None, "a file with a rating gives them"
+        return Bodies(path=self.data.path, widths=widths, materials=self.data.materials, conditions=self.conditions)
 
     def factors_at(self, point: Point) -> LoadFactors:
         """The load factors at a point of the spectrum."""

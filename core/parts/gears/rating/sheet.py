@@ -95,7 +95,7 @@ def _tolerances(rated: Rated) -> Iterator[Line]:
     given, bodies, pair = rated.conditions, rated.bodies, rated.data.pair
     printed, rule = given.edition == 1995, f"R2 ISO 1328-1:{given.edition}"
     inputs = _said(
-        grade=given.grades, m=pair.module, d=tuple(2.0 * abs(r) for r in pair.reference_radius), b=bodies.width
+        grade=given.grades, m=pair.module, d=tuple(2.0 * abs(r) for r in pair.reference_radius), b=bodies.widths
     )
     one, other = bodies.tolerances
     for symbol, name, values in (
@@ -168,7 +168,14 @@ def _dynamics(rated: Rated) -> Iterator[Line]:
         inputs = _said(f=deviation, sigma_Hlim=rated.contact_limits, v=at.pitch_line_speed)
         printed = all(_run_in_is_printed(kind, limit, deviation, at.pitch_line_speed) for kind, limit in at.run_in_by)
         yield Line(symbol, name, (value, None), "um", rule, inputs, confirmed=printed)
-    shares = _said(N=at.resonance_ratio, **dict(zip(("B_p", "B_f", "B_k"), at.deviation_shares, strict=True)))
+    u = abs(pair.gear_ratio)
+    reach = at.pitch_line_speed * pair.teeth[0] / 100.0 * u / math.sqrt(1.0 + u * u)
+    near_1 = " (below 3 m/s it hardly matters)" if reach < 3.0 else ""
+    shares = _said(
+        N=at.resonance_ratio,
+        **dict(zip(("B_p", "B_f", "B_k"), at.deviation_shares, strict=True)),
+        v_z=f"{reach:.3g}{near_1}",
+    )
     origin = _origin(rated, "dynamic")
     below = at.resonance_ratio <= at.resonance_from or origin == "given"
     yield Line("K_v", "dynamic factor", (at.dynamic, None), "1", rule, shares, origin, below)
