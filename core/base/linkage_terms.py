@@ -55,7 +55,7 @@ REAL_SPEED: dict[str, Term] = {
     "feed_ratio": Term("", "1", "speed of the feed's shaft over that of the output, for a step", "thesis 3.3.2"),
     "feed_teeth": Term("z_F", "1", "teeth of the sprocket that come nearest to a step", "thesis 3.3.2"),
     "uniform_angle": Term("", "deg", "longest crank angle at a nearly even speed", "thesis 4.2.1; own derivation"),
-    "uniform_start": Term("", "deg", "crank angle at which that stretch starts"),
+    "uniform_start": Term("", "deg", "crank angle where the even stretch starts"),
     "uniform_ratio": Term("", "1", "level of the speed ratio in that stretch"),
     "lay_speed": Term("v_L", "mm/s", "greatest speed of the sheet on the last way before the lay", "thesis 3.3.2"),
     "lay_angle": Term("", "deg", "crank angle at which the sheet arrives at the lay"),
