@@ -33,6 +33,7 @@ KINDS: dict[str, Kind] = {
             profiles="cli.export.parts:three_gears",
             parts=("gear1", "gear3", "gear5"),
             rexs=("gear 1", "gear 3", "gear 5"),
+            sheets={"poles": "cli.views.figures.sheets.poles:draw"},
             worked="standing_feed",
         ),
         Kind(

@@ -589,14 +589,17 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
         return found
 
     @property
-    def asked_ratio_min(self) -> float:
-        """The least output speed that is asked for, per input speed."""
-        return float(self.task.request.min) / self.input_speed
+    def asked_ratio_min(self) -> float | None:
+        """The least output speed that is asked for, per input speed; None of an even stretch."""
+        return self._asked(self.task.request.min)
 
     @property
-    def asked_ratio_max(self) -> float:
-        """The greatest output speed that is asked for, per input speed."""
-        return float(self.task.request.max) / self.input_speed
+    def asked_ratio_max(self) -> float | None:
+        """The greatest output speed that is asked for, per input speed; None of an even stretch."""
+        return self._asked(self.task.request.max)
+
+    def _asked(self, speed: float | None) -> float | None:
+        return None if speed is None or self.input_speed is None else float(speed) / self.input_speed
 
     def completion(self) -> Iterator[Found]:
         """The input speed besides the links."""
