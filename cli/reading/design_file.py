@@ -177,9 +177,15 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
 
     wrong = list(loaded.problems)
     faulty: set[str] = set()
+    unread: set[str] = set()
     if section := getattr(model, "section_of_members", ""):
         found_there, faulty = _read_members(loaded, section)
         wrong += found_there
+    if "file" in loaded.text or loaded.overrides:
+        from gearlink.cli.reading.columns import read_points
+
+        of_numbers, unread = read_points(loaded)
+        wrong += of_numbers
     if renamed := _starts_with_a_number(loaded.data) or _scatters_by_terms(loaded.data):
         from gearlink.cli.reading.units import convert
 
@@ -208,6 +214,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     wrong += [_no_size(loaded, model, path, value) for path, value in odd if path in sizes]
     seen = {diagnostic.key for diagnostic in wrong if diagnostic.code in ("GL108", "GL180", "GL181")}
     found = [d for d in found if not any(d.key.startswith(f"{member}.design") for member in faulty)]
+    found = [d for d in found if d.key.removesuffix(".points") not in unread]
     wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
         from gearlink.cli.reading.model_errors import diagnose_truth_values

@@ -299,9 +299,16 @@ TOLERANCES: tuple[Rule, ...] = (
 )
 
 
-# The codes GL180 and GL181: what can be wrong with the unit of a value
+# The codes GL180 to GL182: what can be wrong with the unit of a value, and with a file of numbers
 
 VALUES: tuple[Rule, ...] = (
+    Rule(
+        "GL182",
+        "unreadable file of numbers",
+        "A file that a key names holds something else than rows of two numbers.",
+        "A cell that is read as another number, or skipped, would bend the curve through the points.",
+        "Save the numbers as CSV: two columns with comma, semicolon or tab between them; words may stand at the top.",
+    ),
     Rule(
         "GL180",
         "unknown unit",

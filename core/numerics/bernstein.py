@@ -88,7 +88,7 @@ def from_chebyshev(series: Reals) -> Reals:
 
 
 def peak(coefficients: Reals) -> float:
-    """An upper bound of |f| on [0, 1], at most 1.5e-14 of the largest coefficient too high.
+    """An upper bound of |f| on [0, 1], or of several by rows, at most 1.5e-14 of the largest coefficient too high.
 
     Notes
         The largest coefficient of a part bounds |f| there; parts are halved until it is no more than a value of f.
@@ -97,7 +97,7 @@ def peak(coefficients: Reals) -> float:
         True
     """
     size = float(np.max(np.abs(coefficients)))
-    parts = coefficients[None, :]
+    parts = np.atleast_2d(coefficients)
     reached = 0.0
     for _ in range(_DEEPEST):
         reached = max(reached, float(np.max(np.abs(parts[:, [0, -1]]))))

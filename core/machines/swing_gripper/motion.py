@@ -62,7 +62,7 @@ class Motion:
         start, end = found.accelerate, found.accelerate + found.constant
         if self.spec.handover is not None and not start <= self.spec.handover <= end:
             raise NoSolution(
-                f"handover outside the constant-speed phase: {self.spec.handover:g} deg (by balance from {start:.6g} to "
+                f"handover outside the constant-speed phase: {self.spec.handover:g} deg (balanced: {start:.6g} to "
                 f"{end:.6g} deg)",
                 key="handover",
                 fix="leave it out for the middle of the phase",

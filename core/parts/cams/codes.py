@@ -111,6 +111,17 @@ LAW_GAP = Rule(
     ("law.degree", "law", "laws", "motion", "cam.return_law"),
     side="<=",
 )
+LAW_RIPPLE = Rule(
+    "GL422",
+    "a table law turns back",
+    "The curve through the points of a table from rest to rest runs backwards somewhere (a warning).",
+    "Measured or rounded points ripple; each turn back is a blow in the drive's play.",
+    "Give more digits, smooth the points, or leave some out: the spline passes through every one.",
+    "least velocity of the law >= 0",
+    "own derivation",
+    ("law-ripple",),
+    ("laws", "law", "motion", "cam.return_law"),
+)
 POLYDYNE_RANGE = Rule(
     "GL518",
     "a polydyne law of less than one natural period",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -89,11 +90,12 @@ class Shaping(NamedTuple):
     """What is known of a shaped law beside its motion.
 
     Fields
-        type : str - polynomial, harmonic, polydyne, optimal, bernstein
+        type : str - polynomial, harmonic, polydyne, optimal, bernstein, table
         acceleration : coefficients of s'' by Bernstein polynomials; empty where it is no polynomial
         periods : float or None - natural periods per phase for which it is shaped
         damping : float - of the oscillator
         wish, optimum : of an optimal law
+        least_speed : of a table from rest to rest the least velocity and its x
     """
 
     type: str
@@ -102,6 +104,7 @@ class Shaping(NamedTuple):
     damping: float = 0.0
     wish: Wish | None = None
     optimum: Optimum | None = None
+    least_speed: tuple[float, float] | None = None
 
 
 def shaped_law(definition: Any, phase: Phase | None = None) -> Law:
@@ -156,7 +159,24 @@ def _made(asked: _Asked) -> Law:
         return polydyne(periods, model.damping)
     if model.type == "bernstein":
         return of_acceleration(model.acceleration, "bernstein")
+    if model.type == "table":
+        return _through_points(model.points, to_speed=phase.to_speed)
     return _optimal(model, phase)
+
+
+def _through_points(points: Sequence[Sequence[float]], *, to_speed: bool) -> Law:
+    """The law through the points of a table."""
+    from gearlink.core.parts.cams.table_law import TableSpline
+
+    (x, s), last = zip(*points, strict=True), len(points) - 1
+    if not to_speed and s[-1] != 1.0:
+        raise NoSolution(f"last s of a law from rest to rest: {s[-1]:.9g} (required 1)", key=f"points[{last}]")
+    if s[-1] <= 0.0:
+        raise NoSolution(f"last s of a law from rest to speed: {s[-1]:.9g} (above 0)", key=f"points[{last}]")
+    spline = TableSpline(x, s, 1.0 if to_speed else 0.0)
+    shaping = Shaping("table", least_speed=None if to_speed else spline.least_speed())
+    found = _law("table", spline.derivatives, spline.peaks(), shaping)
+    return replace(found, joints=tuple(x[1:-1]), kappa=s[-1])
 
 
 # Given end values

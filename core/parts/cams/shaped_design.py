@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.core.base.design import Found
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.wording import short
-from gearlink.core.parts.cams.codes import LAW_GAP, POLYDYNE_RANGE
+from gearlink.core.parts.cams.codes import LAW_GAP, LAW_RIPPLE, POLYDYNE_RANGE
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped import Phase
 
-LAW_CHECKS = ("law-gap", "polydyne-range")
+LAW_CHECKS = ("law-gap", "polydyne-range", "law-ripple")
 LAW_TABLE = "law_coefficients"
 _MOST_GAP, _LEAST_PERIODS = 1e-3, 1.0
+_ROUNDING = 1e-9
 
 
 BESIDE = ("cycloidal", "modified-sine", "polynomial-4567")
@@ -115,6 +116,18 @@ class WithShapedLaws:
             few = periods < _LEAST_PERIODS
             what, fix = f"{path}: natural periods per phase", "give the phase more time"
             yield POLYDYNE_RANGE.check(_status(few), what, periods, _LEAST_PERIODS, fix=fix)
+
+    def check_law_ripple(self) -> Iterator[Check]:
+        """GL422."""
+        for path, law in self._shaped("table"):
+            if law.shaping is None or law.shaping.least_speed is None:
+                continue
+            speed, place = law.shaping.least_speed
+            what, fix = f"{path}: least velocity of the table law", "smooth the points, or leave some out"
+            back = speed < -_ROUNDING * law.peak_velocity
+            yield LAW_RIPPLE.check(
+                _status(back), what, speed if back else max(speed, 0.0), 0.0, at=f"x = {short(place)}", fix=fix
+            )
 
     def table_law_coefficients(self, _samples: int | None = None) -> Table:
         """Coefficients of the second derivative of each law that is a polynomial, by Bernstein polynomials."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -149,12 +150,47 @@ class BernsteinLaw(Spec):
     ] = Field(description="coefficients of the second derivative by x, of Bernstein polynomials")
 
 
+TablePoint = Annotated[list[Number], Field(min_length=2, max_length=2), Entries("[x, s]")]
+FEWEST_POINTS = 6
+
+
+class TableLaw(Spec):
+    """A law through the points of a table: the quintic spline that begins at rest and ends at rest or at speed."""
+
+    type: Literal["table"] = Field(description="how the law is shaped")
+    points: Annotated[list[TablePoint], Field(max_length=2000)] | None = Field(
+        None,
+        description="[x, s] from [0, 0] to [1, 1], 6 at least; from rest to speed s over end speed and phase, its last "
+        "free",
+    )
+    file: str | None = Field(None, description="CSV file with these columns, in place of points")
+
+    @model_validator(mode="after")
+    def _ascends(self) -> TableLaw:
+        if self.points is not None and self.file is not None:
+            raise _refused("file", "points and file exclude each other: give one")
+        if self.points is None:
+            raise _refused("points", "a table law needs points, or file")
+        if len(self.points) < FEWEST_POINTS:
+            raise _refused("points", f"points of a table law: {len(self.points)} (at least {FEWEST_POINTS})")
+        x = [place for place, _ in self.points]
+        if x[0] != 0.0 or x[-1] != 1.0:
+            raise _refused("points", f"x of a table law runs from 0 to 1, not from {x[0]:.9g} to {x[-1]:.9g}")
+        for k, (before, after) in enumerate(pairwise(x), 1):
+            if after <= before:
+                raise _refused(f"points[{k}]", f"x of a table law ascends: {after:.9g} follows {before:.9g}")
+        if self.points[0][1] != 0.0:
+            raise _refused("points[0]", f"the first s of a table law is 0, not {self.points[0][1]:.9g}")
+        return self
+
+
 MODELS: dict[str, type[Spec]] = {
     "polynomial": PolynomialEnds,
     "harmonic": HarmonicEnds,
     "polydyne": Polydyne,
     "optimal": OptimalLaw,
     "bernstein": BernsteinLaw,
+    "table": TableLaw,
 }
 
 

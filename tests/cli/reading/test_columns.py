@@ -1,0 +1,70 @@
+"""Points of a design file that stand in a file of numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gearlink.cli.reading.columns import rows_of
+from gearlink.cli.reading.design_file import load, validate
+from gearlink.cli.reading.diagnostics import DesignFileError, Source
+from gearlink.core.machines.motion_law.spec import MotionLawSpec
+
+ROWS = [[0.0, 0.0], [0.25, 0.1], [1.0, 1.0]]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0,0\n0.25,0.1\n1,1\n",
+        "x;s\n0;0\n0,25;0,1\n1;1",
+        "# measured\nangle\tlift\n0\t0\n0,25\t0,1\n\n1\t1\n",
+        "\ufeffx, s\r\n0, 0\r\n2.5e-1, .1\r\n1, 1\r\n",
+    ],
+)
+def test_delimiter_and_decimal_sign_are_found(text: str) -> None:
+    assert rows_of(Source("f.csv", text.removeprefix("\ufeff"))) == ROWS
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "words"),
+    [
+        ("x;s\n0;0\n0,5;0,x5\n", 3, 5, "'0,x5' is no number"),
+        ("0,0\n1,1,1\n", 2, 5, "3 numbers in a row"),
+        ("words\nalone\n", 1, 1, "no row of numbers"),
+    ],
+)
+def test_a_bad_cell_is_told_at_its_place(text: str, line: int, column: int, words: str) -> None:
+    with pytest.raises(DesignFileError) as refused:
+        rows_of(Source("f.csv", text))
+    (found,) = refused.value.diagnostics
+    assert (found.code, found.line, found.column) == ("GL182", line, column)
+    assert words in found.message
+
+
+def design_file(folder: Path, law: str) -> Path:
+    path = folder / "law.yaml"
+    path.write_text(f"kind: motion-law\nname: measured\nlaw: {law}\n", encoding="utf-8")
+    return path
+
+
+def test_the_points_take_the_place_of_the_name(tmp_path: Path) -> None:
+    rows = [[0.0, 0.0], [0.2, 0.06], [0.4, 0.3], [0.6, 0.7], [0.8, 0.94], [1.0, 1.0]]
+    (tmp_path / "lift.csv").write_text("".join(f"{x},{s}\n" for x, s in rows), encoding="utf-8")
+    spec = validate(load(str(design_file(tmp_path, "{type: table, file: lift.csv}"))), MotionLawSpec)
+    assert spec.law.points == rows  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "help"),
+    [("lft.csv", "GL101", "did you mean"), ("lift.xlsx", "GL182", "save it as CSV")],
+)
+def test_a_file_that_cannot_be_read_is_the_only_error(tmp_path: Path, name: str, code: str, help: str) -> None:
+    (tmp_path / "lift.csv").write_text("0,0\n", encoding="utf-8")
+    path = design_file(tmp_path, f"{{type: table, file: {name}}}")
+    with pytest.raises(DesignFileError) as refused:
+        validate(load(str(path)), MotionLawSpec)
+    (found,) = refused.value.diagnostics
+    assert (found.code, found.line) == (code, 3)
+    assert help in found.help
