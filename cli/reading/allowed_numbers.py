@@ -34,8 +34,8 @@ def allowed_numbers(model: type[BaseModel], path: KeyPath, data: Any, least: flo
 
 
 def _words(kind: Any, constraints: tuple[Any, ...], least: float, most: float) -> str:
-    low, above = _bound(constraints, ("ge", "gt"), max, -most)
-    high, below = _bound(constraints, ("le", "lt"), min, most)
+    low, above = bound(constraints, ("ge", "gt"), max, -most)
+    high, below = bound(constraints, ("le", "lt"), min, most)
     if kind is int:
         first = math.floor(low) + 1 if above else math.ceil(low)
         last = math.ceil(high) - 1 if below else math.floor(high)
@@ -53,7 +53,7 @@ def _words(kind: Any, constraints: tuple[Any, ...], least: float, most: float) -
     return f"{'above' if above else 'from'} {_plain(low)} {ending}{between}"
 
 
-def _bound(constraints: tuple[Any, ...], names: tuple[str, str], nearer: Any, end: float) -> tuple[float, bool]:
+def bound(constraints: tuple[Any, ...], names: tuple[str, str], nearer: Any, end: float) -> tuple[float, bool]:
     """The narrower of the bounds of one side, and whether it is itself left out."""
     found = [(end, False)]
     for constraint in constraints:

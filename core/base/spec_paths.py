@@ -96,14 +96,14 @@ def numbers_at(spec: Any, path: str) -> Iterator[str]:
             yield from numbers_at(spec, f"{path}.{field.alias or name}")
 
 
-_STEPS_BY_UNIT = {"1": 0.01, "deg": 0.5}
+STEPS_BY_UNIT = {"1": 0.01, "deg": 0.5}
 
 
 def step_of(spec: Any, path: str) -> float:
     """The step in which a number of a spec can be built: whole teeth, 0.1 mm, half a degree, 0.01 of a ratio."""
     if isinstance(number_at(spec, path), int):
         return 1.0
-    return _STEPS_BY_UNIT.get(unit_at(spec, path), 0.1)
+    return STEPS_BY_UNIT.get(unit_at(spec, path), 0.1)
 
 
 def unit_at(spec: Any, path: str) -> str:
