@@ -95,6 +95,27 @@ def _watch(
     raise typer.Exit(run_watch(spec, options, port=port, show=show))
 
 
+@app.command("studio")
+@takes("quiet")
+def _studio(
+    spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file")],
+    options: Options,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="port of the page; 0: a free one")] = 0,
+    show: Annotated[bool, typer.Option("--open", help="open the page in the browser")] = False,
+) -> None:
+    """Change a design in the browser: every number on a slider, all results live; Ctrl-C ends it.
+
+    The page is served on the loopback address of this machine alone; its button Save writes the file.
+
+    Needs NiceGUI: pip install 'gearlink-design[studio]'
+
+    Example: gearlink studio press.yaml --open
+    """
+    from gearlink.cli.commands.studio import run_studio
+
+    raise typer.Exit(run_studio(spec, options, port=port, show=show))
+
+
 @app.command("batch")
 @takes(
     "plot", "plot_format", "dpi", "overrides", "strict", "color", "quiet", plot="with --out: draw each design as well"

@@ -11,7 +11,7 @@ GROUPS = {
     "From the task to a design": ("synth", "gears", "explore"),
     "Compute a design": ("analyze", "gear", "crank", "press", "gripper", "swing", "cam", "loads"),
     "Judge it": ("check", "diff", "tolerance", "register", "verify"),
-    "Show it, make it": ("report", "watch", "sheet", "animate", "export"),
+    "Show it, make it": ("report", "watch", "studio", "sheet", "animate", "export"),
     "Many designs": ("batch",),
 }
 """Headings and the commands below them; a command that stands in none comes last."""

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table as Grid
 
+    from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind
 
@@ -140,7 +141,16 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
     Raises
         DesignFileError - for files that cannot be read, or not be compared with each other (GL117)
     """
-    before, after = _side(old, options), _side(new, options)
+    return compared(_side(old, options), _side(new, options), (old, new), tolerance)
+
+
+def compared(before: Side, after: Side, files: tuple[str, str], tolerance: float = TOLERANCE) -> Difference:
+    """As `difference`, of two sides that have been read.
+
+    Parameters
+        files : their names
+    """
+    old, new = files
     if bool(before.inputs) != bool(after.inputs):
         raise incomparable(new, "one file is a design, the other a result: give two of a sort")
     if before.kind != after.kind:
@@ -193,7 +203,15 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
 
 def _design_side(file: str, options: Options) -> Side:
     """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
-    loaded, kind = open_design(file, options)
+    return side_of(*open_design(file, options))
+
+
+def side_of(loaded: LoadedFile, kind: Kind) -> Side:
+    """As a side of a comparison a design that has been read.
+
+    Raises
+        DesignFileError - where it is refused
+    """
     spec = read_spec(loaded, kind, "-")  # named as it stands: names of files are no difference
     designs = {kind.class_for(command, spec): kind.design(command, spec) for command in spec.commands()}
     with refusals_located(loaded):
@@ -370,7 +388,7 @@ def _plain_value(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[str, list[Sequence[str]]]]:
+def parts_of(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[str, list[Sequence[str]]]]:
     """Each part that changed, as rows of text: name, old, new, unit, change, command."""
     for part in _PARTS:
         changes: list[Change] = getattr(found, part)
@@ -398,7 +416,7 @@ def _verdict(found: Difference) -> str:
 def _as_markdown(found: Difference) -> str:
     from gearlink.cli.render.markdown_report import inline, markdown_table, text_of
 
-    sections = [f"## {part}\n\n" + markdown_table((part, *_HEADS), rows) for part, rows in _parts(found, text_of)]
+    sections = [f"## {part}\n\n" + markdown_table((part, *_HEADS), rows) for part, rows in parts_of(found, text_of)]
     return "\n\n".join([*sections, inline(_verdict(found))])
 
 
@@ -407,7 +425,7 @@ def _show(found: Difference, options: Options) -> None:
     from gearlink.cli.render.terminal import console_for, room_for_names, show_grid
 
     console = console_for(options)
-    for part, told in _parts(found, partial(number, digits=9)):
+    for part, told in parts_of(found, partial(number, digits=9)):
         rows = [tuple(map(visible, row)) for row in told]
         grid = _grid(part, rows, console)
         if room_for_names(grid, console) >= max(len(row[0]) for row in rows):

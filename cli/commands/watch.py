@@ -49,6 +49,11 @@ _MOST_READERS = 64
 _FULL = b"HTTP/1.0 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n"
 
 
+def own_names(port: int) -> set[str]:
+    """How a reader on this machine may call a port of its own, as `Host` has it."""
+    return {f"{name}:{port}" for name in _NAMES} | (set(_NAMES) if port == _HTTP else set())
+
+
 class Board:
     """What the page shows: its pieces by name with the version they are of, and what is wrong."""
 
@@ -186,7 +191,7 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
             A page of elsewhere whose own name was made to mean this machine sends that name.
             """
             port = self.server.server_address[1]  # type: ignore[index]
-            own = {f"{name}:{port}" for name in _NAMES} | (set(_NAMES) if port == _HTTP else set())
+            own = own_names(port)
             hosts, origins = (self.headers.get_all(name, []) for name in ("Host", "Origin"))
             return (
                 len(hosts) == 1

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from importlib import resources
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -31,16 +31,23 @@ def part(name: str) -> str:
     return (resources.files("gearlink.cli.views.films") / name).read_text(encoding="utf-8")
 
 
-def player_stage(scene: Scene, title: str, size: tuple[int, int] = (960, 720)) -> Stage:
+Reach: TypeAlias = tuple[float, float, float, float]
+
+
+def player_stage(
+    scene: Scene, title: str, size: tuple[int, int] = (960, 720), reach: Reach | None = None
+) -> Stage:
     """The mechanism alone on a picture no higher than it needs: the page shows title, values and chart beside it."""
     width, height = size
-    bare = Stage(replace(scene, chart=None), title, width, height, bare=True)
+    bare = Stage(replace(scene, chart=None), title, width, height, bare=True, reach=reach)
     return replace(bare, height=min(height, bare.needed_height))
 
 
-def player_data(scene: Scene, title: str, fps: float, size: tuple[int, int] = (960, 720)) -> dict[str, Any]:
+def player_data(
+    scene: Scene, title: str, fps: float, size: tuple[int, int] = (960, 720), reach: Reach | None = None
+) -> dict[str, Any]:
     """What the player is given: parts and marks in pixels of its picture, values, the chart in its own units."""
-    stage = player_stage(scene, title, size)
+    stage = player_stage(scene, title, size, reach)
     letters, labels = stage.shifts
     on_body = iter(labels)
     return {

@@ -36,14 +36,19 @@ function filmPlayer(root, DATA) {
   const stage = root.querySelector(".stage"), strip = root.querySelector(".strip"), values = root.querySelector(".now");
   const play = root.querySelector("#play"), place = root.querySelector("#place");
   const speed = root.querySelector("#speed"), number = root.querySelector("#number");
-  const chart = DATA.chart;
+  let chart = DATA.chart, ghost = null;
   stage.setAttribute("aria-label", DATA.title + ", film");
-  stage.style.aspectRatio = DATA.width + " / " + DATA.height;
-  strip.setAttribute("aria-label", chart ? chart.ylabel + " over " + chart.xlabel : "");
-  strip.hidden = !chart;
-  const readouts = DATA.readouts.map(() => values.appendChild(document.createElement("span")));
+  let readouts = [];
   let playing = true, now = 0, before = null, shown = -1, pen = stage.getContext("2d"), letters = DATA.text;
-  place.max = DATA.count - 1;
+  function prepare() {
+    stage.style.aspectRatio = DATA.width + " / " + DATA.height;
+    strip.setAttribute("aria-label", chart ? chart.ylabel + " over " + chart.xlabel : "");
+    strip.hidden = !chart;
+    values.replaceChildren();
+    readouts = DATA.readouts.map(() => values.appendChild(document.createElement("span")));
+    place.max = DATA.count - 1;
+  }
+  prepare();
 
   function path(p, closed) {
     pen.beginPath();
@@ -103,6 +108,11 @@ function filmPlayer(root, DATA) {
     pen.lineJoin = "round";
     // Letters of at least 11 pixels on the screen, however small the picture.
     letters = Math.max(DATA.text, 11 * (window.devicePixelRatio || 1) / finer);
+    if (ghost) {
+      pen.globalAlpha = .22;
+      for (const part of ghost.parts) draw[part.is](part, Math.floor(i / DATA.count * ghost.count));
+      pen.globalAlpha = 1;
+    }
     for (const part of DATA.parts) if (part.is === "line") draw.line(part);
     for (const part of DATA.parts) if (part.is !== "line") draw[part.is](part, i);
     for (const m of DATA.marks) if (m.pivot) ground(m, i);
@@ -148,9 +158,12 @@ function filmPlayer(root, DATA) {
       const row = chart.bands.slice(0, k).filter(o => o.name && o.start < band.end && band.start < o.end).length;
       words(band.name, (across(band.start) + across(band.end)) / 2, sides.top + 3 + 13 * row, 11, "#444444", "center", "top");
     });
-    for (const curve of chart.curves) {
-      path(curve.x.flatMap((x, k) => [across(x), upwards(curve.y[k])]));
-      pen.strokeStyle = curve.color; pen.lineWidth = 2; pen.stroke();
+    for (const of of [ghost && ghost.chart, chart]) {
+      pen.globalAlpha = of === chart ? 1 : .3;
+      for (const curve of of ? of.curves : []) {
+        path(curve.x.flatMap((x, k) => [across(x), upwards(curve.y[k])]));
+        pen.strokeStyle = curve.color; pen.lineWidth = 2; pen.stroke();
+      }
     }
     grid([across(chart.now[i]), sides.top, across(chart.now[i]), sides.bottom], "#444444");
     for (const curve of chart.curves)
@@ -225,4 +238,17 @@ function filmPlayer(root, DATA) {
   if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) toggle();
   fit();
   requestAnimationFrame(tick);
+  function take(next, before) {
+    // Another state of the design, at the same place of its loop; `before` stands pale behind it.
+    const part = now / DATA.count;
+    DATA = next; chart = DATA.chart; ghost = before; now = Math.min(part * DATA.count, DATA.count - 1);
+    prepare(); shown = Math.floor(now); fit();
+  }
+  function toPicture(event) {
+    // From the pointer to the picture's own pixels.
+    const box = stage.getBoundingClientRect(), scale = Math.min(box.width / DATA.width, box.height / DATA.height);
+    return [(event.clientX - box.left - (box.width - scale * DATA.width) / 2) / scale,
+      (event.clientY - box.top - (box.height - scale * DATA.height) / 2) / scale];
+  }
+  return { take, toPicture, pause, stage, get data() { return DATA; }, get shown() { return shown; } };
 }

@@ -48,6 +48,8 @@ class Stage:
     height: int
     bare: bool = False
     """Without room for a title and values."""
+    reach: tuple[float, float, float, float] | None = None
+    """Of what is to have room, x from, x to, y from, y to [mm]; None: of the scene itself."""
 
     @property
     def count(self) -> int:
@@ -78,13 +80,17 @@ class Stage:
         return Box(5.2 * size, 0.77 * self.height, self.width - 1.6 * size, self.height - 3.1 * size)
 
     @cached_property
-    def _extent(self) -> tuple[float, float, float, float]:
+    def own_reach(self) -> tuple[float, float, float, float]:
         """What parts and marks reach over all pictures: x from, x to, y from, y to [mm]."""
         reaches = [reach for part in self.scene.parts for reach in _reaches(part)]
         reaches += [(mark.point, 0.0) for mark in self.scene.marks]
         x = [(float(p.real.min()) - r, float(p.real.max()) + r) for p, r in reaches]
         y = [(float(p.imag.min()) - r, float(p.imag.max()) + r) for p, r in reaches]
         return min(a for a, _ in x), max(b for _, b in x), min(a for a, _ in y), max(b for _, b in y)
+
+    @property
+    def _extent(self) -> tuple[float, float, float, float]:
+        return self.reach or self.own_reach
 
     @property
     def needed_height(self) -> int:
@@ -116,6 +122,10 @@ class Stage:
     def pixels(self, points: Points) -> Points:
         """Points of the machine on the picture, y downwards."""
         return self._origin + self.scale * np.conj(points)
+
+    def place(self, pixel: complex) -> complex:
+        """The point of the machine [mm] at a place of the picture."""
+        return (pixel - self._origin).conjugate() / self.scale
 
     @cached_property
     def shifts(self) -> tuple[list[complex], list[complex]]:

@@ -84,9 +84,13 @@ def _as_html(command: str, name: str, draw: Callable[[], Figure]) -> tuple[str, 
 
 def as_data(value: Any, name: str) -> str:
     """Plain data for a script of the page, which no text in it can end."""
+    return f'<script type="application/json" class="{name}">{as_script(value)}</script>'
+
+
+def as_script(value: Any) -> str:
+    """Plain data as a script reads it, without what could end that."""
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    text = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-    return f'<script type="application/json" class="{name}">{text}</script>'
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 def charts(made: Figure) -> list[dict[str, Any]]:

@@ -1,0 +1,61 @@
+"use strict";
+// The drawing of the studio: the film takes new states, and its joints can be dragged.
+const studio = { player: null, held: null, waiting: false, next: null, ghost: null };
+studio.film = (id, data, ghost) => {
+  const root = document.getElementById(id);
+  if (!root) return;
+  if (!data) { root.hidden = true; return; }
+  root.hidden = false;
+  if (ghost !== undefined) studio.ghost = ghost;
+  if (!studio.player) { studio.player = filmPlayer(root, data); studio.listen(studio.player); }
+  studio.player.take(data, studio.ghost);
+};
+studio.joint = (player, event) => {
+  // The joint next to the pointer, as list, index, joint; null where none is near.
+  const [x, y] = player.toPicture(event), i = player.shown;
+  let best = null, least = 18 * player.data.width / player.stage.clientWidth;
+  const look = (p, which) => {
+    if (!p) return;
+    const away = Math.hypot(p[2 * i] - x, p[2 * i + 1] - y);
+    if (away < least) { least = away; best = which; }
+  };
+  player.data.parts.forEach((part, k) => {
+    if (part.is === "chain") part.p.forEach((joint, j) => look(joint, ["parts", k, j]));
+    if (part.is === "body") look(part.p, ["parts", k, 0]);
+  });
+  player.data.marks.forEach((mark, k) => look(mark.p, ["marks", k, 0]));
+  return best;
+};
+studio.listen = player => {
+  const { stage } = player;
+  stage.style.touchAction = "none";
+  stage.addEventListener("pointerdown", event => {
+    const which = studio.joint(player, event);
+    if (!which) return;
+    player.pause();
+    studio.held = which; studio.waiting = true; studio.next = null;
+    stage.setPointerCapture(event.pointerId);
+    emitEvent("grip", { which, fraction: player.shown / player.data.count });
+  });
+  stage.addEventListener("pointermove", event => {
+    if (!studio.held) { stage.style.cursor = studio.joint(player, event) ? "grab" : ""; return; }
+    stage.style.cursor = "grabbing";
+    studio.next = player.toPicture(event);
+    studio.send();
+  });
+  const drop = () => { if (studio.held) { studio.held = null; studio.send(); emitEvent("drop", {}); } };
+  stage.addEventListener("pointerup", drop);
+  stage.addEventListener("pointercancel", drop);
+};
+// One place at a time: the next goes when the last has been answered.
+studio.send = () => {
+  if (studio.waiting || !studio.next) return;
+  studio.waiting = true;
+  emitEvent("drag", { place: studio.next });
+  studio.next = null;
+};
+studio.answered = () => { studio.waiting = false; studio.send(); };
+studio.sheet = (id, html) => {
+  const root = document.getElementById(id);
+  if (root) { root.innerHTML = html; if (html) startPage(root); }
+};
