@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Sequence
 from contextlib import contextmanager
 from html import escape
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
-from nicegui.elements.mixins.value_element import ValueElement
 
 from gearlink.cli.render.numbers import drawn
 from gearlink.cli.views.films.page import part
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Check
 
 _OFTEN = 0.016
-"""Between two values of a slider that is moved [s]: NiceGUI's own sends one in 0.05 s."""
+"""Between two values of a slider that is moved [s]."""
+_VALUE, _CHECKED = "event => emit(event.target.value)", "event => emit(event.target.checked)"
 _ACTIONS = {"undo": "Undo", "redo": "Redo", "save": "Save", "revert": "Revert"}
 
 
@@ -33,56 +34,78 @@ def _file(package: str, name: str) -> str:
     return (resources.files(package) / name).read_text(encoding="utf-8")
 
 
-class _Slider(ValueElement[float]):
-    """A slider that says where it is as often as pictures are shown."""
+def _plain(tag: str, said: str = "", /, *, words: str = "", **looks: Any) -> ui.element:
+    """An element of HTML itself, which takes the browser next to nothing: a page has hundreds.
 
-    def __init__(self, low: float, high: float, step: float, value: float, on_change: Callable[[Any], None]) -> None:
-        super().__init__(tag="q-slider", value=value, on_value_change=on_change, throttle=_OFTEN)
-        self.props["min"], self.props["max"], self.props["step"] = low, high, step
+    Parameters
+        said, words : class, text
+    """
+    made = ui.element(tag).classes(said)
+    made.props.update({name.replace("_", "-"): value for name, value in looks.items()})
+    if words:
+        with made:
+            ui.html(escape(words), sanitize=False, tag="span")
+    return made
 
 
 class _Row:
-    """A number of the file: its name, a field, a lock, a slider."""
+    """A number of the file: its name, a field, its unit, a lock, a slider.
+
+    What stands in field and slider is set by `studio.numbers`, never by NiceGUI, which would draw again what the hand
+    has left behind already.
+    """
 
     def __init__(self, number: Number, page: StudioPage) -> None:
         self._page, self.number = page, number
-        with ui.element("div").classes("number"):
+        low, high = self.range = number.range
+        step = number.step if len(number.choices) != 2 else high - low
+        with _plain("div", "number"):
             name = number.name.removeprefix(f"{number.section}.") if number.section else number.name
-            ui.label(name).classes("name").tooltip(number.words or number.name)
-            self._field = ui.number(value=number.value, step=number.step, on_change=self._typed).props("dense borderless")
-            self._field.props["data-path"] = number.name
-            ui.label("" if number.unit == "1" else number.unit).classes("unit")
-            locked = not page.session.may_change(number)
-            lock = ui.checkbox(value=locked, on_change=self._lock).props("dense size=xs").tooltip("a dragged joint leaves it")
-            lock.props["data-lock"] = number.name
-            low, high = number.range
-            self._slider = _Slider(low, high, number.step, number.value, self._moved)
-            self._slider.props["data-slider"] = number.name
+            _plain("span", "name", words=name, title=number.words or number.name)
+            shared: dict[str, Any] = {"step": "any", "aria_label": number.name}
+            field = _plain("input", type="number", data_path=number.name, **shared)
+            _plain("span", "unit", words="" if number.unit == "1" else number.unit)
+            lock = _plain("input", type="checkbox", data_lock=number.name, title="locked: a dragged joint leaves it")
+            lock.props["checked"] = not page.session.may_change(number)
+            shared = {"min": low, "max": high, "step": step, "aria_label": f"{number.name}, slider"}
+            self._slider = _plain("input", type="range", data_slider=number.name, **shared)
+        field.on("input", self._typed, js_handler=_VALUE, throttle=_OFTEN)
+        lock.on("change", self._lock, js_handler=_CHECKED)
+        self._slider.on("input", self._moved, js_handler=_VALUE, throttle=_OFTEN)
 
-    def take(self, number: Number) -> None:
-        """The number as the text now has it."""
-        same, self.number = number.value == self.number.value, number
-        if same and self._field.value == number.value and self._slider.value == number.value:
-            return
-        if self._field.value != number.value:
-            self._field.value = number.value
-        low, high = self._slider.props["min"], self._slider.props["max"]
-        if not low <= number.value <= high:
-            self._slider.props["min"], self._slider.props["max"] = number.range
-        if self._slider.value != number.value:
-            self._slider.value = number.value
+    def take(self, number: Number) -> list[Any] | None:
+        """The number as the text now has it: what its field and slider show; None where that is as it was."""
+        if number.value == self.number.value and number.path == self.number.path:
+            return None
+        self.number = number
+        if not self.range[0] <= number.value <= self.range[1]:
+            self.range = number.range
+            self._slider.props.update({"min": self.range[0], "max": self.range[1]})
+        return [number.name, *self.range, f"{number.value:.15g}"]
 
     def _typed(self, event: Any) -> None:
-        if not self._page.quiet and event.value is not None:
-            value = int(event.value) if float(event.value).is_integer() else float(event.value)
+        value = _read(str(event.args))
+        if value is not None:
             self._page.session.move(self.number.path, value)
 
     def _moved(self, event: Any) -> None:
-        if not self._page.quiet and event.value is not None:
-            self._page.session.move(self.number.path, self.number.on_grid(float(event.value)))
+        value = _read(str(event.args))
+        if value is not None:
+            self._page.session.move(self.number.path, self.number.on_grid(value))
 
     def _lock(self, event: Any) -> None:
-        self._page.session.locks[self.number.name] = bool(event.value)
+        self._page.session.locks[self.number.name] = bool(event.args)
+
+
+def _read(text: str) -> float | None:
+    """A number as it is typed, whole where it is."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    if not math.isfinite(value):
+        return None
+    return int(value) if value.is_integer() and abs(value) < 1e15 else value
 
 
 class StudioPage:
@@ -92,10 +115,10 @@ class StudioPage:
         self.session = session
         self.quiet = True
         self._rows: dict[str, _Row] = {}
-        self._shown_results: dict[str, tuple[Any, ...]] = {}
+        self._shown_titles: list[tuple[Any, ...]] = []
         self._shown_checks: list[tuple[Any, ...]] = []
-        self._check_words: list[Any] = []
         self._sheets: dict[str, Any] = {}
+        self._ghost: dict[str, Any] | None = None
         self._build()
         self.quiet = False
         self._client = ui.context.client
@@ -166,21 +189,26 @@ class StudioPage:
         """Every number of the file; made anew where there are others than before."""
         with self._silently():
             if [number.name for number in found] == list(self._rows):
-                for number in found:
-                    self._rows[number.name].take(number)
-                return
-            self._numbers.clear()
-            self._rows = {}
-            section = None
-            with self._numbers:
-                for number in found:
-                    if number.section != section:
-                        section = number.section
-                        ui.label(section or "design").classes("section")
-                    self._rows[number.name] = _Row(number, self)
-            names = [number.name for number in found]
-            kept = self._key.value if self._key.value in names else next((n.name for n in found if n.is_geometry), None)
-            self._key.set_options(names, value=kept)
+                shown = [row for number in found if (row := self._rows[number.name].take(number)) is not None]
+            else:
+                self._make_rows(found)
+                shown = [[number.name, *number.range, f"{number.value:.15g}"] for number in found]
+        if shown:
+            self._run(f"studio.numbers({as_script(shown)})")
+
+    def _make_rows(self, found: Sequence[Number]) -> None:
+        self._numbers.clear()
+        self._rows = {}
+        section = None
+        with self._numbers:
+            for number in found:
+                if number.section != section:
+                    section = number.section
+                    _plain("div", "section", words=section or "design")
+                self._rows[number.name] = _Row(number, self)
+        names = [number.name for number in found]
+        kept = self._key.value if self._key.value in names else next((n.name for n in found if n.is_geometry), None)
+        self._key.set_options(names, value=kept)
 
     def actions(self, can: dict[str, bool]) -> None:
         """Which buttons would do something."""
@@ -191,37 +219,36 @@ class StudioPage:
 
     def results(self, found: Sequence[KeyResult], before: dict[str, KeyResult]) -> None:
         """The key results with their change."""
-        with self._silently():
-            if [result.quantity.name for result in found] != list(self._shown_results):
+        titles = [(result.quantity.name, result.title, result.how, result.asked) for result in found]
+        shown = {}
+        for result in found:
+            name, unit = result.quantity.name, result.quantity.unit
+            now, old = _with_unit(result.quantity.value, unit), before.get(name)
+            was = "" if old is None else _with_unit(old.quantity.value, unit)
+            shown[name] = [now, f"was {was}" if was not in ("", now) else ""]
+        if titles != self._shown_titles:
+            self._shown_titles = titles
+            with self._silently():
                 self._results.clear()
-                self._shown_results = {}
                 with self._results:
                     for result in found:
-                        self._shown_results[result.quantity.name] = self._result(result)
-            for result in found:
-                quantity = result.quantity
-                value, was = self._shown_results[quantity.name]
-                value.text = _with_unit(quantity.value, quantity.unit)
-                old = before.get(quantity.name)
-                same = old is None or _with_unit(old.quantity.value, quantity.unit) == value.text
-                was.text = "" if same or old is None else f"was {_with_unit(old.quantity.value, quantity.unit)}"
+                        self._result(result, *shown[result.quantity.name])
+        self._run(f"studio.results({as_script(shown)})")
 
-    def _result(self, result: KeyResult) -> tuple[Any, Any]:
+    def _result(self, result: KeyResult, now: str, was: str) -> None:
         name = result.quantity.name
-        with ui.element("div").classes("result"):
-            asked = f"{result.title} ({result.how} {result.asked:g})" if result.asked is not None else result.title
-            ui.label(asked).tooltip(f"{name}: {result.quantity.words}")
-            value = ui.label().classes("value")
-            value.props["data-quantity"] = name
-            was = ui.label().classes("was")
-            wish = ui.input(placeholder="wish").props("dense borderless")
-            wish.props["data-wish"] = name
-            wish.on("keydown.enter", lambda: self._wish(name, wish.value))
-        return value, was
+        title = f"{result.title} ({result.how} {result.asked:g})" if result.asked is not None else result.title
+        with _plain("div", "result"):
+            _plain("span", words=title, title=f"{name}: {result.quantity.words}")
+            _plain("span", "value", data_quantity=name)
+            _plain("span", "was", data_was=name)
+            wish = _plain("input", type="text", placeholder="wish", data_wish=name, aria_label=f"wish for {name}")
+        wish.on("keydown.enter", lambda event: self._wish(name, event), js_handler=_VALUE)
 
-    async def _wish(self, name: str, words: str) -> None:
+    async def _wish(self, name: str, event: Any) -> None:
         """`75` or `dwell 75` beside a result."""
-        number = (words or "").replace("=", " ").split()[-1:]
+        words = str(event.args)
+        number = words.replace("=", " ").split()[-1:]
         try:
             target = float(number[0])
         except (ValueError, IndexError):
@@ -231,34 +258,34 @@ class StudioPage:
 
     def checks(self, found: Sequence[Check]) -> None:
         """The findings; those that pass in a fold."""
-        shown = [(c.code, c.name, c.status, _fix(c)) for c in found]
+        shown = [(c.code, c.name, c.status, c.message, _fix(c)) for c in found]
+        if shown == self._shown_checks:
+            return
+        self._shown_checks = shown
+        passing = [check for check in found if check.status == "pass"]
         with self._silently():
-            if shown != self._shown_checks:
-                self._checks.clear()
-                self._shown_checks, self._check_words = shown, []
-                passing = sum(check.status == "pass" for check in found)
-                with self._checks:
-                    ui.label(f"Checks: {len(found) - passing} of {len(found)} do not pass").classes("section")
-                    for check in found[: len(found) - passing]:
+            self._checks.clear()
+            with self._checks:
+                _plain("div", "section", words=f"Checks: {len(found) - len(passing)} of {len(found)} do not pass")
+                for check in found[: len(found) - len(passing)]:
+                    self._check(check)
+                with _plain("details"):
+                    _plain("summary", words=f"{len(passing)} pass")
+                    for check in passing:
                         self._check(check)
-                    with ui.expansion(f"{passing} pass").props("dense").classes("w-full"):
-                        for check in found[len(found) - passing :]:
-                            self._check(check)
-            for words, check in zip(self._check_words, found, strict=True):
-                words.text = f"{check.code} {check.name}: {check.message}"
 
     def _check(self, check: Check) -> None:
-        row = ui.element("div").classes("check")
-        row.props["data-check"], row.props["data-status"] = check.code, check.status
-        with row:
-            self._check_words.append(ui.label().classes("said"))
+        with _plain("div", "check", data_check=check.code, data_status=check.status):
+            _plain("span", "said", words=f"{check.code} {check.name}: {check.message}")
             if words := _fix(check):
-                button = ui.button(words, on_click=lambda: self.session.apply(check.remedy)).props("dense no-caps flat")
-                button.props["data-fix"] = check.code
+                button = _plain("button", type="button", data_fix=check.code, words=words)
+                button.on("click", lambda: self.session.apply(check.remedy))
 
     def film(self, data: dict[str, Any] | None, ghost: dict[str, Any] | None) -> None:
         """The mechanism in motion, and pale behind it as it was opened."""
-        self._run(f"studio.film('{self._film.html_id}', {as_script(data)}, {as_script(ghost)})")
+        same, self._ghost = ghost is self._ghost, ghost
+        behind = "undefined" if same else as_script(ghost)
+        self._run(f"studio.film('{self._film.html_id}', {as_script(data)}, {behind})")
 
     def sheets(self, commands: Sequence[str]) -> None:
         """A place for each sheet."""

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _AT_ONCE = 48
 """Pictures of a film while the hand moves."""
-_QUICK = 0.06
+_QUICK = 0.02
 """Results of further commands that take longer are computed beside the page [s]."""
 _REST = 0.35
 """After so many seconds without a change the hand rests [s]."""
@@ -238,10 +238,12 @@ class Session:
             while True:
                 await self._news.wait()
                 self._news.clear()
-                version = self._version
+                version, text = self._version, self.document.text
                 if await self._guarded(self._make(version)):
                     self._followed.set()
                 self._shown = version
+                self._each(lambda page, text=text: page.text(text))  # type: ignore[misc]
+                self._each(lambda page: page.actions(self.document.can))
         finally:
             follow.cancel()
 
@@ -277,8 +279,6 @@ class Session:
     async def _make(self, version: int) -> bool:
         """The numbers of the text, and its quick results."""
         text = self.document.text
-        self._each(lambda page: page.text(text))
-        self._each(lambda page: page.actions(self.document.can))
         self._read(text)
         study = await asyncio.to_thread(Study, text, str(self.document.path))
         state = self.state
@@ -291,9 +291,9 @@ class Session:
             begun = time.perf_counter()
             state.results[command] = await asyncio.to_thread(study.results, command, self._names(command))
             self._cost[command] = time.perf_counter() - begun
+            self._each(lambda page: page.results(self._all_results(), self._before()))
             if self._version != version and state.study is not None:
                 break
-        self._each(lambda page: page.results(self._all_results(), self._before()))
         state.study = study
         self._accept()
         return True

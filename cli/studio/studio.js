@@ -1,7 +1,7 @@
 "use strict";
-// The drawing of the studio: the film takes new states, and its joints can be dragged.
+// The drawing of the studio: the film takes new states, and its joints can be dragged; numbers are put in their places.
 const studio = { player: null, held: null, waiting: false, next: null, ghost: null };
-studio.film = (id, data, ghost) => {
+studio.film = (id, data, ghost) => {  // without a ghost the one that is there stays, null takes it away
   const root = document.getElementById(id);
   if (!root) return;
   if (!data) { root.hidden = true; return; }
@@ -58,4 +58,26 @@ studio.answered = () => { studio.waiting = false; studio.send(); };
 studio.sheet = (id, html) => {
   const root = document.getElementById(id);
   if (root) { root.innerHTML = html; if (html) startPage(root); }
+};
+studio.at = (name, value) => document.querySelector(`[data-${name}="${CSS.escape(value)}"]`);
+studio.soon = (work, tries = 50) => { if (!work() && tries) setTimeout(() => studio.soon(work, tries - 1), 20); };
+studio.numbers = rows => {
+  // Name, least, greatest, value; a field in which the hand is keeps what it has, unless that is another number.
+  for (const [name, low, high, value] of rows) studio.soon(() => {
+    const field = studio.at("path", name), slider = studio.at("slider", name);
+    if (!field) return false;
+    if (Number(field.value) !== Number(value) || field.value === "") field.value = value;
+    slider.min = low; slider.max = high;
+    if (Number(slider.value) !== Number(value) && !slider.matches(":active")) slider.value = value;
+    return true;
+  });
+};
+studio.results = found => {
+  for (const name in found) studio.soon(() => {
+    const now = studio.at("quantity", name), was = studio.at("was", name);
+    if (!now) return false;
+    if (now.textContent !== found[name][0]) now.textContent = found[name][0];
+    if (was.textContent !== found[name][1]) was.textContent = found[name][1];
+    return true;
+  });
 };

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.evaluate import read_spec, refusals_located
@@ -131,8 +132,16 @@ def _roomy(own: Reach) -> Reach:
 Found = tuple[dict[str, "tuple[KeyResult, ...]"], dict[str, "list[Check]"]]
 
 
+@cache
+def step_back() -> None:
+    """Let the page go first: what is computed beside it takes the processors that it leaves."""
+    if hasattr(os, "nice"):
+        os.nice(10)
+
+
 @lru_cache(2)
 def _study(text: str, file: str) -> Study:
+    step_back()
     return Study(text, file)
 
 

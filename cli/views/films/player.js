@@ -213,6 +213,7 @@ function filmPlayer(root, DATA) {
   function key(event) {
     if (!root.isConnected) { window.removeEventListener("keydown", key); return; }
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, textarea")) return;
+    if (!root.contains(event.target) && event.target.closest("input, button, summary, [contenteditable]")) return;
     if (event.key === " " && !event.target.closest("button")) toggle();
     else if (event.key in steps) { pause(); go(Math.floor(steps[event.key]())); }
     else return;
