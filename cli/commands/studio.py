@@ -179,9 +179,10 @@ class Guard:
     def _with_headers(self, message: dict[str, Any]) -> dict[str, Any]:
         if message["type"] != "http.response.start":
             return message
+        sockets = " ".join(f"ws://{name}" for name in sorted(own_names(self._port)))
         policy = (
-            f"default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; connect-src 'self' ws://{LOOPBACK}:{self._port} "
-            f"ws://localhost:{self._port}; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
+            f"default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; connect-src 'self' {sockets}; "
+            "frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
         )
         more = {
             "set-cookie": f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict",
@@ -198,7 +199,9 @@ class Guard:
             await send({"type": "websocket.close", "code": 1008})
             return
         await send({"type": "http.response.start", "status": 403, "headers": [(b"content-type", b"text/plain")]})
-        await send({"type": "http.response.body", "body": b"the address with its token stands where studio was started"})
+        await send(
+            {"type": "http.response.body", "body": b"the address with its token stands where studio was started"}
+        )
 
 
 def _headers(scope: Scope, name: bytes) -> list[str]:

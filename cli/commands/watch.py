@@ -191,7 +191,7 @@ def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHand
             A page of elsewhere whose own name was made to mean this machine sends that name.
             """
             port = self.server.server_address[1]  # type: ignore[index]
-            own = own_names(port)
+            own = own_names(int(port))
             hosts, origins = (self.headers.get_all(name, []) for name in ("Host", "Origin"))
             return (
                 len(hosts) == 1

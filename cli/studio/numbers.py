@@ -73,7 +73,10 @@ class Number:
         low, high = self.value - reach, self.value + reach
         if self.most - self.least <= max(_ALL * abs(self.value), 2.0 * reach):
             low, high = self.least, self.most
-        first, last = math.ceil(max(low, self.least) / self.step - 1e-9), math.floor(min(high, self.most) / self.step + 1e-9)
+        first, last = (
+            math.ceil(max(low, self.least) / self.step - 1e-9),
+            math.floor(min(high, self.most) / self.step + 1e-9),
+        )
         if self.left_out[0] and first * self.step <= self.least:
             first += 1
         if self.left_out[1] and last * self.step >= self.most:
@@ -152,8 +155,8 @@ def _number(path: KeyPath, value: float, unit: str, factor: float, shapes: Any, 
 
 
 def _step(value: float, unit: str, factor: float) -> float:
-    """What can be built (0.1 mm, half a degree), finer where the file has more digits, or where it is too coarse for the
-    value; coarser for numbers of many thousand steps."""
+    """What can be built (0.1 mm, half a degree), finer where the file has more digits or the value is small; coarser for
+    numbers of many thousand steps."""
     step = STEPS_BY_UNIT.get(unit, 0.1) / factor
     if factor != 1.0:
         step = 10.0 ** math.floor(math.log10(step))

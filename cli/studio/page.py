@@ -157,7 +157,9 @@ class StudioPage:
             self._numbers = ui.column().classes("scrolls")
             with ui.column().classes("scrolls") as self._right:
                 self._film = ui.element("div").classes("film w-full")
-                self._key = ui.select([], label="a wish may change").props("dense options-dense").style("min-width: 16em")
+                self._key = (
+                    ui.select([], label="a wish may change").props("dense options-dense").style("min-width: 16em")
+                )
                 self._key.props["data-key"] = "wish"
                 self._results = ui.column().classes("w-full gap-0")
                 self._checks = ui.column().classes("w-full gap-0")
@@ -232,16 +234,18 @@ class StudioPage:
                 self._results.clear()
                 with self._results:
                     for result in found:
-                        self._result(result, *shown[result.quantity.name])
+                        self._result(result)
         self._run(f"studio.results({as_script(shown)})")
 
-    def _result(self, result: KeyResult, now: str, was: str) -> None:
+    def _result(self, result: KeyResult) -> None:
         name = result.quantity.name
         title = f"{result.title} ({result.how} {result.asked:g})" if result.asked is not None else result.title
         with _plain("div", "result"):
             _plain("span", words=title, title=f"{name}: {result.quantity.words}")
             _plain("span", "value", data_quantity=name)
             _plain("span", "was", data_was=name)
+            if isinstance(result.quantity.value, bool) or not isinstance(result.quantity.value, (int, float)):
+                return
             wish = _plain("input", type="text", placeholder="wish", data_wish=name, aria_label=f"wish for {name}")
         wish.on("keydown.enter", lambda event: self._wish(name, event), js_handler=_VALUE)
 
@@ -322,6 +326,8 @@ class StudioPage:
 
     def say(self, words: str) -> None:
         """A word about what was just asked for."""
+        if words == self._note.text:
+            return
         with self._silently():
             self._note.text = words
 

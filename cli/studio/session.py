@@ -22,6 +22,7 @@ from gearlink.core.base.kinds import KINDS
 
 if TYPE_CHECKING:
     from gearlink.cli.views.films.page import Reach
+    from gearlink.cli.views.films.stage import Stage
     from gearlink.core.base.key_results import KeyResult
     from gearlink.core.base.report import Check, Remedy
 
@@ -46,7 +47,7 @@ class Page(Protocol):
         """Which buttons would do something."""
 
     def results(self, found: Sequence[KeyResult], before: dict[str, KeyResult]) -> None:
-        """The key results, and those of the file as it was opened."""
+        """The key results, and those of the first design that the file had."""
 
     def checks(self, found: Sequence[Check]) -> None:
         """The findings."""
@@ -107,7 +108,7 @@ class Session:
         self._version = self._shown = 0
         self._cost: dict[str, float] = {}
         self._news, self._followed = asyncio.Event(), asyncio.Event()
-        self._grip: Grip | None = None
+        self._grip: tuple[Grip, Stage] | None = None
         self._wrong: tuple[list[Diagnostic], str] = ([], "")
 
     # What a page asks for
@@ -164,16 +165,16 @@ class Session:
     async def wish(self, name: str, target: float, path: str) -> None:
         """Change one key so that a result becomes what is wished."""
         key = next((each for each in self.state.numbers if each.name == path), None)
-        command = next((c for c, found in self.state.results.items() if any(r.quantity.name == name for r in found)), "")
+        command = next(
+            (c for c, found in self.state.results.items() if any(r.quantity.name == name for r in found)), ""
+        )
         if key is None or not command:
             self._each(lambda page: page.say(f"choose the key that may change for {name}"))
             return
         text = self.document.text
         self._each(lambda page: page.say(f"{name} {target:g}: seeking {key.name}"))
         try:
-            found = await asyncio.to_thread(
-                making.wished, text, str(self.document.path), command, name, target, key
-            )
+            found = await asyncio.to_thread(making.wished, text, str(self.document.path), command, name, target, key)
         except (Refused, CannotPlace) as refused:
             words = str(refused)
             self._each(lambda page: page.say(words))
@@ -193,25 +194,35 @@ class Session:
         self._grip = None
         try:
             taken = (str(which[0]), int(which[1]), int(which[2]))
-            self._grip = await asyncio.to_thread(
-                Grip, self.document.text, str(self.document.path), taken, float(fraction), keys
-            )
+            given = self.document.text, str(self.document.path), taken, float(fraction), keys
+            self._grip = await asyncio.to_thread(self._taken, *given)
         except (Refused, LookupError, ValueError) as refused:
             words = str(refused)
             self._each(lambda page: page.say(words))
         self._each(lambda page: page.answered())
 
-    async def drag(self, place: Sequence[float]) -> None:
-        """The joint that is held is drawn to a place of the picture [pixels]."""
+    def _taken(self, *given: Any) -> tuple[Grip, Stage]:
+        """A joint, and the picture in which it is held: that keeps its scale until the joint is let go.
+
+        Raises
+            Refused
+        """
+        import numpy as np
+
         from gearlink.cli.views.films.page import player_stage
 
-        grip, study, reach = self._grip, self.state.study, self.state.reach
-        if grip is not None and study is not None and reach is not None:
-            import numpy as np
+        if self.state.study is None:
+            raise Refused("there is no mechanism yet")
+        return Grip(*given), player_stage(self.state.study.scene(np.array([0.0])), "", reach=self.state.reach)
 
-            stage = player_stage(await asyncio.to_thread(study.scene, np.array([0.0])), "", reach=reach)
+    async def drag(self, place: Sequence[float]) -> None:
+        """The joint that is held is drawn to a place of the picture [pixels]."""
+        if self._grip is not None:
+            grip, stage = self._grip
             text = await asyncio.to_thread(grip.to, stage.place(complex(*map(float, place[:2]))))
             self.put(text, "drag")
+            words = f"the joint goes no farther: {grip.stopped}" if grip.stopped else ""
+            self._each(lambda page: page.say(words))
             await self._made_once()
         self._each(lambda page: page.answered())
 
@@ -219,6 +230,7 @@ class Session:
         """The joint is let go."""
         self._grip = None
         self.document.rest()
+        self._fresh()
 
     # What is computed
 
@@ -295,6 +307,8 @@ class Session:
             if self._version != version and state.study is not None:
                 break
         state.study = study
+        if self._first.study is None:
+            self._first = State(study, results=dict(state.results))
         self._accept()
         return True
 
@@ -319,7 +333,8 @@ class Session:
         slow = [command for command in study.commands if self._slow(command)]
         quick = [command for command in study.commands if command not in slow]
         given = study.text, study.file
-        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self.state.reach)
+        held = self._grip[0].fraction if self._grip is not None else None
+        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self.state.reach, held)
         self.state.checks |= checks
         self._each(lambda page: page.checks(self._all_checks()))
         await self._show_film(film)
@@ -335,13 +350,14 @@ class Session:
     async def _show_film(self, film: tuple[dict[str, Any], Reach] | None) -> None:
         """The film, before that of the design as it was opened, drawn to the same scale."""
         if film is None:
-            self._each(lambda page: page.film(None, None))
+            if self.state.study is not None and not self.state.study.moves:
+                self._each(lambda page: page.film(None, None))
             return
         before = self.state.reach
         self.state.film, self.state.reach = film
-        changed = self.document.text != self.document.opened
-        if changed and self._first.study is not None and (self._ghost is None or self.state.reach != before):
-            first, given = self._first.study, self.state.reach
+        first, given = self._first.study, self.state.reach
+        changed = first is not None and self.document.text != first.text
+        if changed and first is not None and (self._ghost is None or given != before):
             self._ghost, _ = await self._beside_page(making.film, first.text, first.file, _AT_ONCE, given)
         ghost = self._ghost if changed else None
         self._each(lambda page: page.film(self.state.film, ghost))
@@ -354,15 +370,14 @@ class Session:
         self.document.rest()
         state, given = self.state, (study.text, study.file)
         results, checks, film = await self._beside_page(making.whole, *given, state.reach)
-        if self._first.study is None:
-            self._first = State(study, results=results)
         if self._version != version:
             return False
         state.results, state.checks = results, checks
         self._each(lambda page: page.results(self._all_results(), self._before()))
         self._each(lambda page: page.checks(self._all_checks()))
         await self._show_film(film)
-        state.changed = await self._beside_page(making.changes, self.document.opened, *given)
+        first = self._first.study or study
+        state.changed = await self._beside_page(making.changes, first.text, *given)
         self._each(lambda page: page.changed(state.changed))
         self._each(lambda page: page.sheets(study.commands))
         for command in study.commands:

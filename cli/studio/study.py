@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, cached_property, lru_cache
+from multiprocessing import parent_process
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.evaluate import read_spec, refusals_located
@@ -99,15 +100,20 @@ class Study:
 
         return min(_MOST_PICTURES, loops.pictures_for(self.scene(np.arange(96) / 96), FPS))
 
-    def film(self, count: int, reach: Reach | None = None) -> tuple[dict[str, Any], Reach]:
-        """What the player draws, and what it reaches; `reach` where the picture is to have that."""
+    def film(self, count: int, reach: Reach | None = None, held: float | None = None) -> tuple[dict[str, Any], Reach]:
+        """What the player draws, and what its picture shows: `reach` as long as that suits it.
+
+        Parameters
+            held : float - a fraction of the loop at which a joint is held: one picture is of it, and `reach` stays
+        """
         import numpy as np
 
         from gearlink.cli.views.films.page import player_data, player_stage
 
-        scene = self.scene(np.arange(count) / count)
+        after = 0.0 if held is None else held * count % 1.0
+        scene = self.scene((np.arange(count) + after) / count)
         own = player_stage(scene, "").own_reach
-        shown = _roomy(own) if reach is None or not _within(own, reach) else reach
+        shown = reach if reach is not None and (held is not None or _within(own, reach)) else _roomy(own)
         return player_data(scene, self.spec.name, FPS * count / self.pictures, reach=shown), shown
 
 
@@ -135,7 +141,7 @@ Found = tuple[dict[str, "tuple[KeyResult, ...]"], dict[str, "list[Check]"]]
 @cache
 def step_back() -> None:
     """Let the page go first: what is computed beside it takes the processors that it leaves."""
-    if hasattr(os, "nice"):
+    if parent_process() is not None and hasattr(os, "nice"):
         os.nice(10)
 
 
@@ -145,11 +151,13 @@ def _study(text: str, file: str) -> Study:
     return Study(text, file)
 
 
-def moving(text: str, file: str, commands: Sequence[str], count: int, reach: Reach | None) -> tuple[Any, Any]:
+def moving(
+    text: str, file: str, commands: Sequence[str], count: int, reach: Reach | None, held: float | None
+) -> tuple[Any, Any]:
     """The findings of some commands, and a film of few pictures; None where nothing moves."""
     study = _study(text, file)
     checks = {command: study.checks(command, advised=False) for command in commands}
-    return checks, film(text, file, count, reach)
+    return checks, film(text, file, count, reach, held)
 
 
 def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> Found:
@@ -171,13 +179,15 @@ def whole(text: str, file: str, reach: Reach | None) -> tuple[Any, Any, Any]:
     return results, checks, film(text, file, _MOST_PICTURES, reach)
 
 
-def film(text: str, file: str, most: int, reach: Reach | None) -> tuple[dict[str, Any], Reach] | None:
+def film(
+    text: str, file: str, most: int, reach: Reach | None, held: float | None = None
+) -> tuple[dict[str, Any], Reach] | None:
     """The film of at most so many pictures; None where nothing moves, or it cannot be drawn."""
     study = _study(text, file)
     if not study.moves:
         return None
     try:
-        return study.film(min(most, study.pictures), reach)
+        return study.film(min(most, study.pictures), reach, held)
     except DesignFileError:
         return None
 
@@ -351,7 +361,7 @@ class Grip:
     """A joint that is held: which keys move it, and by how much.
 
     Parameters
-        text, file : the design when it was taken
+        text, file : the design when it is taken
         which : (list of the scene, index, joint) - ("marks", 3, 0), ("parts", 2, 1)
         fraction : float - of the loop, at which the mechanism stands
         keys : the numbers that may change
@@ -359,10 +369,14 @@ class Grip:
         Refused - where none of them moves the joint
     """
 
-    def __init__(self, text: str, file: str, which: tuple[str, int, int], fraction: float, keys: Sequence[Number]) -> None:
+    def __init__(
+        self, text: str, file: str, which: tuple[str, int, int], fraction: float, keys: Sequence[Number]
+    ) -> None:
         import numpy as np
 
-        self._text, self._file, self._which, self._fraction = text, file, which, fraction
+        self._text, self._file, self._which, self.fraction = text, file, which, fraction
+        self.stopped = ""
+        self._built = text
         start = self._point(text)
         if start is None:
             raise Refused("the mechanism has no such joint")
@@ -395,14 +409,17 @@ class Grip:
         import numpy as np
 
         try:
-            scene = Study(text, self._file).scene(np.array([self._fraction]))
+            scene = Study(text, self._file).scene(np.array([self.fraction]))
             return point_of(scene, self._which)
-        except (DesignFileError, LookupError):
-            return None
+        except DesignFileError as error:
+            self.stopped = error.diagnostics[0].message
+        except LookupError:
+            self.stopped = "the mechanism has no such joint any more"
+        return None
 
     def to(self, target: complex) -> str:
         """The text with which the joint is as near to a point [mm] as the keys allow, each on the grid of what can be
-        built, and all changed by as small a share as possible.
+        built, and all changed by as small a share as possible; `stopped` says why it goes no farther.
 
         Notes
             Newton steps on the design's own sensitivities, brought up to date by Broyden's rank-one rule; a step that
@@ -411,15 +428,20 @@ class Grip:
         import numpy as np
 
         goal = np.array([target.real, target.imag])
+        self.stopped = ""
         for _ in range(4):
             miss = goal - self._at
             if float(np.hypot(*miss)) < 1e-3:
+                self.stopped = ""
                 break
             step = self._sizes * (np.linalg.pinv(self._slopes * self._sizes, rcond=1e-4) @ miss)
             step *= min(1.0, 0.3 / max(1e-12, float(np.max(np.abs(step / self._sizes)))))
             if not self._go(step):
                 break
-        return self._made(self._values, on_grid=True)
+        made = self._made(self._values, on_grid=True)
+        if made != self._built and self._point(made) is not None:
+            self._built = made
+        return self._built
 
     def _go(self, step: Any) -> bool:
         import numpy as np

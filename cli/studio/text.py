@@ -13,7 +13,7 @@ import yaml
 from gearlink.cli.files import write_atomically
 from gearlink.cli.reading.design_file import read_at_most
 from gearlink.cli.reading.loaded_file import KeyPath, parse_path
-from gearlink.cli.reading.yaml_reader import MAX_BYTES, EventParser, compose, decode, format_path
+from gearlink.cli.reading.yaml_reader import MAX_BYTES, EventParser, decode, format_path
 from gearlink.cli.texts.written_design import flow, scalar
 from gearlink.core.base.errors import GearlinkError
 
@@ -139,7 +139,7 @@ class Changed(GearlinkError):
 
 
 class Document:
-    """A file that is open: its text, what it was before, and what it was when it was opened.
+    """A file that is open: its text, and what that was before.
 
     Notes
         The text has \\n at the end of its lines, as an editor in the browser has; `save` writes the ends that the file
@@ -152,7 +152,6 @@ class Document:
         self._after: list[str] = []
         self._hand = ""
         self._read()
-        self.opened = self.text
 
     def _read(self) -> None:
         data = read_at_most(self.path, MAX_BYTES + 1)
@@ -210,7 +209,9 @@ class Document:
         """
         now = self.path.read_bytes() if self.path.exists() else None
         if now is not None and hashlib.sha256(now).digest() != self._seen:
-            raise Changed(f"{self.path.name} was changed by another program: Revert reads it, then Undo brings yours back")
+            raise Changed(
+                f"{self.path.name} was changed by another program: Revert reads it, then Undo brings yours back"
+            )
         data = self._mark + self.text.replace("\n", self._break).encode()
         write_atomically(self.path, lambda stream: stream.write(data))
         self.saved, self._seen = self.text, hashlib.sha256(data).digest()

@@ -34,9 +34,7 @@ def part(name: str) -> str:
 Reach: TypeAlias = tuple[float, float, float, float]
 
 
-def player_stage(
-    scene: Scene, title: str, size: tuple[int, int] = (960, 720), reach: Reach | None = None
-) -> Stage:
+def player_stage(scene: Scene, title: str, size: tuple[int, int] = (960, 720), reach: Reach | None = None) -> Stage:
     """The mechanism alone on a picture no higher than it needs: the page shows title, values and chart beside it."""
     width, height = size
     bare = Stage(replace(scene, chart=None), title, width, height, bare=True, reach=reach)

@@ -1,0 +1,131 @@
+"""Wishes and joints that are dragged, against the design itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.studio.numbers import Number, numbers
+from gearlink.cli.studio.study import Grip, Refused, Study, changes, moving, point_of, wished
+from gearlink.cli.studio.text import with_value
+from gearlink.core.base.errors import NoSolution
+
+FEED = """# a feed
+kind: three-gear-four-bar
+gears: {module: 2, crank: 40, idler: 72, output: 40}
+links: {crank: 38.857, frame: 153.552}   # measured
+"""
+ROCKER = (Path(__file__).parents[3] / "designs/crank_rocker_links.yaml").read_text(encoding="utf-8")
+
+
+def _keys(text: str) -> dict[str, Number]:
+    study = Study(text, "feed.yaml")
+    return {number.name: number for number in numbers(study.loaded, study.kind.spec_model(), {})}
+
+
+def _back_step(text: str) -> float:
+    found = Study(text, "feed.yaml").design("analyze").quantity("back_step_angle")
+    assert found is not None
+    assert isinstance(found.value, float)
+    return found.value
+
+
+@pytest.mark.parametrize("target", [25.0, 12.0])
+def test_a_wish_is_met(target: float) -> None:
+    found = wished(FEED, "feed.yaml", "analyze", "back_step_angle", target, _keys(FEED)["links.crank"])
+    assert _back_step(found.text) == pytest.approx(target, abs=5e-5 * target)  # what is printed as the wish
+    assert found.result == pytest.approx(_back_step(found.text), abs=1e-12 * target)
+    assert found.text.endswith("# measured\n")
+
+
+def test_a_wish_is_refused_with_the_limit() -> None:
+    """The limit is that of a sweep: over the frame the transmission angle is greatest near where it stands."""
+    key = _keys(FEED)["links.frame"]
+    with pytest.raises(Refused, match="at most 61.5") as refused:
+        wished(FEED, "feed.yaml", "analyze", "min_transmission_angle", 75.0, key)
+    told = float(str(refused.value).partition("at most ")[2].partition(",")[0])
+    swept = []
+    for frame in np.linspace(*key.range, 400):
+        try:
+            study = Study(with_value(FEED, key.path, float(frame)), "feed.yaml")
+            swept.append(study.design("analyze").quantity("min_transmission_angle").value)  # type: ignore[union-attr]
+        except (DesignFileError, NoSolution):
+            continue
+    assert told >= max(swept) - 0.05  # a step of the sweep is 0.4 mm, which moves it by less
+    assert told < 75.0
+
+
+def test_a_whole_number_is_chosen_among_whole_numbers() -> None:
+    found = wished(FEED, "feed.yaml", "analyze", "mean_ratio", 2.0, _keys(FEED)["gears.output"])
+    assert (found.value, found.result) == (20.0, pytest.approx(2.0, rel=1e-12))
+
+
+@pytest.mark.parametrize("fraction", [0.1, 0.37])
+def test_a_joint_follows_the_hand(fraction: float) -> None:
+    keys = [key for key in _keys(FEED).values() if key.is_geometry]
+    at = Study(FEED, "feed.yaml").scene(np.array([fraction]))
+    which = ("marks", next(k for k, mark in enumerate(at.marks) if mark.text == "C"), 0)
+    goal = point_of(at, which) + complex(2.0, -1.5)
+    text = Grip(FEED, "feed.yaml", which, fraction, keys).to(goal)
+    reached = point_of(Study(text, "feed.yaml").scene(np.array([fraction])), which)
+    assert abs(reached - goal) < 0.02  # links on a grid of 0.01 mm
+    assert [name for name, key in _keys(text).items() if key.value != _keys(FEED)[name].value] == [
+        "links.crank",
+        "links.frame",
+    ]
+
+
+def test_the_keys_that_are_locked_stay() -> None:
+    """With the crank alone the joint comes as near as that link allows: no other crank is nearer."""
+    keys, fraction = [_keys(FEED)["links.crank"]], 0.2
+    at = Study(FEED, "feed.yaml").scene(np.array([fraction]))
+    which = ("marks", next(k for k, mark in enumerate(at.marks) if mark.text == "C"), 0)
+    goal = point_of(at, which) + complex(0.0, 3.0)
+
+    def miss(text: str) -> float:
+        return abs(point_of(Study(text, "feed.yaml").scene(np.array([fraction])), which) - goal)
+
+    text = Grip(FEED, "feed.yaml", which, fraction, keys).to(goal)
+    crank = _keys(text)["links.crank"].value
+    assert _keys(text)["links.frame"].value == 153.552
+    for other in (crank - 0.2, crank + 0.2):
+        assert miss(text) <= miss(with_value(FEED, ("links", "crank"), other)) + 1e-3
+    with pytest.raises(Refused, match="locked"):
+        Grip(FEED, "feed.yaml", which, fraction, [])
+
+
+def test_a_joint_stops_where_the_mechanism_ends() -> None:
+    keys = [key for key in _keys(FEED).values() if key.is_geometry]
+    at = Study(FEED, "feed.yaml").scene(np.array([0.25]))
+    which = ("marks", next(k for k, mark in enumerate(at.marks) if mark.text == "C"), 0)
+    grip = Grip(FEED, "feed.yaml", which, 0.25, keys)
+    text = grip.to(point_of(at, which) + 400.0)
+    assert grip.stopped
+    Study(text, "feed.yaml").results("analyze")
+
+
+def test_key_results_by_name_are_those_of_the_whole_command() -> None:
+    for text in (FEED, ROCKER):
+        study = Study(text, "x.yaml")
+        for command in study.commands:
+            found = study.results(command)
+            again = Study(text, "x.yaml").results(command, [result.quantity.name for result in found])
+            assert again == found
+
+
+def test_what_is_made_beside_the_page() -> None:
+    changed = with_value(FEED, ("links", "crank"), 39.5)
+    assert "links.crank" in changes(FEED, changed, "feed.yaml")
+    assert changes(FEED, FEED, "feed.yaml") == ""
+    checks, film = moving(FEED, "feed.yaml", ["analyze"], 24, None, None)
+    assert [check.code for check in checks["analyze"]]
+    data, reach = film
+    again = moving(changed, "feed.yaml", ["analyze"], 24, reach, 0.3)[1]
+    assert (data["count"], again[1]) == (24, reach)
+    now = Study(changed, "feed.yaml").scene(np.array([0.3]))
+    shown = [mark["p"][2 * 7] for mark in again[0]["marks"]]  # 0.3 of 24 pictures lies in the seventh
+    stage = [mark.point[0].real for mark in now.marks]
+    assert np.corrcoef(shown, stage)[0, 1] == pytest.approx(1.0, abs=1e-6)  # hundredths of a pixel
