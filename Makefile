@@ -130,6 +130,7 @@ lock: .venv-lock/bin/uv
 
 docs: $(READY)
 	$(BIN)/python docs/generate.py
+	$(BIN)/python docs/pictures.py
 
 clean:
 	rm -rf $(VENV) .venv-least .venv-newest .venv-lock bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

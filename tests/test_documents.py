@@ -21,6 +21,7 @@ from factory import DESIGNS, each_kind
 from matplotlib.figure import Figure
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.core.base.kinds import FILES
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -92,6 +93,26 @@ def test_links_lead_somewhere(page: Path) -> None:
     for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), target
+
+
+def test_figures_of_the_readme_are_those_of_the_script_and_small() -> None:
+    """`make docs` draws them; an animation of more than 400 kB is too large for a first page."""
+    script = (ROOT / "docs" / "pictures.py").read_text()
+    kinds = re.findall(r'^    "([\w-]+)": \("(\w+)", [\d.]+\),$', script, re.MULTILINE)
+    assert [name for _, name in kinds if not (DESIGNS / f"{name}.yaml").exists()] == []
+    sizes = {path.name: path.stat().st_size for path in (ROOT / "docs" / "img").iterdir()}
+    shown = re.findall(r"docs/img/([\w.-]+)", (ROOT / "README.md").read_text())
+    assert sorted(shown) == sorted(sizes) == sorted(["feed.gif", "press.png", *(f"{kind}.png" for kind, _ in kinds)])
+    assert sizes["feed.gif"] < 400_000
+    assert sum(sizes.values()) < 1_500_000
+
+
+def test_the_readme_has_every_kind_and_is_a_page() -> None:
+    text = (ROOT / "README.md").read_text()
+    assert re.findall(r"^\|.*?\| `([\w-]+)` \|", text, re.MULTILINE) == sorted(
+        FILES, key=lambda kind: text.index(f"`{kind}`")
+    )
+    assert text.count("\n") < 200
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
