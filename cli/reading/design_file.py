@@ -175,17 +175,8 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
     """
     from pydantic import ValidationError
 
-    wrong = list(loaded.problems)
-    faulty: set[str] = set()
-    unread: set[str] = set()
-    if section := getattr(model, "section_of_members", ""):
-        found_there, faulty = _read_members(loaded, section)
-        wrong += found_there
-    if "file" in loaded.text or loaded.overrides:
-        from gearlink.cli.reading.columns import read_points
-
-        of_numbers, unread = read_points(loaded)
-        wrong += of_numbers
+    of_others, faulty = _read_others(loaded, model)
+    wrong = [*loaded.problems, *of_others]
     if renamed := _starts_with_a_number(loaded.data) or _scatters_by_terms(loaded.data):
         from gearlink.cli.reading.units import convert
 
@@ -213,8 +204,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         found = [diagnose_no_solution(loaded, error)]
     wrong += [_no_size(loaded, model, path, value) for path, value in odd if path in sizes]
     seen = {diagnostic.key for diagnostic in wrong if diagnostic.code in ("GL108", "GL180", "GL181")}
-    found = [d for d in found if not any(d.key.startswith(f"{member}.design") for member in faulty)]
-    found = [d for d in found if d.key.removesuffix(".points") not in unread]
+    found = [d for d in found if not d.key.startswith(faulty)]
     wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
         from gearlink.cli.reading.model_errors import diagnose_truth_values
@@ -225,6 +215,25 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         raise DesignFileError(wrong, omitted)
     loaded.settle()
     return spec
+
+
+def _read_others(loaded: LoadedFile, model: type[BaseModel]) -> tuple[list[Diagnostic], tuple[str, ...]]:
+    """Put what other files hold in the place of their names: designs of members, points of tables.
+
+    Returns
+        wrong, keys : what is wrong with them; how the keys of that begin of which nothing more is to be said
+    """
+    wrong: list[Diagnostic] = []
+    keys: list[str] = []
+    if section := getattr(model, "section_of_members", ""):
+        wrong, faulty = _read_members(loaded, section)
+        keys = [f"{member}.design" for member in faulty]
+    if "file" in loaded.text or loaded.overrides:
+        from gearlink.cli.reading.columns import read_points
+
+        of_numbers, unread = read_points(loaded)
+        wrong, keys = wrong + of_numbers, keys + sorted(unread)
+    return wrong, tuple(keys)
 
 
 def _read_members(loaded: LoadedFile, section: str) -> tuple[list[Diagnostic], set[str]]:

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 # Share of the surface speed that the two may differ by: rounding only.
 _SPEED_SHARE = 1e-9
+# Share of the near dwell in which the arm should rest on its stop.
+_SETTLED_SHARE = 0.25
 # A tip farther off [mm] misses the sheet's edge by more than a gripper's pad holds, whatever the file allows.
 _MOST_OFF_PLACE = 1.0
 # Closed form and Newton-Raphson each lose 8 eps times the condition number.
@@ -134,6 +136,19 @@ def phase_allotment(design: SwingGripper) -> Check:
     status: Status = "fail" if limit is not None and ratio > limit else "pass"
     what, fix = "peak acceleration of the return over that of the phase accelerate", "lengthen phases.return"
     return codes.PHASE_ALLOTMENT.check(status, what, ratio, limit, fix=fix)
+
+
+def stop_settling(design: SwingGripper) -> Iterator[Check]:
+    """GL421: what is left of the near dwell when the arm rests on its stop."""
+    if design.spec.stop is None:
+        return
+    margin, least = design.stop.margin, _SETTLED_SHARE * design.motion.phases.near_dwell
+    status: Status = "fail" if margin < 0.0 else "warn" if margin < least else "pass"
+    what, at = "rest on the stop before the bite", f"{short(design.stop.impact_degrees)} deg"
+    limit = 0.0 if status == "fail" else least
+    fix = "lower stop.restitution or stop.clearance" if status != "pass" else ""
+    aside = f"settled in {short(design.stop.settling_time)} ms"
+    yield codes.STOP_SETTLING.check(status, what, margin, limit, "deg", at=at, fix=fix, aside=aside)
 
 
 def handover(design: SwingGripper) -> Iterator[Check]:
@@ -332,6 +347,7 @@ _WAYS = {
     "pressure-angle": (*_ROLLERS, *_LINKAGE),
     "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
     "lift-off": either("cam.return_roller.angle", step=1.0),
+    "stop-settling": (down("stop.restitution", step=0.05), down("stop.clearance", step=0.01)),
 }
 _QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}
 _QUIETER = {"accelerate": "velocity-4567", "decelerate": "velocity-4567", "return": "polynomial-4567"}

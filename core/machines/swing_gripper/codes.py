@@ -33,6 +33,18 @@ PHASE_ALLOTMENT = Rule(
     ("phases", "limits.return_acceleration"),
     side="<=",
 )
+STOP_SETTLING = Rule(
+    "GL421",
+    "arm still bouncing on its stop",
+    "The return and the rebounds on the stop end after the turn is over; or less than a quarter of the near dwell is "
+    "left (a warning).",
+    "Grippers that still move when they bite take the sheet askew.",
+    "Lower the restitution (a damped stop) or the clearance, make the return end softly, or raise the spring's torque.",
+    "360 - impact angle - settling angle >= 0; warns below a quarter of the near dwell",
+    "own derivation; swing-gripper paper 2 names the stop",
+    ("stop-settling",),
+    ("stop.restitution", "stop.clearance", "spring"),
+)
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.machines.swing_gripper.spec import ClosingSpring, GripperCam, Roller, SwingGripperSpec
+    from gearlink.core.machines.swing_gripper.stop import Stop
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -482,6 +483,22 @@ class Closure:
         return max(0.0, *(extreme.value for extreme in self.worst_unloading)) + reserve
 
 
+_STOP = {
+    "stop_force": "force",
+    "stop_force_max": "force_max",
+    "stop_angle": "angle",
+    "stop_tip_offset": "tip_offset",
+    "stop_impact_angle": "impact_angle",
+    "stop_impact_speed": "impact_speed",
+    "take_off_angle": "take_off_angle",
+    "take_off_speed": "take_off_speed",
+    "stop_mass": "mass",
+    "settling_time": "settling_time",
+    "settling_angle": "settling_angle",
+}
+"""Quantities of the stop, and what they are called there."""
+
+
 class Handover:
     """Speed and place of the tip at the handover."""
 
@@ -648,6 +665,13 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         """What keeps the rollers on their cams."""
         return Closure(self.spec, self.motion, self.cams)
 
+    @cached_property
+    def stop(self) -> Stop:
+        """Where the arm rests in the near dwell."""
+        from gearlink.core.machines.swing_gripper.stop import Stop
+
+        return Stop(self.spec, self.motion, self.cams, self.closure)
+
     law: SixPhaseLaw = placed("motion.law")
     linkage: GripperLinkage = placed("motion.linkage")
     shaft_speed: float = placed("motion.shaft_speed")
@@ -710,7 +734,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
-        return (*_LAW, *_PHASES, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
+        return (*_LAW, *_PHASES, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque", *_STOP)
 
     def varied(self, spec: SwingGripperSpec) -> SwingGripper:
         """The design of another file; law and linkage are kept where it differs in the cams alone."""
@@ -726,7 +750,9 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
                 self.cams.seek()
 
     def raw(self, name: str) -> Any:
-        """The value of a quantity; a point as its two coordinates."""
+        """The value of a quantity; a point as its two coordinates; None of a stop that the file has not."""
+        if name in _STOP:
+            return None if self.spec.stop is None else getattr(self.stop, _STOP[name])
         value = super().raw(name)
         return (value.real, value.imag) if isinstance(value, complex) else value
 
@@ -738,6 +764,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     check_transmission_angle, check_conditioning = checks.transmission_angle, checks.conditioning
     check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
+    check_stop_settling = checks.stop_settling
     check_phase_allotment = checks.phase_allotment
     check_jerk_step, check_handover = checks.jerk_step, checks.handover
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
@@ -768,6 +795,9 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         if self.closure.stands:
             quantities += _CLOSURE if spec.spring is not None and spec.spring.torque is None else ("lift_off_speed",)
             checks |= {"lift-off": None}
+        if self.closure.stands and spec.stop is not None:
+            quantities += (name for name in _STOP if name != "stop_force_max" or spec.stop.stiffness is not None)
+            checks |= {"stop-settling": None}
         return Outline(tuple(quantities), tuple(checks), tables)
 
     def _of_cams(self, outline: Outline) -> Outline:

@@ -240,6 +240,19 @@ class ClosingSpring(Spec):
         return self
 
 
+class ArmStop(Spec):
+    """A stop on which the arm rests in the near dwell, while the main roller clears its cam."""
+
+    radius: Length = Field(description="E to the stop")
+    clearance: Length = Field(description="gap between main roller and cam while the arm rests on the stop")
+    restitution: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+        0.5, description="speed after an impact on the stop over that before it"
+    )
+    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+        None, description="stiffness of the stop: gives the greatest force of the impact"
+    )
+
+
 class GripperLimits(LoadLimits):
     """Limits of the checks."""
 
@@ -288,6 +301,7 @@ class SwingGripperSpec(TolerancedSpec):
     size: Size | None = None
     inertia: Inertia | None = None
     spring: ClosingSpring | None = None
+    stop: ArmStop | None = None
     limits: GripperLimits = GripperLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.swing_gripper.loads_spec:GripperLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
@@ -304,6 +318,17 @@ class SwingGripperSpec(TolerancedSpec):
                 "GL108",
                 "the handover at {at} deg lies outside the constant-speed phase\nset it from {start} to {end} deg",
                 {"key": "handover", "at": f"{self.handover:g}", "start": f"{start:g}", "end": f"{end:g}"},
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _stop_with_its_sections(self) -> SwingGripperSpec:
+        missing = [key for key in ("cam", "spring", "inertia") if getattr(self, key) is None]
+        if self.stop is not None and missing:
+            _refuse(
+                "stop",
+                "a stop needs the sections cam, spring and inertia: {missing} missing",
+                missing=", ".join(missing),
             )
         return self
 
