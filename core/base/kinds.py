@@ -473,6 +473,15 @@ KINDS: dict[str, Kind] = {
             worked="barrel_cam",
         ),
         Kind(
+            "measured-cam",
+            "a cam by measured points of its profile: motion of its follower, and the laws it is made of",
+            "machines.measured_cam",
+            "spec:MeasuredCamSpec",
+            {"analyze": "design:MeasuredCamDesign"},
+            codes="",
+            picture="cli.views.figures.measured_cam:draw",
+        ),
+        Kind(
             "motion-law",
             "a motion law by itself: constants, vibration left, proof",
             "machines.motion_law",

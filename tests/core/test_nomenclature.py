@@ -19,6 +19,7 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {
+    "kg",
     "kg m^2",
     "kg/mm",
     "N/(mm um)",

@@ -137,7 +137,7 @@ def test_nothing_of_it_appears_without_an_input_speed(name):
 def test_every_kind_whose_input_turns_takes_an_input_speed():
     taken = {name for name, kind in KINDS.items() if "input_speed" in kind.spec_model().model_fields}
     other_key = {"flatbed-press", "swing-gripper", "wide-swing-cam", "disc-cam", "cylindrical-cam", "machine"}
-    assert taken | other_key | {"gear-pair", "gear-train-mobility", "motion-law"} == set(KINDS)
+    assert taken | other_key | {"gear-pair", "gear-train-mobility", "measured-cam", "motion-law"} == set(KINDS)
 
 
 # The speed that a variable-speed drive asks for

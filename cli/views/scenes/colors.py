@@ -13,6 +13,7 @@ PHASE_TINTS = {
     "transition": "#FDF3C0",
     "decelerate": "#FDF3C0",
     "return": "#E6D9EE",
+    "fall": "#E6D9EE",
     "far-dwell": "#E4E4E4",
     "dwell": "#F2F2F2",
     "near-dwell": "#F2F2F2",

@@ -35,7 +35,7 @@ from tests.oracles.three_gear_output import output_motion
 
 ROOT = Path(__file__).resolve().parents[3]
 DESIGNS = ROOT / "designs"
-STANDING = {"gear-train-mobility", "motion-law"}
+STANDING = {"gear-train-mobility", "measured-cam", "motion-law"}
 QUICK = ("--fps", 4, "--seconds", 1, "--size", "240x180")
 
 

@@ -1,0 +1,246 @@
+"""From a measured profile to the motion of the follower: Fourier series, contact of the roller, cam angle."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.results import cached_property
+from gearlink.core.numerics.arrays import Points, Reals
+
+TURN = 2.0 * math.pi
+_STEPS = 100
+_LARGEST_CONDITION = 1e6
+
+
+class Series(NamedTuple):
+    """Radius of a profile over its own angle, rho(t) = a_0 + sum a_k cos kt + b_k sin kt [mm]."""
+
+    cosines: Reals
+    sines: Reals
+
+    @classmethod
+    def fitted(cls, t: Reals, radius: Reals, order: int) -> Series:
+        """The series of least squares through points.
+
+        Raises
+            NoSolution - where a gap between the points leaves it open
+        """
+        k = np.arange(1, order + 1)
+        columns = np.concatenate([np.ones((t.size, 1)), np.cos(np.outer(t, k)), np.sin(np.outer(t, k))], axis=1)
+        found, _, _, singular = np.linalg.lstsq(columns, radius, rcond=None)
+        if singular[0] > _LARGEST_CONDITION * singular[-1]:
+            widest = math.degrees(float(np.max(np.diff(np.append(t, t[0] + TURN)))))
+            raise NoSolution(
+                f"the points leave the profile open: gap of {widest:.4g} deg for {order} harmonics",
+                key="harmonics",
+                fix="lower harmonics, or give points in the gap",
+            )
+        return cls(np.append(found[0], found[1 : order + 1]), np.append(0.0, found[order + 1 :]))
+
+    def at(self, t: Reals, order: int) -> list[Reals]:
+        """Radius and its derivatives."""
+        k = np.arange(self.cosines.size)
+        cos, sin = np.cos(np.multiply.outer(t, k)), np.sin(np.multiply.outer(t, k))
+        a, b, found = self.cosines, self.sines, []
+        for _ in range(order + 1):
+            found.append((cos * a).sum(axis=-1) + (sin * b).sum(axis=-1))
+            a, b = k * b, -k * a
+        return found
+
+
+class Contact(NamedTuple):
+    """The roller's centre in the cam, its first two derivatives by t, and the outward normal."""
+
+    center: Points
+    first: Points
+    second: Points
+    normal: Points
+
+
+class Follower(NamedTuple):
+    """The coordinate of the follower [rad or mm] and the cam angle [rad], with derivatives by t; way of its roller."""
+
+    value: tuple[Reals, Reals, Reals]
+    cam_angle: tuple[Reals, Reals, Reals]
+    way: Points
+
+
+@dataclass(frozen=True)
+class MeasuredCam:
+    """A profile by its series, and a follower on it.
+
+    Parameters
+        series : Series
+        roller : float [mm]
+        sense : +1 or -1 - of the cam
+        pivot : complex [mm] or None - of an oscillating follower
+        arm : float [mm], side : +1 or -1 - of it
+        direction : complex, offset : float [mm] - of a translating one
+    Notes
+        The profile is touched by the roller's centre R = C + r_g N; t runs along the profile, the cam angle is the turn
+        that brings R to where the follower takes its roller.
+    Source
+        own derivation
+    """
+
+    series: Series
+    roller: float
+    sense: int
+    pivot: complex | None = None
+    arm: float = 0.0
+    side: int = 1
+    direction: complex = 1j
+    offset: float = 0.0
+
+    def contact(self, t: Reals) -> Contact:
+        """R = C + r_g N with N = -i T, T = C'/|C'|, T' = i w T."""
+        rho, d1, d2, d3 = self.series.at(t, 3)
+        e = np.exp(1j * t)
+        c1 = (d1 + 1j * rho) * e
+        c2 = (d2 + 2j * d1 - rho) * e
+        c3 = (d3 + 3j * d2 - 3.0 * d1 - 1j * rho) * e
+        length = np.abs(c1)
+        tangent, square = c1 / length, length * length
+        w = (np.conj(c1) * c2).imag / square
+        w1 = (np.conj(c1) * c3).imag / square - 2.0 * w * (np.conj(c1) * c2).real / square
+        r = self.roller
+        return Contact(
+            rho * e - 1j * r * tangent, c1 + r * w * tangent, c2 + r * (w1 + 1j * w * w) * tangent, -1j * tangent
+        )
+
+    def follower(self, t: Reals) -> Follower:
+        """Coordinate of the follower, cam angle, and the direction in which the roller goes.
+
+        Raises
+            NoSolution - where the follower does not reach the profile
+        """
+        at = self.contact(t)
+        value, place, way = self._placed(at)
+        there, here = _turned(*place), _turned(at.center, at.first, at.second)
+        # Both are continuous over a turn: the roller stays on one side of the cam, its centre near t in the cam.
+        direction = np.angle(place[0] / self._reference) + cmath.phase(self._reference)
+        lead = np.angle(at.center * np.exp(-1j * t))
+        cam = self.sense * (direction - t - lead), self.sense * (there[0] - here[0]), self.sense * (there[1] - here[1])
+        return Follower(value, cam, way)
+
+    @cached_property
+    def _reference(self) -> complex:
+        """Where the roller's centre stands while the profile's angle 0 touches it [mm]."""
+        return complex(self._placed(self.contact(np.zeros(1)))[1][0][0])
+
+    def _placed(self, at: Contact) -> tuple[tuple[Reals, Reals, Reals], list[Points], Points]:
+        """Coordinate of the follower, centre of the roller with derivatives, and direction of its way."""
+        q = np.abs(at.center) ** 2
+        q1 = 2.0 * (np.conj(at.center) * at.first).real
+        q2 = 2.0 * (np.abs(at.first) ** 2 + (np.conj(at.center) * at.second).real)
+        return self._on_slide(q, q1, q2) if self.pivot is None else self._on_rocker(self.pivot, q, q1, q2)
+
+    def _on_slide(self, q: Reals, q1: Reals, q2: Reals) -> tuple[tuple[Reals, Reals, Reals], list[Points], Points]:
+        square = q - self.offset**2
+        if np.min(square) <= 0.0:
+            least = math.sqrt(float(np.min(q)))
+            raise NoSolution(
+                f"the line of travel passes the cam axis at {abs(self.offset):.6g} mm, the roller's centre comes to "
+                f"{least:.6g} mm",
+                key="follower.offset",
+                fix=f"give an offset below {least:.6g} mm",
+            )
+        y = np.sqrt(square)
+        y1 = 0.5 * q1 / y
+        y2 = (0.5 * q2 - y1 * y1) / y
+        u = self.direction
+        return (y, y1, y2), [u * (y - 1j * self.offset), u * y1, u * y2], np.full_like(y, u, dtype=np.complex128)
+
+    def _on_rocker(
+        self, pivot: complex, q: Reals, q1: Reals, q2: Reals
+    ) -> tuple[tuple[Reals, Reals, Reals], list[Points], Points]:
+        f, l = abs(pivot), self.arm  # noqa: E741
+        c = (q - f * f - l * l) / (2.0 * f * l)
+        if np.max(np.abs(c)) >= 1.0:
+            low, high = math.sqrt(float(np.min(q))), math.sqrt(float(np.max(q)))
+            raise NoSolution(
+                f"the roller's centre goes from {low:.6g} to {high:.6g} mm off the cam axis, the arm reaches "
+                f"{abs(f - l):.6g} to {f + l:.6g} mm",
+                key="follower.arm",
+                fix="check pivot, arm and roller_radius against the machine",
+            )
+        c1, c2, root = q1 / (2.0 * f * l), q2 / (2.0 * f * l), np.sqrt((1.0 - c) * (1.0 + c))
+        angle = cmath.phase(pivot) + self.side * np.arccos(c)
+        first = -self.side * c1 / root
+        second = -self.side * (c2 / root + c * c1 * c1 / root**3)
+        arm = l * np.exp(1j * angle)
+        place = [pivot + arm, 1j * first * arm, (1j * second - first * first) * arm]
+        return (angle, first, second), place, 1j * arm / l
+
+    @cached_property
+    def _grid(self) -> tuple[Reals, Reals]:
+        """Close places on the profile in the order of the cam angle, and that angle over a turn."""
+        count = 16 * self.series.cosines.size + 720
+        t = -self.sense * np.linspace(0.0, TURN, count + 1)
+        found = self.follower(t)
+        rate = -self.sense * found.cam_angle[1]
+        if np.min(rate) <= 0.0:
+            worst = math.degrees(float(np.mod(t[int(np.argmin(rate))], TURN)))
+            raise NoSolution(
+                f"undercut or noise: the cam angle turns back at {worst:.4g} deg of the profile",
+                key="profile",
+                fix="lower harmonics, or check roller_radius",
+            )
+        return t, found.cam_angle[0]
+
+    def at_cam_angle(self, phi: Reals) -> Reals:
+        """The place t on the profile that the roller touches at cam angles [rad], by Newton's steps.
+
+        Raises
+            NoSolution - where the cam angle turns back along the profile, at the key `profile`
+        """
+        grid, angle = self._grid
+        turned = angle[0] + np.mod(phi - angle[0], TURN)
+        t = np.interp(turned, angle, grid)
+        for _ in range(_STEPS):
+            found = self.follower(t)
+            off = found.cam_angle[0] - turned
+            off = off - TURN * np.round(off / TURN)
+            t = t - off / found.cam_angle[1]
+            if np.max(np.abs(off), initial=0.0) <= 1e-13:
+                return t
+        return t
+
+    def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:
+        """Coordinate of the follower and its derivatives by the cam angle [rad or mm]."""
+        found = self.follower(self.at_cam_angle(phi))
+        value, first, second = found.value
+        speed = first / found.cam_angle[1]
+        return value, speed, (second - speed * found.cam_angle[2]) / found.cam_angle[1] ** 2
+
+    def pressure_angle(self, t: Reals) -> Reals:
+        """Angle between the normal of the profile and the way of the roller [rad], without sign."""
+        found, at = self.follower(t), self.contact(t)
+        normal = at.normal * np.exp(1j * self.sense * found.cam_angle[0])
+        along = np.conj(found.way) * normal
+        return np.asarray(np.arctan2(np.abs(along.imag), np.abs(along.real)))
+
+    def curvature(self, t: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], convex positive."""
+        at = self.contact(t)
+        return np.asarray((np.conj(at.first) * at.second).imag / np.abs(at.first) ** 3)
+
+
+def _turned(place: Points, first: Points, second: Points) -> tuple[Reals, Reals]:
+    """First two derivatives of the direction of a point."""
+    square = np.abs(place) ** 2
+    rate = (np.conj(place) * first).imag / square
+    return rate, (np.conj(place) * second).imag / square - 2.0 * rate * (np.conj(place) * first).real / square
+
+
+def places(points: Sequence[Sequence[float]]) -> tuple[Reals, Reals]:
+    """Angles [rad] and radii [mm] of a measured profile."""
+    angle, radius = np.array(points, dtype=np.float64).T
+    return np.radians(angle), np.asarray(radius)

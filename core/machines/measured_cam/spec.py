@@ -1,0 +1,103 @@
+"""The design file of a measured cam."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.base.spec import Angle, Assembly, DesignSpec, Distance, Entries, Length, SignedLength, Spec, Speed
+
+ProfilePoint = Annotated[
+    list[SignedLength], Field(min_length=2, max_length=2), Entries("[angle, radius]", "[30, 52.4]")
+]
+Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[130, 0]")]
+MOST_HARMONICS = 60
+_FEWEST = 5
+
+
+def _refused(key: str, message: str, fix: str = "") -> PydanticCustomError:
+    return PydanticCustomError("GL111", "{message}", {"message": message, "key": key, **({"help": fix} if fix else {})})
+
+
+class OscillatingFollower(Spec):
+    """A roller on a rocker; the cam axis is the origin."""
+
+    type: Literal["oscillating"] = Field(description="how the follower moves")
+    pivot: Point = Field(description="axis of the rocker, seen from the cam axis")
+    arm: Length = Field(description="pivot to roller centre")
+    side: Assembly = Field(1, description="1: roller centre left of the direction from cam axis to pivot; -1: right")
+
+
+class TranslatingFollower(Spec):
+    """A roller on a slide; the cam axis is the origin."""
+
+    type: Literal["translating"] = Field(description="how the follower moves")
+    direction: Angle = Field(90.0, description="direction of the lift")
+    offset: SignedLength = Field(0.0, description="how far the line of travel passes the cam axis on its right")
+
+
+class Profile(Spec):
+    """Points of the cam's profile, polar, in the cam at cam angle 0."""
+
+    points: Annotated[list[ProfilePoint], Field(min_length=_FEWEST, max_length=100_000)] | None = Field(
+        None, description="[angle, radius] in deg and mm, angles ascending over less than a turn"
+    )
+    file: str | None = Field(None, description="CSV file with these columns, in place of points")
+
+    @model_validator(mode="after")
+    def _turn(self) -> Profile:
+        if (self.points is None) == (self.file is None):
+            given = self.points is not None
+            raise _refused("file" if given else "points", "give points or file" + (", not both" if given else ""))
+        if self.points is None:
+            raise _refused("file", "the file is read with the design file; give points here")
+        angles = [angle for angle, _ in self.points]
+        for k, (before, after) in enumerate(pairwise(angles), 1):
+            if after <= before:
+                raise _refused(f"points[{k}]", f"angles of a profile ascend: {after:.9g} deg follows {before:.9g} deg")
+        if angles[-1] - angles[0] >= 360.0:
+            message = f"angles of a profile: over {angles[-1] - angles[0]:.9g} deg (below 360 deg)"
+            raise _refused("points", message, "leave out the points that come again after a turn")
+        for k, (_, radius) in enumerate(self.points):
+            if radius <= 0.0:
+                raise _refused(f"points[{k}]", f"radius of a profile: {radius:.9g} mm (above 0)")
+        return self
+
+
+class MeasuredCamSpec(DesignSpec):
+    """A measured cam profile and the follower that runs on it."""
+
+    kind: Literal["measured-cam"]
+    follower: Annotated[OscillatingFollower | TranslatingFollower, Field(discriminator="type")]
+    roller_radius: Length = Field(description="radius of the roller")
+    sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")
+    profile: Profile
+    harmonics: Annotated[int, Field(ge=1, le=MOST_HARMONICS, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="of the Fourier series through the points; left out: a quarter of the points, at most 60"
+    )
+    dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")
+    speed: Speed | None = Field(None, description="speed of the cam")
+
+    @model_validator(mode="after")
+    def _enough(self) -> MeasuredCamSpec:
+        count, order = len(self.profile.points or ()), self.order
+        if count < 2 * order + 1:
+            raise _refused(
+                "harmonics",
+                f"harmonics through {count} points: {order} (at most {(count - 1) // 2})",
+                "lower harmonics, or give more points",
+            )
+        return self
+
+    @property
+    def order(self) -> int:
+        """Harmonics of the series."""
+        count = len(self.profile.points or ())
+        return min((count - 1) // 4, MOST_HARMONICS) if self.harmonics is None else self.harmonics
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze",)

@@ -1,0 +1,167 @@
+"""A measured cam: an eccentric circle, whose follower is a triangle, and profiles that were cut by known laws.
+
+Tolerances: the coefficients of an eccentric circle fall like (e/2R)^n; with 24 harmonics and e/R = 1/5 the next is
+1e-24. Rates by differences of 1e-5 rad: 1e-6. Laws from points rounded to a micrometre: ends to 0.3 deg.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.parts.cams.laws import law
+
+RADIUS, ECCENTRICITY, ROLLER = 60.0, 12.0, 15.0
+PIVOT, ARM = complex(130.0, 0.0), 90.0
+
+
+def eccentric(count: int = 72, **keys: Any) -> Any:
+    """A circle whose centre lies on +x of the cam at cam angle 0."""
+    t = np.arange(count) * 2.0 * math.pi / count
+    radius = ECCENTRICITY * np.cos(t) + np.sqrt(RADIUS**2 - (ECCENTRICITY * np.sin(t)) ** 2)
+    points = [[math.degrees(a), float(r)] for a, r in zip(t, radius, strict=True)]
+    data = {
+        "kind": "measured-cam",
+        "name": "eccentric",
+        "follower": {"type": "oscillating", "pivot": [130.0, 0.0], "arm": ARM, "side": -1},
+        "roller_radius": ROLLER,
+        "harmonics": 24,
+        "profile": {"points": points},
+    }
+    return factory.design(data, **keys)
+
+
+def of_triangle(phi: Any, sense: int, side: int) -> Any:
+    """Direction of the rocker: pivot, centre of the circle, centre of the roller."""
+    to_center = ECCENTRICITY * np.exp(1j * sense * phi) - PIVOT
+    apart, reach = np.abs(to_center), RADIUS + ROLLER
+    opening = np.arccos((apart**2 + ARM**2 - reach**2) / (2.0 * apart * ARM))
+    return np.angle(to_center * np.exp(-1j * side * opening))
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_an_eccentric_circle_moves_the_rocker_of_a_triangle(sense: int, side: int) -> None:
+    design = eccentric(sense=sense, follower__side=side)
+    phi = np.radians(np.arange(0.0, 360.0, 7.0))
+    value, speed, acceleration = design.cam.motion(phi)
+    expected = of_triangle(phi, sense, side)
+    np.testing.assert_allclose(value, expected, rtol=0.0, atol=1e-11)
+    step = 1e-5
+    around = [of_triangle(phi + k * step, sense, side) for k in (-1, 1)]
+    np.testing.assert_allclose(speed, (around[1] - around[0]) / (2.0 * step), rtol=0.0, atol=1e-6)
+    rates = [design.cam.motion(phi + k * step)[1] for k in (-1, 1)]
+    np.testing.assert_allclose(acceleration, (rates[1] - rates[0]) / (2.0 * step), rtol=0.0, atol=1e-6)
+    turn = of_triangle(np.linspace(0.0, 2.0 * math.pi, 20_001), sense, side)
+    assert design.raw("swing") == pytest.approx(float(np.ptp(turn)), rel=1e-7)
+    assert design.raw("min_curvature_radius") == pytest.approx(RADIUS + ROLLER, rel=1e-9)
+    assert design.raw("fit_max") < 1e-12
+
+
+def test_the_pressure_angle_is_between_the_lines_of_the_triangle() -> None:
+    design = eccentric()
+    phi = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    arm = ARM * np.exp(1j * of_triangle(phi, 1, -1))
+    normal = PIVOT + arm - ECCENTRICITY * np.exp(1j * phi)
+    alpha = np.abs(0.5 * math.pi - np.abs(np.angle(normal / arm)))
+    assert design.raw("max_pressure_angle") == pytest.approx(float(alpha.max()), rel=1e-7)
+    worst = phi[int(np.argmax(alpha))]
+    assert design.raw("max_pressure_angle_at") == pytest.approx(float(worst), abs=1e-3)
+
+
+def test_a_slide_on_an_eccentric_is_a_slider_crank() -> None:
+    follower = {"type": "translating", "direction": 70.0, "offset": 5.0}
+    design = eccentric(follower=follower)
+    phi = np.radians(np.arange(0.0, 360.0, 11.0))
+    seen = ECCENTRICITY * np.exp(1j * phi) * np.exp(-1j * math.radians(70.0))  # along the travel, left of it
+    expected = seen.real + np.sqrt((RADIUS + ROLLER) ** 2 - (seen.imag + 5.0) ** 2)
+    np.testing.assert_allclose(design.cam.motion(phi)[0], expected, rtol=0.0, atol=1e-9)
+
+
+def cut(laws: tuple[str, str], ends: tuple[float, float, float, float], lift: float) -> list[list[float]]:
+    """Points of the profile of a roller on a slide over the cam axis, to a micrometre."""
+    rise, ready, fall, home = ends
+    phi = np.arange(0.0, 360.0, 0.01)
+    s, v = np.zeros_like(phi), np.zeros_like(phi)
+    for start, end, name, up in ((rise, ready, laws[0], True), (fall, home, laws[1], False)):
+        inside = (phi >= start) & (phi <= end)
+        part, rate = law(name).evaluate((phi[inside] - start) / (end - start), 1)
+        s[inside] = lift * (part if up else 1.0 - part)
+        v[inside] = lift * rate / math.radians(end - start) * (1.0 if up else -1.0)
+    s[(phi > ready) & (phi < fall)] = lift
+    center = 1j * (60.0 + s) * np.exp(-1j * np.radians(phi))
+    along = 1j * v * np.exp(-1j * np.radians(phi)) - 1j * center
+    profile = center - 10.0 * 1j * along / np.abs(along)
+    angle = np.degrees(np.angle(profile)) % 360.0
+    order = np.argsort(angle)
+    at = np.arange(0.0, 360.0, 2.0)
+    radius = np.interp(at, angle[order], np.abs(profile)[order], period=360.0)
+    return [[float(a), round(float(r), 3)] for a, r in zip(at, radius, strict=True)]
+
+
+@pytest.mark.parametrize("laws", [("cycloidal", "modified-sine"), ("polynomial-345", "modified-trapezoid")])
+@settings(max_examples=4, deadline=None)
+@given(
+    rise=st.floats(10.0, 50.0), first=st.floats(80.0, 110.0), dwell=st.floats(30.0, 60.0), lift=st.floats(12.0, 25.0)
+)
+def test_the_laws_of_a_cam_are_found(
+    laws: tuple[str, str], rise: float, first: float, dwell: float, lift: float
+) -> None:
+    ends = (rise, rise + first, rise + first + dwell, rise + first + dwell + 105.0)
+    data = {
+        "kind": "measured-cam",
+        "name": "cut",
+        "follower": {"type": "translating"},
+        "roller_radius": 10.0,
+        "profile": {"points": cut(laws, ends, lift)},
+    }
+    design = factory.design(data)
+    strokes = [each for each in design.phases if each.motion != "dwell"]
+    assert [each.law for each in strokes] == list(laws)
+    assert [each.motion for each in design.phases].count("dwell") == 2
+    found = [math.degrees(place) for each in strokes for place in (each.start, each.end)]
+    assert found == pytest.approx(list(ends), abs=0.5)
+    assert max(each.deviation for each in strokes) < 0.01
+
+
+def test_noise_that_turns_the_cam_angle_back_is_refused() -> None:
+    t = np.arange(240) * 2.0 * math.pi / 240
+    points = [[1.5 * k, 60.0 + 2.0 * math.cos(50.0 * float(angle))] for k, angle in enumerate(t)]
+    with pytest.raises(NoSolution, match="turns back at") as refused:
+        eccentric(harmonics=59, profile={"points": points}).raw("swing")
+    assert refused.value.key == "profile"
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "words"),
+    [
+        ({"roller_radius": 15.0, "harmonics": 40}, "harmonics", "at most 35"),
+        ({"profile": {"points": [[0, 50], [10, 51], [5, 50], [200, 51], [300, 52]]}}, "points[2]", "ascend"),
+        ({"profile": {"file": "p.csv"}}, "file", "read with the design file"),
+    ],
+)
+def test_profiles_that_serve_no_series_are_refused(keys: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(ValidationError, match=words) as refused:
+        eccentric(**keys)
+    assert refused.value.errors()[0]["ctx"]["key"] == key
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "words"),
+    [
+        ({"follower__arm": 20.0}, "follower.arm", "the arm reaches"),
+        ({"follower": {"type": "translating", "offset": 80.0}}, "follower.offset", "passes the cam axis"),
+    ],
+)
+def test_a_follower_that_does_not_reach_the_cam_is_refused(keys: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(NoSolution, match=words) as refused:
+        eccentric(**keys).table("law")
+    assert refused.value.key == key
