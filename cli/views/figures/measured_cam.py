@@ -10,6 +10,7 @@ import numpy as np
 from gearlink.cli.views.figures.drawing import panels, style
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from gearlink.core.machines.measured_cam.design import MeasuredCamDesign
@@ -43,7 +44,7 @@ def draw(command: str, design: MeasuredCamDesign) -> Figure:
     return made
 
 
-def _shade(rows: list[panels.Axes], design: MeasuredCamDesign) -> None:
+def _shade(rows: list[Axes], design: MeasuredCamDesign) -> None:
     """Shade the phases behind the motion, those that run over the end of the turn in two parts."""
     found = []
     for each in design.phases:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.report import Table
@@ -220,7 +220,7 @@ class MeasuredCamDesign(Design):
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)
-        phi = np.radians(degrees)
+        phi = np.asarray(np.radians(degrees), dtype=np.float64)
         value, speed, acceleration = self.cam.motion(phi)
         if self._oscillates:
             columns = {"cam_angle": (degrees, "deg"), "follower_angle": (np.degrees(value), "deg")}
@@ -241,7 +241,7 @@ class MeasuredCamDesign(Design):
         """Dwells and strokes over the cam angle, with the law that comes nearest to each stroke."""
         unit = "deg" if self._oscillates else "mm"
         scale = math.degrees(1.0) if self._oscillates else 1.0
-        columns = {
+        columns: dict[str, tuple[list[Any], str]] = {
             "start": ([math.degrees(each.start) for each in self.phases], "deg"),
             "end": ([math.degrees(each.end) for each in self.phases], "deg"),
             "motion": ([each.motion for each in self.phases], "1"),

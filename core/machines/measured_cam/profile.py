@@ -156,7 +156,11 @@ class MeasuredCam:
         y1 = 0.5 * q1 / y
         y2 = (0.5 * q2 - y1 * y1) / y
         u = self.direction
-        return (y, y1, y2), [u * (y - 1j * self.offset), u * y1, u * y2], np.full_like(y, u, dtype=np.complex128)
+        return (
+            (y, y1, y2),
+            [np.asarray(u * each) for each in (y - 1j * self.offset, y1, y2)],
+            np.full_like(y, u, dtype=np.complex128),
+        )
 
     def _on_rocker(
         self, pivot: complex, q: Reals, q1: Reals, q2: Reals
@@ -236,8 +240,9 @@ class MeasuredCam:
 def _turned(place: Points, first: Points, second: Points) -> tuple[Reals, Reals]:
     """First two derivatives of the direction of a point."""
     square = np.abs(place) ** 2
-    rate = (np.conj(place) * first).imag / square
-    return rate, (np.conj(place) * second).imag / square - 2.0 * rate * (np.conj(place) * first).real / square
+    rate = np.asarray((np.conj(place) * first).imag / square)
+    bend = (np.conj(place) * second).imag / square - 2.0 * rate * (np.conj(place) * first).real / square
+    return rate, np.asarray(bend)
 
 
 def places(points: Sequence[Sequence[float]]) -> tuple[Reals, Reals]:
