@@ -207,7 +207,7 @@ class MeasuredCamDesign(Design):
 
         from gearlink.core.machines.measured_cam.phases import ROWS, phases_of
 
-        value = self.cam.motion(np.arange(ROWS) * (_TURN / ROWS))[0]
+        value = self.cam.motion(np.linspace(0.0, _TURN, ROWS, endpoint=False))[0]
         tolerance = self.spec.dwell_tolerance
         return phases_of(value, math.radians(tolerance) if self._oscillates else tolerance)
 

@@ -207,14 +207,14 @@ class MeasuredCam:
         """
         grid, angle = self._grid
         turned = angle[0] + np.mod(phi - angle[0], TURN)
-        t = np.interp(turned, angle, grid)
+        t = np.asarray(np.interp(turned, angle, grid), dtype=np.float64)
         for _ in range(_STEPS):
             found = self.follower(t)
             off = found.cam_angle[0] - turned
             off = off - TURN * np.round(off / TURN)
             t = t - off / found.cam_angle[1]
             if np.max(np.abs(off), initial=0.0) <= 1e-13:
-                return t
+                return np.asarray(t)
         return t
 
     def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:
