@@ -21,6 +21,7 @@ REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {
     "kg",
     "kg m^2",
+    "kg",
     "kg/mm",
     "N/(mm um)",
     "deg C",

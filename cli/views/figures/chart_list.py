@@ -133,7 +133,7 @@ def _of_law(name: str, title: str, words: str, symbol: str, quantity: str) -> De
     return DesignChart(
         name,
         title,
-        "wide-swing dissertation, figure 6",
+        "wide-swing dissertation, chapter 2, (8), (10), (9)",
         quantity,
         _SWING,
         _axis(quantity, words, symbol),

@@ -248,6 +248,8 @@ def _device(cycle: Cycle) -> list[Part]:
 def _device_pins(cycle: Cycle) -> tuple[Points, Points]:
     """The pins of the device: on the frame, on the rocker."""
     unloader = cycle.design.spec.unloader
+    if unloader.type == "gravity":  # from the rocker's axis to the mass, which hangs
+        return track(0.0, cycle.fraction), -1j * unloader.distance * np.exp(1j * cycle.swing)
     base = track(1j * unloader.arm * unloader.pivot_ratio, cycle.fraction)
     return base, 1j * unloader.arm * np.exp(1j * cycle.swing)
 

@@ -84,9 +84,11 @@ def body_clearance(design: WideSwingDesign) -> Iterator[Check]:
     """GL302 of what the lengths alone place."""
     spec, section = design.spec, design.section
     own, cam = rocker_axis(section), cam_axis(section)
-    least = device_room(spec.unloader.pivot_ratio, design.motion.swing) * spec.unloader.arm
-    advice = f"set unloader.arm to at least {safely_above(own.radius * spec.unloader.arm / least)} mm" if least else ""
-    yield from beside("the device", own, least, advice)
+    unloader = spec.unloader
+    if unloader.type != "gravity":
+        least = device_room(unloader.pivot_ratio, design.motion.swing) * unloader.arm
+        advice = f"set unloader.arm to at least {safely_above(own.radius * unloader.arm / least)} mm" if least else ""
+        yield from beside("the device", own, least, advice)
     if spec.slider is not None:
         advice = "turn slider.middle_angle"
         room = rod_room(design.motion.slider.drive, design.motion.swing, 0j)
@@ -140,8 +142,9 @@ def placed_clearance(loads: WideSwingLoads) -> Iterator[Check]:
     cam, swing = cam_axis(design.section), design.motion.swing
     reach = design.section.center_distance
     toward = 0.0 if design.spec.layout == "twin-cam" else math.pi  # direction from D to O
-    if section.device_direction is not None:
-        aside, unloader = toward - math.radians(section.device_direction), design.spec.unloader
+    unloader = design.spec.unloader
+    if section.device_direction is not None and unloader.type != "gravity":
+        aside = toward - math.radians(section.device_direction)
         advice = _KEEPS_CLEAR.format("device")
         place = cmath.rect(reach / unloader.arm, aside)
         room = unloader.arm * _device_from(unloader.pivot_ratio, swing, place)

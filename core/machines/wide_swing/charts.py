@@ -22,7 +22,7 @@ def peaks(
 
     Parameters
         name : which one
-        swing : array [rad] - above 0, at most 300 deg
+        swing : array [rad] - above 0, at most 340 deg
         pivot_ratio : float - lambda, above 1
     Returns
         peak : array [1] - not a number where there is no law
@@ -33,7 +33,7 @@ def peaks(
         [4.191240425]
 
     Source
-        wide-swing dissertation, figure 6
+        wide-swing dissertation, chapter 2, (8), (10), (9)
     """
 
     def value(gamma: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from gearlink.core.base.report import NO_NUMBER, Check, Shown, Status, safely_ab
 from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import codes, cycle_checks, remedies
 from gearlink.core.machines.wide_swing.motion import MOST_STRETCH
+from gearlink.core.machines.wide_swing.sizing import ISENTROPIC
 from gearlink.core.parts.cams import codes as cams
 from gearlink.core.parts.linkages import codes as linkages
 from gearlink.core.parts.linkages.checks import transmission_check
@@ -25,12 +27,18 @@ _ROUNDING = 1e-9
 _UNGUIDED = 0.1
 """Half-width of the contact change, as a share of the stroke, that no limit allows without a word: twice the usual."""
 
+MOST_RISE = 0.05
+"""Rise of a cylinder's force over its stroke up to which the law of constant force is taken."""
+
 # Device and stroke
 
 
 def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
     """GL504: the device can follow the whole swing."""
-    least, ratio = design.motion.min_pivot_ratio, design.spec.unloader.pivot_ratio
+    unloader = design.spec.unloader
+    if unloader.type == "gravity":
+        return
+    least, ratio = design.motion.min_pivot_ratio, unloader.pivot_ratio
     if least is None:
         yield from _room_for_steel(design, "give unloader.closed_length or stretch_capacity of the spring that fits")
         return
@@ -48,22 +56,71 @@ def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
 def _room_for_steel(design: WideSwingDesign, otherwise: str) -> Iterator[Check]:
     """GL504 of a spring of which the file gives no length, or a stretch that no steel bears: whether any spring of
     steel finds room between the pins."""
-    ratio, least = design.spec.unloader.pivot_ratio, design.motion.least_ratio_of_steel
+    ratio, least = design.motion.device.pivot_ratio, design.motion.least_ratio_of_steel
     if ratio < least:
         what, aside = "pivot ratio for a steel spring", f"stretch of {MOST_STRETCH:g} times its closed length"
         fix = f"increase unloader.pivot_ratio to at least {safely_above(least)}, or {otherwise}"
         yield codes.TURNABILITY.check("warn", what, ratio, least, aside=aside, fix=fix)
 
 
+_USUAL_SWING = 300.0
+_STEEPEST = 60.0
+
+
+def swing_range(design: WideSwingDesign) -> Iterator[Check]:
+    """GL543: a swing beyond those of the source, near the far dead centre of the device."""
+    swing, law = design.spec.swing, design.motion.law
+    if swing <= _USUAL_SWING * (1.0 + _ROUNDING):
+        return
+    half, g = 0.5 * design.motion.swing, law.geometry
+    lever = math.sin(half) if design.spec.unloader.type == "gravity" else g.ratio * math.sin(half) / g.longest
+    steps = [replace(law, swing=scale * law.swing).energy_parameter for scale in (0.9999, 1.0001)]
+    growth = math.log(steps[1] / steps[0]) / (2e-4 * swing)
+    yield codes.SWING_RANGE.check(
+        "warn",
+        "swing",
+        swing,
+        _USUAL_SWING,
+        "deg",
+        aside=f"lever of the device at the ends {short(lever)} arms, force +{short(100.0 * growth)} % per deg of swing",
+        fix=f"reduce swing to {_USUAL_SWING:g} deg, or add a gear stage",
+        note=f"an external profile has pressure angles above {_STEEPEST:g} deg",
+    )
+
+
+def device_pressure(design: WideSwingDesign) -> Iterator[Check]:
+    """GL540: the pressure in a closed reservoir rises little over the stroke."""
+    unloader = design.spec.unloader
+    if unloader.type != "pneumatic" or unloader.reservoir is None:
+        return
+    rise = design.unloading.size.force_variation
+    litres = unloader.reservoir
+    fix = ""
+    if rise > MOST_RISE:
+        swept, most = (1.0 - (1.0 + each) ** (-1.0 / ISENTROPIC) for each in (rise, MOST_RISE))
+        fix = f"set unloader.reservoir to at least {safely_above(litres * swept / most)}"
+    yield codes.DEVICE_PRESSURE.check(
+        "warn" if rise > MOST_RISE else "pass",
+        "rise of the cylinder's force over its stroke",
+        rise,
+        MOST_RISE,
+        aside=f"{litres:g} l of air; the law assumes a constant force",
+        fix=fix,
+    )
+
+
 def force_closure(design: WideSwingDesign) -> Iterator[Check]:
     """GL509: a spring that is slack at mid-swing does not hold the roller there."""
     unloader = design.spec.unloader
-    if unloader.type == "pneumatic":
+    if unloader.type != "spring":
         return
-    stretch = unloader.stretch_ratio
+    stretch = design.motion.stretch_ratio
     status: Status = "warn" if stretch == 0.0 else "pass"
-    what, fix = "mounting stretch of the spring over its stroke", "set unloader.stretch_ratio above 0, such as 0.1"
-    aside = "the spring is slack at mid-swing" if status == "warn" else ""
+    what, aside, fix = "mounting stretch of the spring over its stroke", "", ""
+    if status == "warn":
+        aside = "the spring is slack at mid-swing"
+        given = unloader.free_length is not None
+        fix = "take a shorter spring" if given else "set unloader.stretch_ratio above 0, such as 0.1"
     yield codes.FORCE_CLOSURE.check(status, what, stretch, 0.0, aside=aside, fix=fix)
 
 
@@ -116,14 +173,13 @@ def transmission_angle(design: WideSwingDesign) -> Iterator[Check]:
 
 def force_reserve(design: WideSwingDesign) -> Check:
     """GL511: the device presses the roller to its cam at the design speed, with a tenth of speed to spare."""
-    speed, lift_off, unloader = design.spec.speed, design.unloading.lift_off_speed, design.spec.unloader
+    speed, lift_off = design.spec.speed, design.unloading.lift_off_speed
     status: Status = "pass"
     if lift_off < 1.1 * speed * (1.0 - 1e-9):
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
     back, need, fix = design.unloading.way_back, design.unloading.need, ""
     if status != "pass":
-        reserve = safely_above(remedies.reserve(unloader.residual, 0.1, need))
-        fix = f"raise unloader.reserve to {reserve} (10 % speed margin)"
+        fix = _more_force(design)
     governs = back is not None and back.value > 1.0
     at = f"k = {short(back.place)} of the return stroke" if back is not None and governs else ""
     return codes.FORCE_RESERVE.check(
@@ -137,6 +193,20 @@ def force_reserve(design: WideSwingDesign) -> Check:
         at=at,
         fix=fix,
     )
+
+
+def _more_force(design: WideSwingDesign) -> str:
+    """The reserve that holds the roller with a tenth of speed as margin, or the strength of a given device."""
+    unloader, need, size = design.spec.unloader, design.unloading.need, design.unloading.size
+    safe = remedies.reserve(unloader.residual, 0.1, need)
+    key = {"pneumatic": "force", "spring": "rate", "gravity": "mass"}[unloader.type]
+    if getattr(unloader, key) is None:
+        return f"raise unloader.reserve to {safely_above(safe)} (10 % speed margin)"
+    if unloader.type == "gravity":
+        if safe >= design.motion.most_pendulum_reserve:
+            return "move the mass closer to the axis, or lower the speed"
+        return f"raise unloader.mass to {safely_above(design.motion.pendulum_mass(1.0 + safe))} (10 % speed margin)"
+    return f"raise unloader.{key} to {safely_above(size.balancing * (1.0 + safe))} (10 % speed margin)"
 
 
 def side_change(design: WideSwingDesign) -> Iterator[Check]:

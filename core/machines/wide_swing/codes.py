@@ -134,3 +134,30 @@ SIDE_CHANGE = Rule(
     ("slider.middle_angle", "slider"),
     side="<=",
 )
+DEVICE_PRESSURE = Rule(
+    "GL540",
+    "pressure of the device not constant",
+    "The volume of air is so small that the cylinder's force rises by more than 5 % from mid-swing to the ends of the "
+    "swing (a warning).",
+    "The law of motion assumes constant force; the rocker would be faster at mid-swing and pressed harder at the ends.",
+    "Make unloader.reservoir the value of the message or more, or take a smaller bore with a higher pressure.",
+    "(V/(V - A S))^1.4 - 1 <= 0.05, A = pi (d^2 - d_rod^2)/4, S device_stroke; isentropic",
+    "own derivation",
+    ("device-pressure",),
+    ("unloader.reservoir", "unloader"),
+    side="<=",
+)
+SWING_RANGE = Rule(
+    "GL543",
+    "swing beyond those of the source",
+    "The swing is above 300 deg (a warning; above 340 deg it is refused).",
+    "The device is near its far dead centre, where a small error of the swing changes its force by much, and an "
+    "external profile pushes its roller at more than 60 deg at the ends.",
+    "Reduce swing to 300 deg or less, or let a gear stage make the rest; an internal profile, or a law without a cam, "
+    "is what such swings are for.",
+    "lever at the ends lambda sin(gamma/2)/L; d ln N/d gamma; tan(alpha) = (r/a - cos(gamma/2))/sin(gamma/2)",
+    "wide-swing dissertation, goal (up to 300 deg) against conclusion 3 (over 300 deg); own derivation",
+    ("swing-range",),
+    ("swing",),
+    side="<=",
+)

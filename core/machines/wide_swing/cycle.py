@@ -74,7 +74,7 @@ class WholeCycle:
         if working == back:
             return None
         ratio = max(working, back) / min(working, back)
-        return (1.0 + self.design.spec.unloader.reserve) * ratio**2 - 1.0
+        return (1.0 + self.design.unloading.size.reserve) * ratio**2 - 1.0
 
     @property
     def plane_room(self) -> float | None:

@@ -16,6 +16,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.wide_swing import bodies, checks, cycle_checks, remedies
 from gearlink.core.machines.wide_swing.motion import Motion
+from gearlink.core.machines.wide_swing.sizing import QUANTITIES, DeviceSize, device_table, names
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cams.outline import AnyCam
     from gearlink.core.machines.wide_swing.cams.slider_cam import SliderCam
     from gearlink.core.machines.wide_swing.cycle import WholeCycle
-    from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw
+    from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw, MarchedLaw
     from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
@@ -89,7 +90,19 @@ MOTION = {name: f"extremes.{name}" for name in extreme_names("rocker_speed", "ro
 PLACES = {"max_pressure_angle_at": "pressure_place", "min_curvature_radius_at": "curvature_place"}
 CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
 PATHS = (
-    MOTION | PLACES | LAW | TORQUE | SHAFT | SLIDER | DRIVE | PROFILE | OF_SLIDER_CAM | CURVATURE | CYCLE | ITERATION
+    QUANTITIES
+    | MOTION
+    | PLACES
+    | LAW
+    | TORQUE
+    | SHAFT
+    | SLIDER
+    | DRIVE
+    | PROFILE
+    | OF_SLIDER_CAM
+    | CURVATURE
+    | CYCLE
+    | ITERATION
 )
 NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
 NEED_ZONE = (*PLACES, "transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
@@ -209,7 +222,7 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
     from gearlink.core.machines.wide_swing.law.balancing import drive_balancing_ratio, speed_sweep
 
     share, spec, motion = _speed_shares(), design.spec, design.motion
-    inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, spec.unloader.reserve)
+    inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, design.unloading.size.reserve)
     without, left = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = without / left
@@ -225,9 +238,14 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
 
 
 def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
-    """Steps of the iteration against its error (run time against error of the source's own method)."""
-    from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+    """Steps of the source's iteration against its error; with a slider its passes, whose two marches add up to 1."""
+    from gearlink.core.machines.wide_swing.law.iteration import MarchedLaw, legacy_law
 
+    marched = design.unloading.iteration
+    if isinstance(marched, MarchedLaw):
+        heads = ("pass", "energy_parameter", "mu", "displacement_forward", "displacement_backward")
+        passes = zip(*marched.rows, strict=True)
+        return Table.of("iteration", {head: (list(each), "1") for head, each in zip(heads, passes, strict=True)})
     motion, steps = design.motion, (5, 10, 20, 50, 100, 200)
     laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]
     exact = motion.plain_law.energy_parameter
@@ -291,42 +309,40 @@ class Unloading:
 
     # Size
 
-    @property
-    def _sizing(self) -> tuple[float, float, float, float, float]:
-        motion = self.motion
-        parameter = motion.law.energy_parameter
-        return parameter, motion.inertia, motion.swing, self.spec.unloader.arm, motion.stroke_time
+    @cached_property
+    def size(self) -> DeviceSize:
+        """Lengths, force and energy of the device."""
+        return DeviceSize(self.spec, self.motion)
 
     @property
     def _whole(self) -> float:
         """1 + rho, force of the device over the one that balances the inertia at the design speed."""
-        return 1.0 + self.spec.unloader.reserve
+        return 1.0 + self.size.reserve
 
-    @cached_property
+    @property
     def force(self) -> float | None:
-        """Force of a pneumatic device, with its reserve [N]."""
-        from gearlink.core.machines.wide_swing.law.device import force
+        """Force of a pneumatic device, as given or with its reserve [N]."""
+        return self.size.strength if self.spec.unloader.type == "pneumatic" else None
 
-        return self._whole * force(*self._sizing) if self.spec.unloader.type == "pneumatic" else None
-
-    @cached_property
+    @property
     def spring_rate(self) -> float | None:
-        """Rate of a spring, with its reserve [N/mm]."""
-        from gearlink.core.machines.wide_swing.law.device import spring_rate
-
-        return self._whole * spring_rate(*self._sizing) if self.spec.unloader.type == "spring" else None
+        """Rate of a spring, as given or with its reserve [N/mm]."""
+        return self.size.strength if self.spec.unloader.type == "spring" else None
 
     @cached_property
-    def iteration(self) -> LegacyLaw:
-        """The source's own iteration, for comparison."""
-        from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+    def iteration(self) -> LegacyLaw | MarchedLaw:
+        """The source's own iteration, for comparison; with a slider over the whole stroke."""
+        from gearlink.core.machines.wide_swing.law.iteration import legacy_law, slider_law
 
-        return legacy_law(self.motion.device, self.motion.swing, steps=self.spec.iteration_steps)
+        motion, steps = self.motion, self.spec.iteration_steps
+        if self.spec.slider is not None:
+            return slider_law(motion.device, motion.swing, motion.slider.inertia_at, steps=steps)
+        return legacy_law(motion.device, motion.swing, steps=steps)
 
     @property
     def iteration_error(self) -> float:
         """Relative error of the iteration's N."""
-        return float(self.iteration.energy_parameter) / self.motion.plain_law.energy_parameter - 1.0
+        return float(self.iteration.energy_parameter) / self.motion.law.energy_parameter - 1.0
 
     # Torque and drive
 
@@ -343,13 +359,13 @@ class Unloading:
         from gearlink.core.machines.wide_swing.law.balancing import drive_torque_peak
 
         motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
-        return drive_torque_peak(self.spec.inertia, law, motion.stroke_time, motion.device_angle)
+        return drive_torque_peak(motion.inertia, law, motion.stroke_time, motion.device_angle)
 
     @property
     def drive_balancing_ratio(self) -> float | None:
         """K_y2 at the design speed; None where no torque is left."""
-        share, unloader = self._shaft.linkage_share, self.spec.unloader
-        left = unloader.reserve + unloader.residual + share
+        share = self._shaft.linkage_share
+        left = abs(self.size.reserve) + self.spec.unloader.residual + share
         return (1.0 + share) / left if left > 0.0 else None
 
     @cached_property
@@ -374,7 +390,7 @@ class Unloading:
         """Inertia of a rocker alone that would need the same device [kg m^2]."""
         motion = self.motion
         if self.spec.slider is None:
-            return self.spec.inertia
+            return motion.inertia
         return motion.reference_inertia * motion.slider.energy_parameter / motion.plain_law.energy_parameter
 
     @property
@@ -399,8 +415,9 @@ class Unloading:
 
     @property
     def lift_off_speed(self) -> float:
-        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b) [rev/min]."""
-        return self.spec.speed * math.sqrt((self._whole - self.spec.unloader.residual) / self.need)
+        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b); 0 where f is more [rev/min]."""
+        whole = self._whole - self.spec.unloader.residual
+        return self.spec.speed * math.sqrt(whole / self.need) if whole > 0.0 else 0.0
 
     def contact_force(
         self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0, need: float | Reals = 1.0
@@ -431,7 +448,7 @@ class Unloading:
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
         torque = motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
-        excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0)
+        excess = self.size.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0)
         force: Reals = scale * excess * torque / np.cos(cam.pressure_angle(k))
         return force
 
@@ -451,7 +468,15 @@ class Unloading:
 
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
-_LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing", "transmission-angle")
+_LAW_CHECKS = (
+    "unloader-turnability",
+    "swing-range",
+    "device-pressure",
+    "force-closure",
+    "cycle-angles",
+    "balancing",
+    "transmission-angle",
+)
 _CYCLE_CHECKS = ("acceleration-step", "closed-contour", "profile-planes")
 _CAM_CHECKS = (
     "profile-exists",
@@ -510,7 +535,7 @@ class WideSwingDesign(Design):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline((*LAW, *MOTION), _LAW_CHECKS, ("law", "balance")),
     }
-    extra_tables = ("iteration", "slider", "contact", "contour", "joints")
+    extra_tables = ("iteration", "slider", "contact", "contour", "joints", "device")
 
     # Parts
 
@@ -745,9 +770,10 @@ class WideSwingDesign(Design):
 
     table_law, table_slider, table_balance = law_table, slider_table, balance_table
     table_iteration, table_contact = iteration_table, contact_table
-    table_contour, table_joints = contour_table, joints_table
+    table_contour, table_joints, table_device = contour_table, joints_table, device_table
     table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
+    check_swing_range, check_device_pressure = checks.swing_range, checks.device_pressure
     check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
     check_cycle_angles, check_balancing = checks.cycle_angles, checks.balancing
     check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
@@ -787,7 +813,7 @@ class WideSwingDesign(Design):
         if command == "cam":
             sectors = tuple(CYCLE) if spec.cycle is not None else ()
             return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
-        quantities = [*base.quantities, *(SLIDER if spec.slider is not None else TORQUE)]
+        quantities = [*base.quantities, *names(spec), *(SLIDER if spec.slider is not None else TORQUE)]
         checks, tables = [*base.checks], [*base.tables]
         if spec.shaft is not None:
             quantities += SHAFT

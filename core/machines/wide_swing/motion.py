@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
-from gearlink.core.base.report import safely_above
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.wide_swing.remedies import drive_repair, slider_repair, with_number
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.law.device import Device
     from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
     from gearlink.core.machines.wide_swing.slider import SliderLaw
-    from gearlink.core.machines.wide_swing.spec import SwingSlider, WideSwingSpec
+    from gearlink.core.machines.wide_swing.spec import GravityDevice, SwingSlider, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
 
 
@@ -39,9 +39,11 @@ class Motion:
     @cached_property
     def device(self) -> Device:
         """The unloading device, without dimension."""
-        from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
+        from gearlink.core.machines.wide_swing.law.device import Gravity, Pneumatic, Spring
 
         unloader = self.spec.unloader
+        if unloader.type == "gravity":
+            return Gravity()
         with at_key("unloader.pivot_ratio"):
             if unloader.pivot_ratio <= 1.0:
                 raise NoSolution(
@@ -53,7 +55,21 @@ class Motion:
                 )
             if unloader.type == "pneumatic":
                 return Pneumatic(unloader.pivot_ratio)
-            return Spring(unloader.pivot_ratio, unloader.stretch_ratio)
+            return Spring(unloader.pivot_ratio, self.stretch_ratio)
+
+    @cached_property
+    def stretch_ratio(self) -> float:
+        """eps of a spring, mounting stretch over stroke: as given, or from its free length."""
+        from gearlink.core.machines.wide_swing.law.device import DeviceGeometry, Pneumatic
+        from gearlink.core.machines.wide_swing.sizing import free_stretch
+
+        unloader = self.spec.unloader
+        assert unloader.type == "spring", "a cylinder has no stretch"
+        if unloader.free_length is None:
+            assert unloader.stretch_ratio is not None, "the file has one of them"
+            return unloader.stretch_ratio
+        lengths = DeviceGeometry(Pneumatic(unloader.pivot_ratio), self.swing)
+        return free_stretch(unloader.free_length, unloader.arm, lengths.shortest, lengths.stroke)
 
     @property
     def usual_pivot_ratio(self) -> float:
@@ -68,10 +84,12 @@ class Motion:
         from gearlink.core.machines.wide_swing.law import device
 
         unloader = self.spec.unloader
+        if unloader.type == "gravity":
+            return None
         with at_key("unloader"):
             if unloader.type == "pneumatic":
                 return device.least_pivot_ratio_pneumatic(self.swing, unloader.extension_ratio)
-            fittings, stretch, arm = unloader.end_fittings, unloader.stretch_ratio, unloader.arm
+            fittings, stretch, arm = unloader.end_fittings, self.stretch_ratio, unloader.arm
             if unloader.closed_length is not None:
                 return device.least_pivot_ratio_spring(self.swing, stretch, arm, unloader.closed_length, fittings)
             if unloader.stretch_capacity is not None:
@@ -88,7 +106,7 @@ class Motion:
         assert unloader.type == "spring", "a cylinder has a length"
         fittings = unloader.end_fittings / unloader.arm
         with at_key("unloader"):
-            return least_pivot_ratio_spring_material(self.swing, unloader.stretch_ratio, MOST_STRETCH, fittings)
+            return least_pivot_ratio_spring_material(self.swing, self.stretch_ratio, MOST_STRETCH, fittings)
 
     # Law
 
@@ -154,10 +172,69 @@ class Motion:
         """J_ref of rocker and slider, what stands for J in the energy parameter [kg m^2]."""
         return self._inertia_with(self.slider.stroke)[0]
 
+    def kinetic(self, k: Reals) -> Reals:
+        """Energy of motion over J (gamma/T)^2/2: b^2, with a slider j b^2.
+
+        Parameters
+            k : (N,) array - fractions of the stroke
+        """
+        if self.spec.slider is None:
+            return self.plain_law.invariants(k, 1)[1] ** 2
+        return self.slider.kinetic(k)
+
     @property
     def inertia(self) -> float:
-        """J, or J_ref where there is a slider [kg m^2]."""
-        return self.spec.inertia if self.spec.slider is None else self.reference_inertia
+        """J, or J_ref where there is a slider, that of a pendulum counted [kg m^2]."""
+        if self.spec.slider is not None:
+            return self.reference_inertia
+        unloader = self.spec.unloader
+        if unloader.type != "gravity":
+            return self.spec.inertia
+        return self.spec.inertia + self.hanging_mass * (1e-3 * unloader.distance) ** 2
+
+    # Pendulum
+
+    @property
+    def _pendulum(self) -> GravityDevice:
+        unloader = self.spec.unloader
+        assert unloader.type == "gravity", "asked for of a pendulum alone"
+        return unloader
+
+    @property
+    def pendulum_rate(self) -> float:
+        """kappa = N gamma^2/(2 T^2), static moment over inertia that balances at the design speed [1/s^2]."""
+        return 0.5 * self.plain_law.energy_parameter * (self.swing / self.stroke_time) ** 2
+
+    @cached_property
+    def hanging_mass(self) -> float:
+        """Mass of the pendulum, as given or with its reserve [kg]."""
+        unloader = self._pendulum
+        return self.pendulum_mass(1.0 + unloader.reserve) if unloader.mass is None else unloader.mass
+
+    def pendulum_mass(self, whole: float) -> float:
+        """m = w kappa J_0/(g s - w kappa s^2), w the static moment over the one that balances [kg].
+
+        Raises
+            NoSolution - where a pendulum so long is too slow
+        """
+        unloader, need = self._pendulum, whole * self.pendulum_rate
+        s = 1e-3 * unloader.distance
+        if need * s >= unloader.gravity:
+            most = safely_below(1e3 * unloader.gravity / need)
+            message = f"a pendulum this long is too slow for {self.spec.speed:g} rev/min: below {most} mm"
+            raise NoSolution(message, key="unloader.distance")
+        return need * self.spec.inertia / (s * (unloader.gravity - need * s))
+
+    @property
+    def most_pendulum_reserve(self) -> float:
+        """g/(kappa s) - 1, which a pendulum of this length does not reach with any mass."""
+        return self._pendulum.gravity / (self.pendulum_rate * 1e-3 * self._pendulum.distance) - 1.0
+
+    def pendulum_reserve(self, mass: float) -> float:
+        """m g s/(kappa (J_0 + m s^2)) - 1."""
+        unloader = self._pendulum
+        s = 1e-3 * unloader.distance
+        return mass * unloader.gravity * s / (self.pendulum_rate * (self.spec.inertia + mass * s * s)) - 1.0
 
     def rocker_alone(self, name: str) -> ElasticLaw:
         """The law for a quantity that a slider does not allow."""

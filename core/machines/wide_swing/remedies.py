@@ -104,9 +104,12 @@ def _longer_arm(design: WideSwingDesign) -> Iterator[Change]:
     """The arm that takes the device away from the rocker's axis."""
     from gearlink.core.machines.wide_swing.bodies import device_room
 
-    room = device_room(design.spec.unloader.pivot_ratio, design.motion.swing)
+    unloader = design.spec.unloader
+    if unloader.type == "gravity":
+        return
+    room = device_room(unloader.pivot_ratio, design.motion.swing)
     least = design.section.roller_radius / room
-    if design.spec.unloader.arm < least:
+    if unloader.arm < least:
         yield "unloader.arm", at_least(least)
 
 
@@ -320,7 +323,7 @@ def _rod(design: WideSwingDesign) -> Iterator[Change]:
 def _refused(design: WideSwingDesign) -> Iterator[Change]:
     """What makes device, drive or slider possible."""
     spec, motion = design.spec, design.motion
-    if spec.unloader.pivot_ratio <= 1.0:
+    if spec.unloader.type != "gravity" and spec.unloader.pivot_ratio <= 1.0:
         yield "unloader.pivot_ratio", at_least(motion.usual_pivot_ratio, _RATIO)
     if spec.drive is not None:
         yield drive_repair(spec.drive)

@@ -22,6 +22,7 @@ from gearlink.core.numerics.elliptic import complete_integral, incomplete_integr
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.numerics.rising import RisingTable
+from gearlink.core.parts.linkages.slider_crank.position import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank.sweep import slider
 
 _NEWTON_STEPS = 60
@@ -130,7 +131,7 @@ class SliderLaw:
         drive : SliderDrive
         rocker_share : float - j0 = J0/J_ref in [0, 1]; 0 is the pure slider mass of the dissertation
     Raises
-        NoSolution - for a swing outside (0, 300 deg], j0 outside [0, 1], a slider without stroke, and, where
+        NoSolution - for a swing outside (0, 340 deg], j0 outside [0, 1], a slider without stroke, and, where
             j0 = 0, a dead centre of the slider in the swing, at which the speed would have no bound
     Notes
         The integral runs over the whole stroke; b(1/2) is neither the velocity at mid-swing nor the peak.
@@ -185,7 +186,7 @@ class SliderLaw:
         ends = self.drive.depth(np.array([-0.5, 0.5]) * self.swing)[0]
         return float(ends[1] - ends[0])
 
-    @property
+    @cached_property
     def stroke(self) -> float:
         """H, distance of the slider's positions at the ends of the swing [mm]."""
         return abs(self._stroke)
@@ -194,6 +195,20 @@ class SliderLaw:
         """b_kp and its derivative with respect to a."""
         _, first, second = self.drive.depth(phi, 2)
         return self.swing / self.stroke * first, self.swing**2 / self.stroke * second
+
+    def inertia_at(self, share: float) -> float:
+        """j where the rocker has passed a share of the swing, in plain scalars.
+
+        Example
+            >>> from gearlink.core.machines.wide_swing.law.elastic_law import Pneumatic
+            >>> law = SliderLaw(Pneumatic(2.5), 2.0, SliderDrive(1.0, 3.0, math.pi / 2), 1.0)
+            >>> law.inertia_at(0.2)
+            1.0
+        """
+        psi = (share - 0.5) * self.swing + self.drive.middle_angle - 0.5 * math.pi
+        _, first = slider_place(psi, self.drive.crank, self.drive.rod, self.drive.offset, 1)
+        rate = self.swing / self.stroke * first
+        return self.rocker_share + (1.0 - self.rocker_share) * rate * rate
 
     def _inertia(self, rate: Reals) -> Reals:
         result: Reals = self.rocker_share + (1.0 - self.rocker_share) * rate**2
@@ -290,6 +305,12 @@ class SliderLaw:
         torque: Reals = self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * slope * b * b
         return torque
 
+    def kinetic(self, k: Reals) -> Reals:
+        """Energy of motion over J_ref (gamma/T)^2/2: j b^2."""
+        sine, cosine = self._pendulum(k)
+        rate = self._slider_rate(self._angle(sine, cosine))[0]
+        return np.asarray(self._inertia(rate) * self._rates(sine, cosine)[0] ** 2)
+
     def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
         """Displacement, velocity and acceleration invariants of the slider.
 
@@ -314,14 +335,17 @@ class SliderLaw:
         rate, change = self._slider_rate(self._angle(sine, cosine))
         inertia = self._inertia(rate)
         inertia_change = 2.0 * (1.0 - self.rocker_share) * rate * change
-        energy = (g.reach * g.half_sine * cosine) ** 2 * g.mean_force(sine) / (g.longest + g.length(sine))
+        energy = g.energy(sine, cosine)
         lever = 2.0 * g.half_sine * sine * np.hypot(g.half_cosine, g.half_sine * cosine) / g.length(sine)
         push = g.ratio * self.swing * g.force(sine) * lever
         b = np.sqrt(parameter * energy / inertia)
         return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
 
+    def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
+        """sin u and cos u of every k, sin(phi/2) = -sin(gamma/4) sin u."""
+        return self._pendulum(k)
+
     def _pendulum(self, k: Reals) -> tuple[Reals, Reals]:
-        """sin u and cos u of every k."""
         return kept_for(self._kept, k, self._turned)
 
     @cached_property

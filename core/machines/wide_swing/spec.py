@@ -30,6 +30,8 @@ def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **w
 
 
 Phase: TypeAlias = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
+Force: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
+Mass: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Residual: TypeAlias = Annotated[
     float,
     Field(
@@ -58,8 +60,38 @@ class Pneumatic(Spec):
     extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
         13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
     )
+    force: Force | None = Field(None, description="force of a given cylinder, in place of reserve")
+    pressure: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
+        None, description="gauge pressure, 0.6 for 6 bar; sizes the bore"
+    )
+    bore: Length | None = Field(None, description="bore of a given cylinder, in place of pressure")
+    rod_diameter: Distance = Field(0.0, description="of the rod; the cylinder pulls, with the side of its rod")
+    efficiency: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        1.0, description="share of the cylinder's force that reaches the pin"
+    )
+    reservoir: Annotated[float, Field(gt=0, json_schema_extra={"unit": "l"})] | None = Field(
+        None, description="volume of the air, that of the chamber at mid-swing included"
+    )
     residual: Residual = 0.0
     reserve: Reserve = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_rate(cls, data: Any) -> Any:
+        if isinstance(data, dict) and "rate" in data:
+            _refuse("rate", "a cylinder has no rate: give its force, or type: spring")
+        return data
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Pneumatic:
+        _refuse_reserve(self, "force")
+        if self.bore is not None and self.pressure is not None:
+            _refuse("bore", "bore and pressure exclude each other: give one, the other is a result")
+        if self.bore is not None and self.bore <= self.rod_diameter:
+            _refuse("bore", "the bore must be larger than rod_diameter", "GL108")
+        if self.reservoir is not None and self.bore is None and self.pressure is None:
+            _refuse("reservoir", "a reservoir needs the size of the cylinder: give pressure or bore")
+        return self
 
 
 class SpringDevice(Spec):
@@ -68,7 +100,15 @@ class SpringDevice(Spec):
     type: Literal["spring"] = Field(description="kind of device")
     pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
-    stretch_ratio: Share = Field(description="mounting stretch at mid-swing over the stroke")
+    rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+        None, description="rate of a given spring, in place of reserve"
+    )
+    free_length: Length | None = Field(
+        None, description="between the pins where the force is zero, in place of stretch_ratio"
+    )
+    stretch_ratio: Share | None = Field(
+        None, validate_default=True, description="mounting stretch at mid-swing over the stroke; or free_length"
+    )
     closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
     stretch_capacity: Ratio | None = Field(
         None, description="allowable stretch over closed length, in place of closed_length; steel 1 to 2"
@@ -77,11 +117,55 @@ class SpringDevice(Spec):
     residual: Residual = 0.0
     reserve: Reserve = 0.0
 
+    @model_validator(mode="before")
+    @classmethod
+    def _no_force(cls, data: Any) -> Any:
+        if isinstance(data, dict) and "force" in data:
+            _refuse("force", "a spring has no constant force: give its rate, or type: pneumatic")
+        return data
+
+    @field_validator("stretch_ratio")
+    @classmethod
+    def _stretched(cls, value: float | None, info: ValidationInfo) -> float | None:
+        free = info.data.get("free_length", ...)
+        if value is None and free is None:
+            words = "stretch_ratio: mounting stretch at mid-swing over the stroke; or free_length of a given spring"
+            _refuse("stretch_ratio", "the key 'stretch_ratio' is missing", "GL106", help=words)
+        return value
+
     @model_validator(mode="after")
     def _one_length(self) -> SpringDevice:
+        _refuse_reserve(self, "rate")
+        if self.free_length is not None and self.stretch_ratio is not None:
+            _refuse("free_length", "free_length and stretch_ratio exclude each other: give one")
         if self.closed_length is not None and self.stretch_capacity is not None:
             _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other: give one")
         return self
+
+
+class GravityDevice(Spec):
+    """A mass that hangs from the rocker axis and stands lowest at mid-swing."""
+
+    type: Literal["gravity"] = Field(description="kind of device")
+    distance: Length = Field(description="of the mass from the rocker axis")
+    mass: Mass | None = Field(None, description="of a given pendulum, in place of reserve; counted in its own inertia")
+    gravity: Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})] = Field(
+        9.80665, description="acceleration of gravity"
+    )
+    residual: Residual = 0.0
+    reserve: Reserve = 0.0
+
+    @model_validator(mode="after")
+    def _one_mass(self) -> GravityDevice:
+        _refuse_reserve(self, "mass")
+        return self
+
+
+def _refuse_reserve(device: Pneumatic | SpringDevice | GravityDevice, given: str) -> None:
+    if getattr(device, given) is not None and "reserve" in device.model_fields_set:
+        _refuse(
+            "reserve", "{given} and reserve exclude each other: the reserve of a given device is a result", given=given
+        )
 
 
 class SwingCam(Spec):
@@ -192,7 +276,7 @@ class WideSwingSpec(TolerancedSpec):
     )
     drive: SwingDrive | None = None
     cycle: SwingCycle | None = None
-    swing: Annotated[float, Field(gt=0, le=300, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
+    swing: Annotated[float, Field(gt=0, le=340, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
     cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, validate_default=True, description="cam angle of one stroke; left out where a cycle or a drive gives it"
     )
@@ -200,7 +284,7 @@ class WideSwingSpec(TolerancedSpec):
     inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
         description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
     )
-    unloader: Pneumatic | SpringDevice = Field(
+    unloader: Pneumatic | SpringDevice | GravityDevice = Field(
         discriminator="type",
         description="device that bears the inertia",
         json_schema_extra=also("balancing_device"),
@@ -240,6 +324,13 @@ class WideSwingSpec(TolerancedSpec):
             _refuse("cycle_angle", "cycle_angle and cycle exclude each other: give one")
         if self.drive is not None:
             self._agree_with_drive()
+        if self.unloader.type == "gravity":
+            for name in ("slider", "loads"):
+                if getattr(self, name) is not None:
+                    words = (
+                        "unloader.type: gravity is for a rocker alone, without forces at its joints: leave out {name}"
+                    )
+                    _refuse(name, words, name=name)
         if self.slider is not None:
             if self.cam is not None:
                 self._cam_with_slider(self.cam)

@@ -936,8 +936,8 @@ def _closed_rollers(design: LoadsDesign) -> Iterator[Remedy]:
         old = number_at(design.spec, key)
         if old is not None:
             yield from (((key, at_least(old * more, step)),) for more in (1.1, 1.25, 1.5, 2.0, 3.0, 5.0))
-    if hasattr(design.spec, "unloader"):
-        old = design.spec.unloader.reserve
+    old = number_at(design.spec, "unloader.reserve")
+    if old is not None:
         yield from ((("unloader.reserve", at_least(old + more, 0.01)),) for more in (0.1, 0.25, 0.5, 1.0, 2.0))
     yield from _slower(design)
 

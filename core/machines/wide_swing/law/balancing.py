@@ -72,8 +72,8 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
 
 def _left(speed_ratio: Reals, residual_fraction: float, reserve: float) -> Reals:
     """Torque that is left on the rocker axis, as a part of the inertia torque at n0."""
-    if min(residual_fraction, reserve) < 0.0 or bool(np.any(speed_ratio < 0.0)):
-        raise NoSolution("speeds, the residual fraction and the reserve must be 0 or more")
+    if residual_fraction < 0.0 or reserve <= -1.0 or bool(np.any(speed_ratio < 0.0)):
+        raise NoSolution("speeds and the residual fraction must be 0 or more, the reserve above -1")
     left: Reals = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0) - reserve) + residual_fraction
     return left
 

@@ -7,7 +7,7 @@ base pin at a_d from the pivot; pins and pivot are collinear at mid-swing, where
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Reals
 
-WIDEST_SWING = math.radians(300.0)
+WIDEST_SWING = math.radians(340.0)
 STANDARD_EXTENSION_RATIO = 13.0 / 9.0
 
 
@@ -53,7 +53,20 @@ class Spring:
             )
 
 
-Device = Pneumatic | Spring
+@dataclass(frozen=True, slots=True)
+class Gravity:
+    """A mass that hangs from the rocker axis, lowest at mid-swing: E = cos phi - cos(gamma/2), the pendulum.
+
+    The same energy as that of a spring without free length at any pivot ratio, which here is 2, over that ratio.
+
+    Source
+        own derivation; the dissertation's first publication is on the physical pendulum
+    """
+
+    pivot_ratio: float = field(default=2.0, init=False)
+
+
+Device = Pneumatic | Spring | Gravity
 
 
 def _require_pivot_ratio(ratio: float) -> None:
@@ -65,16 +78,16 @@ def _require_pivot_ratio(ratio: float) -> None:
 
 
 def require_swing(swing: float) -> None:
-    """Refuse a swing outside (0, 300 deg].
+    """Refuse a swing outside (0, 340 deg].
 
     Raises
         NoSolution - with the limit and the remedy
     Source
-        wide-swing dissertation, title of chapter 2 (swings up to 300 deg)
+        wide-swing dissertation, chapter 2 (swings up to 300 deg), conclusion 3 (above)
     """
     if not 0.0 < swing <= WIDEST_SWING * (1.0 + 1e-14):
         raise NoSolution(
-            f"swing {math.degrees(swing):.6g} deg: it must be above 0 and at most 300 deg",
+            f"swing {math.degrees(swing):.6g} deg: it must be above 0 and at most 340 deg",
             fix="reduce it or add a gear stage",
         )
 
@@ -136,27 +149,41 @@ class DeviceGeometry:
         """l - l0 where sin(phi/2) = m * sine."""
         return (self.reach * self.half_sine * sine) ** 2 / (self.length(sine) + self.shortest)
 
+    @cached_property
+    def mounting(self) -> float:
+        """Stretch at mid-swing, in arms; of a pendulum's spring that without free length."""
+        if isinstance(self.device, Spring):
+            return self.device.stretch_ratio * self.stroke
+        return self.shortest
+
+    @cached_property
+    def stiffness(self) -> float:
+        """-dX/dx: 1 for a spring, 0 for a cylinder, 1/lambda for a pendulum."""
+        if isinstance(self.device, Gravity):
+            return 1.0 / self.ratio
+        return 0.0 if isinstance(self.device, Pneumatic) else 1.0
+
     def mean_force(self, sine: Reals) -> Reals:
         """w = E/x: force over stretch, mean between here and the end of the swing."""
-        if isinstance(self.device, Pneumatic):
-            return np.ones_like(sine)
-        return (0.5 + self.device.stretch_ratio) * self.stroke + 0.5 * self.extension(sine)
+        return self._force(0.5 * self.stroke + self.mounting + 0.5 * self.extension(sine))
 
     def mean_force_to_middle(self, sine: Reals) -> Reals:
         """(E(mid) - E)/(l - l0): the mean between here and mid-swing."""
-        if isinstance(self.device, Pneumatic):
-            return np.ones_like(sine)
-        return self.device.stretch_ratio * self.stroke + 0.5 * self.extension(sine)
+        return self._force(self.mounting + 0.5 * self.extension(sine))
 
     def force(self, sine: Reals) -> Reals:
         """X = dE/dx: the force here."""
-        if isinstance(self.device, Pneumatic):
-            return np.ones_like(sine)
-        return self.device.stretch_ratio * self.stroke + self.extension(sine)
+        return self._force(self.mounting + self.extension(sine))
 
-    def stiffness(self) -> float:
-        """-dX/dx: 1 for a spring, 0 for a cylinder."""
-        return 0.0 if isinstance(self.device, Pneumatic) else 1.0
+    def energy(self, sine: Reals, cosine: Reals) -> Reals:
+        """E where sin(phi/2) = m * sine; cosine that of the pendulum angle."""
+        x = (self.reach * self.half_sine * cosine) ** 2 / (self.longest + self.length(sine))
+        return np.asarray(x * self.mean_force(sine))
+
+    def _force(self, stretch: Reals) -> Reals:
+        if isinstance(self.device, Pneumatic):
+            return np.ones_like(stretch)
+        return self.stiffness * stretch
 
 
 def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_EXTENSION_RATIO) -> float:
@@ -165,12 +192,12 @@ def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_
     lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1)
 
     Parameters
-        swing : float [rad] - gamma, 0 to 300 deg
+        swing : float [rad] - gamma, 0 to 340 deg
         extension_ratio : float - q = extended over retracted length, above 1; 13/9 is the dissertation's
     Returns
         pivot_ratio : float
     Raises
-        NoSolution - for a swing outside (0, 300 deg] or q not above 1
+        NoSolution - for a swing outside (0, 340 deg] or q not above 1
     Notes
         Written with p - 1 = 2 sin^2(gamma/4)/(q^2 - 1), so lambda - 1 keeps its digits for small swings.
     Example
@@ -196,13 +223,13 @@ def least_pivot_ratio_spring(
     lambda = 1 + (l_0 + l_k + S_0)/r_d with the mounting stretch S_0 = epsilon r_d D(lambda, gamma)
 
     Parameters
-        swing : float [rad] - gamma, 0 to 300 deg
+        swing : float [rad] - gamma, 0 to 340 deg
         stretch_ratio : float - epsilon = mounting stretch over stroke, >= 0
         arm, closed_length, end_fittings : float [mm] - r_d, length of the closed coils l_0, of the hooks l_k
     Returns
         pivot_ratio : float
     Raises
-        NoSolution - for a swing outside (0, 300 deg], a length that is not positive, or epsilon < 0
+        NoSolution - for a swing outside (0, 340 deg], a length that is not positive, or epsilon < 0
     Notes
         D depends on lambda: the equation, a quadratic for D, is solved for the ratio that just fits. A larger
         ratio needs less stretch, so every ratio above it fits.
@@ -237,14 +264,14 @@ def least_pivot_ratio_spring_material(
     lambda = [h + sqrt(h^2 - (q^2 - 1)((q + mu)^2 - 1))]/(q^2 - 1), h = q (q + mu) - cos(gamma/2)
 
     Parameters
-        swing : float [rad] - gamma, 0 to 300 deg
+        swing : float [rad] - gamma, 0 to 340 deg
         stretch_ratio : float - epsilon, >= 0
         stretch_capacity : float - eta = allowable stretch over closed length, about 1 to 2 for steel
         end_fittings_ratio : float - l_k/r_d, >= 0
     Returns
         pivot_ratio : float
     Raises
-        NoSolution - for a swing outside (0, 300 deg], epsilon < 0, eta <= 0 or l_k < 0
+        NoSolution - for a swing outside (0, 340 deg], epsilon < 0, eta <= 0 or l_k < 0
     Example
         >>> round(least_pivot_ratio_spring_material(math.radians(120), 0.2, 1.5, 0.3), 12)
         2.028314441376

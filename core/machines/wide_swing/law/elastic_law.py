@@ -79,9 +79,9 @@ class ElasticLaw:
 
     Parameters
         device : Pneumatic or Spring
-        swing : float [rad] - full swing gamma, 0 to 300 deg
+        swing : float [rad] - full swing gamma, 0 to 340 deg
     Raises
-        NoSolution - for a swing outside (0, 300 deg]
+        NoSolution - for a swing outside (0, 340 deg]
     Notes
         The pendulum angle u makes the integrand F regular at both ends. A second, elliptic substitution of
         modulus k' = l0/L (the device's retracted over extended length), u -> y with l = l0/dn(y), takes the branch
@@ -211,7 +211,7 @@ class ElasticLaw:
         sine = np.array([math.sqrt(s) / g.half_sine])
         bend = (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s)
         lever = 4.0 * g.ratio * s * (1.0 - s) * float(g.length(sine)[0])
-        return float(g.force(sine)[0]) * bend + g.stiffness() * lever
+        return float(g.force(sine)[0]) * bend + g.stiffness * lever
 
     @overload
     def evaluate(self, k: float, order: int = 2) -> tuple[float, ...]: ...
@@ -305,8 +305,13 @@ class ElasticLaw:
         length = g.length(sine)
         lever = g.ratio * self._sine_of_swing(sine, cosine) / length
         bend = g.ratio * (g.shortest + 2.0 * s) * (g.shortest - 2.0 * g.ratio * s) / length**3
-        change = g.force(sine) * bend + g.stiffness() * lever**2
+        change = g.force(sine) * bend + g.stiffness * lever**2
         return -0.5 * self.energy_parameter * self.swing**2 * self._velocity(sine, cosine) * change
+
+    def pendulum(self, k: Reals) -> tuple[Reals, Reals]:
+        """|sin u| and cos u of every k, |sin(phi/2)| = sin(gamma/4) |sin u|."""
+        sine, cosine, _ = self._pendulum(k)
+        return sine.reshape(k.shape), cosine.reshape(k.shape)
 
     def _pendulum(self, k: Reals) -> tuple[Reals, Reals, npt.NDArray[np.bool_]]:
         """sin u, cos u of every k folded into the first half, and which k lay in the second."""

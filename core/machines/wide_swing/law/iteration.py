@@ -7,10 +7,11 @@ iterating.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import Device, DeviceGeometry, Spring, require_swing
+from gearlink.core.machines.wide_swing.law.device import Device, DeviceGeometry, Gravity, Spring, require_swing
 
 _FIXED_POINT_LIMIT = 400
 _SETTLED, _MOST_PASSES = 1e-12, 100
@@ -36,7 +37,7 @@ def legacy_law(device: Device, swing: float, *, steps: int = 20, exponent: int =
 
     Parameters
         device : Pneumatic or Spring
-        swing : float [rad] - gamma, 0 to 300 deg
+        swing : float [rad] - gamma, 0 to 340 deg
         steps : int - steps in half the stroke, dk = 0.5/steps
         exponent : int - e; 1 converges for every device tried, 2 is slow and fails where B exceeds 2
     Returns
@@ -73,16 +74,77 @@ def legacy_law(device: Device, swing: float, *, steps: int = 20, exponent: int =
     )
 
 
+@dataclass(frozen=True, slots=True)
+class MarchedLaw:
+    """Result of the iteration over the whole stroke of a law without symmetry.
+
+    Fields
+        energy_parameter : float - N
+        passes : int - marches until N settled
+        rows : list of (pass, N, mu, displacement from the start, displacement from the end)
+    """
+
+    energy_parameter: float
+    passes: int
+    rows: list[tuple[int, float, float, float, float]]
+
+
+def slider_law(device: Device, swing: float, inertia: Callable[[float], float], *, steps: int = 20) -> MarchedLaw:
+    """Law of motion with a slider by the dissertation's iteration, marched from both ends to k = 1/2.
+
+    b = sqrt(N E(a)/j(a));  mu = 1/(a_forward(1/2) + a_backward(1/2));  N <- mu N, from N = 4 j(1/2)/E(1/2)
+
+    Parameters
+        device : Pneumatic, Spring or Gravity
+        swing : float [rad] - gamma, 0 to 340 deg
+        inertia : function of the share of the swing - j = j0 + (1 - j0) b_kp^2
+        steps : int - steps in half the stroke
+    Returns
+        law : MarchedLaw
+    Raises
+        NoSolution - when |mu - 1| has not fallen to 1e-12 in 100 passes, or a march leaves the swing
+    Notes
+        A pass shrinks the error by |1 - b(1/2)/2|. With j = 1 it is `legacy_law`.
+    Example
+        >>> from gearlink.core.machines.wide_swing.law.device import Pneumatic
+        >>> alike = slider_law(Pneumatic(2.5), math.radians(120), lambda a: 1.0)
+        >>> round(alike.energy_parameter / legacy_law(Pneumatic(2.5), math.radians(120)).energy_parameter, 12)
+        1.0
+
+    Source
+        wide-swing dissertation (16), (17) and figure 4; the two marches: own derivation
+    """
+    require_swing(swing)
+    if steps < 1:
+        raise NoSolution(f"{steps} steps: the march needs at least 1", key="iteration_steps")
+    ways = _HalfSwing(device, swing, inertia), _HalfSwing(device, swing, lambda a: inertia(1.0 - a))
+    parameter, rows = (2.0 / ways[0].velocity(0.5, 1.0)) ** 2, []
+    for passes in range(1, _MOST_PASSES + 1):
+        ends = [_march(way, parameter, steps) for way in ways]
+        scale = 1.0 / math.fsum(ends)
+        rows.append((passes, parameter, scale, ends[0], ends[1]))
+        if abs(scale - 1.0) <= _SETTLED:
+            return MarchedLaw(parameter, passes, rows)
+        parameter *= scale
+    speed = ways[0].velocity(ends[0], parameter)
+    raise NoSolution(
+        f"the source's iteration does not converge here: velocity invariant {speed:.4g} at half the time, it must be "
+        "below 4; omit method",
+        key="method",
+    )
+
+
 def _otherwise(exponent: int) -> str:
     return "take exponent 1" if exponent != 1 else "leave method out, which gives the law by its integral"
 
 
 @dataclass(frozen=True, slots=True)
 class _HalfSwing:
-    """b(a) of (6), (11) in plain scalars."""
+    """b(a) of (6), (11), (16), (17) in plain scalars; `inertia`: j(a), none: 1."""
 
     device: Device
     swing: float
+    inertia: Callable[[float], float] | None = None
 
     def velocity(self, a: float, parameter: float) -> float:
         geometry = DeviceGeometry(self.device, self.swing)
@@ -97,8 +159,21 @@ class _HalfSwing:
                 key="method",
                 fix=f"give more iteration_steps, or {_otherwise(1)}",
             )
-        energy = x * ((1.0 + self.device.stretch_ratio) * stroke - 0.5 * x) if isinstance(self.device, Spring) else x
-        return math.sqrt(parameter * energy)
+        energy = x
+        if isinstance(self.device, Spring):
+            energy *= (1.0 + self.device.stretch_ratio) * stroke - 0.5 * x
+        elif isinstance(self.device, Gravity):
+            energy = 2.0 * product
+        return math.sqrt(parameter * energy if self.inertia is None else parameter * energy / self.inertia(a))
+
+
+def _require_rest(guess: float, following: float, start: float) -> None:
+    """Refuse a step that does not settle; one that swings between its last bits has."""
+    if not abs(following - guess) <= 1e-13 * abs(following):
+        raise NoSolution(
+            f"a step of the source's iteration does not settle, at {start:.4g} of the swing: give more iteration_steps",
+            key="iteration_steps",
+        )
 
 
 def _march(half: _HalfSwing, parameter: float, steps: int) -> float:
@@ -115,6 +190,8 @@ def _march(half: _HalfSwing, parameter: float, steps: int) -> float:
             guess = following
             if settled:
                 break
+        else:
+            _require_rest(guess, following, a)
         a = guess
         b = half.velocity(guess, parameter)
     return a

@@ -99,7 +99,7 @@ def candidates_of_loads(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
     """What lets the device hold the roller all the way, alone and with more reserve, and directions that are clear."""
     if check == "body-clearance":
         yield from _clear_directions(design)
-    section, reserve = design.spec.slider, design.spec.unloader.reserve
+    section, reserve = design.spec.slider, design.design.unloading.size.reserve
     if check != "contact-loss" or section is None or not changes_apart(design):
         return
     for changes in side_changes(section):
@@ -552,6 +552,7 @@ def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) ->
     from gearlink.core.mechanism.dynamics import Force
 
     unloader, unloading = loads.spec.unloader, loads.design.unloading
+    assert unloader.type != "gravity", "refused by the file's model"
     way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
     rocker = mechanism.links["rocker"]
     arm = unloader.arm
@@ -563,6 +564,6 @@ def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) ->
         pull = np.full(length.shape, unloading.force or 0.0)
     else:
         geometry = loads.design.motion.law.geometry
-        mounted = geometry.shortest - unloader.stretch_ratio * geometry.stroke
+        mounted = geometry.shortest - geometry.mounting
         pull = (unloading.spring_rate or 0.0) * arm * (length - mounted)
     return [Force("rocker", pull * along / length, pin)]
