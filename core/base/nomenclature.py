@@ -184,6 +184,16 @@ _SWING = {
     "roller_arm_offset": Term(
         "phi*", "deg", "rocker angle from mid-swing at which the roller passes the line of centres", "own derivation"
     ),
+    "impact_speed": Term("v_i", "mm/s", "speed of the roller's blow on the other flank", "own derivation"),
+    "impact_place": Term("k_i", "1", "fraction of the stroke at the blow on the other flank", "own derivation"),
+    "impact_energy": Term("E_i", "J", "energy of the blow on the other flank", "own derivation"),
+    "impact_force": Term("F_i", "N", "peak force of the blow on the other flank", "own derivation"),
+    "end_position_gain": Term(
+        "G_e",
+        "1",
+        "way at the output radius in the rests, per mm of the profile",
+        "own derivation",
+    ),
     "dwell_force": Term("F_d", "N", "greatest force of a roller on its cam during the rests", "own derivation"),
     "sectors_external": Term(
         "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"

@@ -177,7 +177,7 @@ def force_reserve(design: WideSwingDesign) -> Check:
     status: Status = "pass"
     if lift_off < 1.1 * speed * (1.0 - 1e-9):
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
-    back, need, fix = design.unloading.way_back, design.unloading.need, ""
+    back, fix = design.unloading.way_back, ""
     if status != "pass":
         fix = _more_force(design)
     governs = back is not None and back.value > 1.0

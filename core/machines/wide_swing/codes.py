@@ -161,3 +161,17 @@ SWING_RANGE = Rule(
     ("swing",),
     side="<=",
 )
+FLANK_IMPACT = Rule(
+    "GL542",
+    "hard blow at the change of flanks",
+    "The roller strikes the other flank of its slot faster than limits.impact_speed (a warning; not judged without "
+    "the limit).",
+    "The blow wears both flanks and excites the rocker each stroke.",
+    "Reduce cam.roller_clearance, cam.roller_radius (a shorter transition zone) or unloader.reserve.",
+    "v = kappa (tau^2 - tau_e^2)/2, (tau - 2 tau_e)(tau + tau_e)^2 = 6 s/kappa, kappa = r rho gamma |dc/dk|/T^3, "
+    "tau_e = transition_zone T",
+    "own derivation, to leading order",
+    ("flank-impact",),
+    ("limits.impact_speed", "cam.roller_clearance", "cam"),
+    side="<=",
+)

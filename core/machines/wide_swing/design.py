@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from operator import attrgetter
 from types import SimpleNamespace
@@ -20,16 +20,18 @@ from gearlink.core.machines.wide_swing.sizing import QUANTITIES, DeviceSize, dev
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Quantity
+    from gearlink.core.base.report import Check, Quantity
     from gearlink.core.machines.wide_swing.cams.cam import Layout, WideSwingCam
     from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
     from gearlink.core.machines.wide_swing.cams.outline import AnyCam
     from gearlink.core.machines.wide_swing.cams.slider_cam import SliderCam
     from gearlink.core.machines.wide_swing.cycle import WholeCycle
+    from gearlink.core.machines.wide_swing.impact import FlankImpact
     from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw, MarchedLaw
     from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.numerics.periodic import CosineSeries
 
 
 LAW = {
@@ -75,6 +77,13 @@ PROFILE = {
     "contact_force": "contact_force",
     "dwell_force": "dwell_force",
 }
+IMPACT = {
+    "impact_speed": "impact.speed",
+    "impact_place": "impact.place",
+    "impact_energy": "impact.energy",
+    "impact_force": "impact.force",
+}
+GAIN = {"end_position_gain": "end_position_gain"}
 CYCLE = {
     "sectors_external": "cycle.sectors_external",
     "sectors_internal": "cycle.sectors_internal",
@@ -91,6 +100,8 @@ PLACES = {"max_pressure_angle_at": "pressure_place", "min_curvature_radius_at": 
 CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
 PATHS = (
     QUANTITIES
+    | IMPACT
+    | GAIN
     | MOTION
     | PLACES
     | LAW
@@ -105,7 +116,15 @@ PATHS = (
     | ITERATION
 )
 NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
-NEED_ZONE = (*PLACES, "transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
+NEED_ZONE = (
+    *PLACES,
+    *IMPACT,
+    "transition_zone",
+    "max_pressure_angle",
+    "min_curvature_radius",
+    "contact_end",
+    "contact_force",
+)
 
 
 Places: TypeAlias = SimpleNamespace
@@ -234,6 +253,7 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
     }
     if spec.shaft is not None:
         columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
+        columns["dynamic_coefficient"] = (design.unloading.dynamic_coefficients(share.tolist()), "1")
     return Table.of("balance", columns)
 
 
@@ -256,6 +276,11 @@ def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Tab
         "relative_error": ([law.energy_parameter / exact - 1.0 for law in laws], "1"),
     }
     return Table.of("iteration", columns)
+
+
+def history_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """Torques of rocker shaft and main shaft over the stroke and the rest after it, with elasticity."""
+    return design.unloading.history()
 
 
 def contour_table(design: WideSwingDesign, samples: int | None = None) -> Table:
@@ -348,18 +373,21 @@ class Unloading:
 
     @cached_property
     def power_peak(self) -> float:
-        """max(b c)."""
+        """max(b c); with a slider max |m b|, m the torque over J_ref gamma/T^2."""
         from gearlink.core.machines.wide_swing.law.balancing import power_peak
 
-        return power_peak(self.motion.rocker_alone("power_peak"))
+        motion = self.motion
+        return power_peak(lambda k: motion.law.invariants(k, 1)[1] * motion.torque(k))
 
-    @cached_property
+    @property
     def drive_torque_peak(self) -> float:
-        """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m]."""
-        from gearlink.core.machines.wide_swing.law.balancing import drive_torque_peak
+        """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m].
 
-        motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
-        return drive_torque_peak(motion.inertia, law, motion.stroke_time, motion.device_angle)
+        M_dr = J gamma^2 max|m b|/(T^2 phi_ud)
+        """
+        motion = self.motion
+        scale = motion.inertia * motion.swing**2 / (motion.stroke_time**2 * motion.device_angle)
+        return scale * self.power_peak
 
     @property
     def drive_balancing_ratio(self) -> float | None:
@@ -369,15 +397,81 @@ class Unloading:
         return (1.0 + share) / left if left > 0.0 else None
 
     @cached_property
+    def _torque_series(self) -> CosineSeries:
+        from gearlink.core.machines.wide_swing.torsion import acceleration_series
+
+        with at_key("shaft"):
+            return acceleration_series(self.motion.torque)
+
+    @property
     def dynamic_coefficient(self) -> float:
         """K_d, torque with the drive's elasticity over the calculated torque."""
-        from gearlink.core.machines.wide_swing.torsion import acceleration_series, dynamic_coefficient
+        return self.dynamic_coefficients([1.0])[0]
 
-        shaft, law = self._shaft, self.motion.plain_law
-        stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time
+    def dynamic_coefficients(self, speed_ratios: Iterable[float]) -> list[float]:
+        """K_d over n/n0; not a number where a slow stroke finds the drive rigid.
+
+        Raises
+            NoSolution - at the design speed, where the drive is rigid to it
+        """
+        from gearlink.core.machines.wide_swing.torsion import STIFFEST, dynamic_coefficient
+
+        shaft, found = self._shaft, []
+        for ratio in speed_ratios:
+            stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time / ratio
+            if ratio < 1.0 and stiffness > STIFFEST:
+                found.append(math.nan)
+                continue
+            with at_key("shaft"):
+                found.append(dynamic_coefficient(self._torque_series, stiffness, shaft.damping)[0])
+        return found
+
+    @property
+    def left_share(self) -> float:
+        """Torque with the device over that without it in the working stroke at the design speed, negative where the
+        device is the stronger.
+
+        sgn(g)(|g| + f q^2), g = 1 - (1 + rho) q^2, q = T/T0, T0 the time of the shorter stroke
+        """
+        square = (self.motion.working_time / self.motion.stroke_time) ** 2
+        left = 1.0 - self._whole * square
+        return math.copysign(abs(left) + self.spec.unloader.residual * square, left if left > 0.0 else -1.0)
+
+    def history(self) -> Table:
+        """Torques of rocker shaft and main shaft over the working stroke and the rest after it.
+
+        M_e'' + 2 zeta w M_e' + w^2 M_e = w^2 (share M) from rest at the start; on the main shaft times gamma b/phi_ud
+
+        Notes
+            The first natural frequency is that of the mean inertia. What the stroke before has left is not counted.
+        """
+        import numpy as np
+
+        from gearlink.core.machines.wide_swing.torsion import TorsionResponse
+
+        motion, shaft, time = self.motion, self._shaft, self.motion.working_time
+        stroke = math.degrees(motion.cycle_angle)
+        rest = stroke if self.spec.cycle is None else self.spec.cycle.far_dwell
+        angle = np.arange(math.floor((stroke + rest) * (1.0 + 1e-12)) + 1.0)
+        inside = angle <= stroke * (1.0 + 1e-12)
+        k = np.minimum(angle[inside] / stroke, 1.0)
         with at_key("shaft"):
-            series = acceleration_series(lambda k: law.invariants(k, 2)[2])
-            return dynamic_coefficient(series, stiffness, shaft.damping)[0]
+            response = TorsionResponse(
+                self._torque_series, 2.0 * math.pi * shaft.natural_frequency * time, shaft.damping
+            )
+        scale, share = motion.inertia * motion.swing / time**2, self.left_share
+        rigid, elastic, ratio = (np.zeros_like(angle) for _ in range(3))
+        rigid[inside] = scale * motion.torque(k)
+        elastic[inside], elastic[~inside] = response(k), response.after(angle[~inside] / stroke)
+        ratio[inside] = motion.swing / motion.cycle_angle * motion.law.invariants(k, 1)[1]
+        torques = {"": rigid, "_balanced": share * rigid, "_elastic": share * scale * elastic}
+        columns = {
+            "time": (angle / (6e-3 * self.spec.speed), "ms"),
+            "cam_angle": (angle, "deg"),
+            **{f"rocker_torque{end}": (values, "N m") for end, values in torques.items()},
+            **{f"drive_torque{end}": (values * ratio, "N m") for end, values in torques.items()},
+        }
+        return Table.of("history", columns)
 
     @property
     def _shaft(self) -> SwingShaft:
@@ -535,7 +629,7 @@ class WideSwingDesign(Design):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline((*LAW, *MOTION), _LAW_CHECKS, ("law", "balance")),
     }
-    extra_tables = ("iteration", "slider", "contact", "contour", "joints", "device")
+    extra_tables = ("iteration", "slider", "contact", "contour", "joints", "device", "history")
 
     # Parts
 
@@ -721,6 +815,26 @@ class WideSwingDesign(Design):
         return self.unloading.contact_force(cam, k, need=ratio(cam, k))
 
     @cached_property
+    def impact(self) -> FlankImpact:
+        """The blow where the roller changes flanks."""
+        from gearlink.core.machines.wide_swing.impact import FlankImpact
+
+        return FlankImpact(self)
+
+    @property
+    def end_position_gain(self) -> float:
+        """Way at `output_radius` over an error of the profile, in the rests."""
+        from gearlink.core.machines.wide_swing.impact import end_position_gain
+
+        return end_position_gain(self)
+
+    def check_flank_impact(self) -> Iterator[Check]:
+        """GL542."""
+        from gearlink.core.machines.wide_swing.impact import flank_impact
+
+        return flank_impact(self)
+
+    @cached_property
     def extremes(self) -> Places:
         """Extremes of the rocker's speed and acceleration over the working stroke, at the design speed."""
         return of_motion(self)
@@ -770,6 +884,7 @@ class WideSwingDesign(Design):
 
     table_law, table_slider, table_balance = law_table, slider_table, balance_table
     table_iteration, table_contact = iteration_table, contact_table
+    table_history = history_table
     table_contour, table_joints, table_device = contour_table, joints_table, device_table
     table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
@@ -800,7 +915,12 @@ class WideSwingDesign(Design):
         """With a cam `swing` judges the profile, the device, and a cycle or a slider."""
         more: tuple[str, ...] = ()
         if spec.cam is not None and command != "cam":
-            more = (*_CAM_CHECKS, "force-reserve", *(("side-change",) if spec.slider is not None else ()))
+            more = (
+                *_CAM_CHECKS,
+                "force-reserve",
+                "flank-impact",
+                *(("side-change",) if spec.slider is not None else ()),
+            )
         more += _CYCLE_CHECKS if spec.cycle is not None and spec.cam is not None else ()
         return tuple(dict.fromkeys((*super().judged(command, spec), *more)))
 
@@ -813,7 +933,7 @@ class WideSwingDesign(Design):
         if command == "cam":
             sectors = tuple(CYCLE) if spec.cycle is not None else ()
             return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
-        quantities = [*base.quantities, *names(spec), *(SLIDER if spec.slider is not None else TORQUE)]
+        quantities = [*base.quantities, *names(spec), *(SLIDER if spec.slider is not None else ()), *TORQUE]
         checks, tables = [*base.checks], [*base.tables]
         if spec.shaft is not None:
             quantities += SHAFT
@@ -822,7 +942,10 @@ class WideSwingDesign(Design):
             checks += ("side-change",) if spec.cam is not None and not self._is_refused else ()
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
-            checks += (*(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn)), "force-reserve")
+            checks += (
+                *(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn, "flank-impact")),
+                "force-reserve",
+            )
         if spec.method == "iteration":
             quantities += ITERATION
             tables.append("iteration")
@@ -844,6 +967,11 @@ class WideSwingDesign(Design):
                 *OF_SLIDER_CAM,
                 *(name for name in shown if name not in (*OF_EVEN_CAM, *NEED_PROFILE)),
             ]
+        section = self.section
+        if section.roller_clearance is not None:
+            shown += [name for name in IMPACT if name != "impact_force" or section.contact_stiffness is not None]
+        if self.spec.output_radius is not None:
+            shown += GAIN
         if self.spec.cycle is not None and self._profile_exists:
             shown += CYCLE
         if not self._profile_exists:

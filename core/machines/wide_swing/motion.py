@@ -236,12 +236,6 @@ class Motion:
         s = 1e-3 * unloader.distance
         return mass * unloader.gravity * s / (self.pendulum_rate * (self.spec.inertia + mass * s * s)) - 1.0
 
-    def rocker_alone(self, name: str) -> ElasticLaw:
-        """The law for a quantity that a slider does not allow."""
-        if self.spec.slider is not None:
-            raise NoSolution(f"{name} is that of a rocker without a slider", key="slider", fix="leave out slider")
-        return self.plain_law
-
     # Drive
 
     @cached_property

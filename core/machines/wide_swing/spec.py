@@ -178,6 +178,12 @@ class SwingCam(Spec):
     free_clearance: Distance = Field(
         0.5, description="room between a roller and the sector of a closed contour in which the other cam guides"
     )
+    roller_clearance: Distance | None = Field(
+        None, description="clearance of the roller in its slot, both flanks together; then the blow at mid-swing"
+    )
+    contact_stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+        None, description="of roller and flank; then the force of the blow"
+    )
 
 
 class SwingCycle(Spec):
@@ -265,6 +271,9 @@ class SwingLimits(LoadLimits):
     transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )
+    impact_speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] | None = Field(
+        None, description="greatest speed of the roller's blow where it changes flanks; left out: not judged"
+    )
 
 
 class WideSwingSpec(TolerancedSpec):
@@ -288,6 +297,9 @@ class WideSwingSpec(TolerancedSpec):
         discriminator="type",
         description="device that bears the inertia",
         json_schema_extra=also("balancing_device"),
+    )
+    output_radius: Length | None = Field(
+        None, description="radius on the rocker at which its end positions count; then their gain"
     )
     operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="least speed at which the machine works; then the device is checked for harm there"
@@ -334,13 +346,8 @@ class WideSwingSpec(TolerancedSpec):
         if self.slider is not None:
             if self.cam is not None:
                 self._cam_with_slider(self.cam)
-            for name in ("drive", "shaft"):
-                if getattr(self, name) is not None:
-                    _refuse(
-                        name,
-                        "a slider makes the law unsymmetric: leave out {name}, made for the rocker alone",
-                        name=name,
-                    )
+            if self.drive is not None:
+                _refuse("drive", "a slider makes the law unsymmetric: leave out drive, made for the rocker alone")
         return self
 
     def _cam_with_slider(self, cam: SwingCam) -> None:

@@ -17,7 +17,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_coefficients, cosine_series
 
-_STIFFEST = 20_000.0
+STIFFEST = 20_000.0
 """Natural frequency times stroke time from which the search for the peak takes seconds and finds the step's alone."""
 
 
@@ -96,6 +96,41 @@ class TorsionResponse:
             )
         return result
 
+    def rate(self, k: Reals) -> Reals:
+        """dy/dk at fractions k of the stroke."""
+        result = np.zeros_like(k)
+        for j, amplitude in enumerate(self.series.coefficients.tolist()):
+            wave = j * math.pi
+            rate = self._undamped_rate(k, wave) if self.damping == 0.0 else self._damped_rate(k, wave)
+            result += amplitude * self.stiffness**2 * rate
+        return result
+
+    def after(self, k: Reals) -> Reals:
+        """y at k > 1, where the oscillation that the stroke leaves dies out.
+
+        y = e^{-zeta W t}(y_1 cos W_d t + (y_1' + zeta W y_1) sin(W_d t)/W_d), t = k - 1
+        """
+        end = np.ones(1)
+        value, rate, time = float(self(end)[0]), float(self.rate(end)[0]), k - 1.0
+        decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
+        swing = value * np.cos(free * time) + (rate + decay * value) / free * np.sin(free * time)
+        return np.asarray(np.exp(-decay * time) * swing)
+
+    def _undamped_rate(self, k: Reals, wave: float) -> Reals:
+        total, difference = 0.5 * (self.stiffness + wave), 0.5 * (self.stiffness - wave)
+        first = np.cos(total * k) * np.sinc(difference * k / math.pi)
+        result: Reals = 0.5 * k * (first + np.sinc(total * k / math.pi) * np.cos(difference * k))
+        return result
+
+    def _damped_rate(self, k: Reals, wave: float) -> Reals:
+        decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
+        forced = 1.0 / complex(self.stiffness**2 - wave**2, 2.0 * decay * wave)
+        sine = (forced * 1j * wave).real + decay * forced.real
+        cosine, turned = np.cos(free * k), np.sin(free * k)
+        dying = decay * (forced.real * cosine + sine / free * turned) + free * forced.real * turned - sine * cosine
+        result: Reals = (1j * wave * forced * np.exp(1j * wave * k)).real + np.exp(-decay * k) * dying
+        return result
+
     def _undamped(self, k: Reals, wave: float) -> Reals:
         """(cos wave k - cos W k)/(W^2 - wave^2)."""
         total, difference = 0.5 * (self.stiffness + wave), 0.5 * (self.stiffness - wave)
@@ -136,15 +171,15 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
         wide-swing dissertation, chapter 5 (K_d about 2); own derivation
     """
     response = TorsionResponse(series, stiffness, damping)
-    if stiffness > _STIFFEST:
+    if stiffness > STIFFEST:
         raise NoSolution(
             (
                 f"natural frequency times stroke time is {stiffness:.6g}, "
-                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke: above {_STIFFEST:g} the "
+                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke: above {STIFFEST:g} the "
                 "drive is rigid to the stroke"
             ),
             fix=(
-                f"leave the section shaft out, or make speed {stiffness / _STIFFEST:.4g} times higher or "
+                f"leave the section shaft out, or make speed {stiffness / STIFFEST:.4g} times higher or "
                 "natural_frequency as much lower"
             ),
         )

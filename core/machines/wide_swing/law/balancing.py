@@ -7,6 +7,7 @@ with the difference J gamma c (1/T^2 - 1/T0^2).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -114,57 +115,24 @@ def speed_sweep(
     return design * speed_ratio**2, design * _left(speed_ratio, residual_fraction, reserve)
 
 
-def power_peak(law: ElasticLaw) -> float:
-    """Largest product of velocity and acceleration invariants: the peak of the power of the inertia load.
+def power_peak(product: Callable[[Reals], Reals]) -> float:
+    """Largest product of velocity invariant and torque over J gamma/T^2: the peak of the power of the inertia load.
 
-    max(b c)
+    max |b m|, m = c of a rocker alone
 
     Parameters
-        law : ElasticLaw
+        product : b m over fractions of the stroke
     Returns
         peak : float
     Notes
         pi^3/8 = 3.876 for the harmonic law.
     Example
         >>> from gearlink.core.machines.wide_swing.law.elastic_law import Pneumatic
-        >>> round(power_peak(ElasticLaw(Pneumatic(2.5), math.radians(120))), 12)
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(power_peak(lambda k: law.invariants(k)[1] * law.invariants(k)[2]), 12)
         4.608259092935
     """
-
-    def product(k: Reals) -> Reals:
-        _, b, c = law.invariants(k)
-        return b * c
-
-    return maximum_over(product, 0.0, 0.5, samples=128).value
-
-
-def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle: float) -> float:
-    """Largest torque on the cam shaft of an even drive, without a device and without its links' own torque.
-
-    M_dr = J gamma^2 max(b c)/(T^2 phi_ud)
-
-    Parameters
-        inertia : float [kg m^2] - J
-        law : ElasticLaw
-        time : float [s] - T of one stroke
-        cycle_angle : float [rad] - phi_ud
-    Returns
-        torque : float [N m]
-    Raises
-        NoSolution - when inertia or time is not positive
-    Notes
-        With the device the peak is this one over `drive_balancing_ratio`.
-    Example
-        >>> from gearlink.core.machines.wide_swing.law.elastic_law import Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> round(drive_torque_peak(0.5, law, 0.20080321285140562, math.radians(120)), 9)
-        119.680719711
-
-    Source
-        wide-swing dissertation, chapter 5; own derivation
-    """
-    share = inertia_torque_peak(inertia, law, time) / law.acceleration_peak
-    return share * law.swing / cycle_angle * power_peak(law)
+    return maximum_over(lambda k: np.abs(product(k)), 0.0, 1.0, samples=256).value
 
 
 def drive_balancing_ratio(
