@@ -193,7 +193,7 @@ def _closed(cycle: Cycle, turn: Reals, color: str, *, late: bool) -> Body:
 
 def _roller(cycle: Cycle, arm: float) -> list[Part]:
     """A roller on its arm; a negative arm points the other way."""
-    aside = cycle.design.slider_cam.arm_offset if cycle.design.spec.slider is not None else 0.0
+    aside = getattr(cycle.design.cam, "arm_offset", 0.0)
     center = arm * np.exp(1j * (cycle.swing - aside))
     cam = cycle.design.spec.cam
     assert cam is not None, "there is a roller where there is a cam"

@@ -61,7 +61,7 @@ DRIVE = {
     "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
 }
 OF_REST = ("dwell_force",)
-OF_SLIDER_CAM = {"line_of_centers_place": "slider_cam.middle", "roller_arm_offset": "slider_cam.arm_offset"}
+OF_SLIDER_CAM = {"line_of_centers_place": "aimed_cam.middle", "roller_arm_offset": "aimed_cam.arm_offset"}
 OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
 PROFILE = {
     "rocker_radius": "cam.rocker_radius",
@@ -658,9 +658,9 @@ class WideSwingDesign(Design):
     @cached_property
     def cam(self) -> AnyCam:
         """The cam of the working stroke."""
-        if self.spec.slider is not None:
-            return self.slider_cam
-        return self.even_cam if self.spec.drive is None else self.oscillating_cam
+        if self.spec.drive is not None:
+            return self.oscillating_cam
+        return self.even_cam if self.spec.slider is None else self.slider_cam
 
     @cached_property
     def even_cam(self) -> WideSwingCam:
@@ -701,9 +701,10 @@ class WideSwingDesign(Design):
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
-        from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
+        from gearlink.core.machines.wide_swing.cams.oscillating_cam import AimedLaw, OscillatingCam
 
-        section, law, drive = self.section, self.motion.plain_law, self.motion.drive
+        section, motion, drive = self.section, self.motion, self.motion.drive
+        law = motion.plain_law if self.spec.slider is None else AimedLaw(motion.slider, drive)
         with at_key("drive"):
             return OscillatingCam(drive, law, section.center_distance, section.roller_radius)
 
@@ -715,6 +716,16 @@ class WideSwingDesign(Design):
         section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
         with at_key("cycle_angle"):
             return SliderCam(law, angle, section.center_distance, section.roller_radius)
+
+    @property
+    def aimed_cam(self) -> SliderCam | OscillatingCam:
+        """The cam of a rocker with a slider, whose roller passes the line of centres beside mid-swing."""
+        return self.slider_cam if self.spec.drive is None else self._aimed_with_slider
+
+    @property
+    def _aimed_with_slider(self) -> OscillatingCam:
+        _ = self.motion.slider  # refused without one
+        return self.oscillating_cam
 
     @property
     def cams(self) -> dict[str, AnyCam]:

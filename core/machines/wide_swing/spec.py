@@ -343,11 +343,8 @@ class WideSwingSpec(TolerancedSpec):
                         "unloader.type: gravity is for a rocker alone, without forces at its joints: leave out {name}"
                     )
                     _refuse(name, words, name=name)
-        if self.slider is not None:
-            if self.cam is not None:
-                self._cam_with_slider(self.cam)
-            if self.drive is not None:
-                _refuse("drive", "a slider makes the law unsymmetric: leave out drive, made for the rocker alone")
+        if self.slider is not None and self.cam is not None:
+            self._cam_with_slider(self.cam)
         return self
 
     def _cam_with_slider(self, cam: SwingCam) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from gearlink.core.machines.wide_swing.cams.oscillating_cam import AimedLaw
 from gearlink.core.numerics.extremes import Extreme, maximum_over
 from gearlink.core.parts.linkages.fourbar.sweep import solve
 
@@ -103,15 +104,23 @@ def need(cam: OscillatingCam) -> Extreme:
 
 
 def ratio(cam: OscillatingCam, k: Reals) -> Reals:
-    """Acceleration of the rocker on the way home over that of the stroke, where the cam stands as at k.
+    """Torque of inertia on the way home over that of the stroke, where the cam stands as at k.
 
-    (phi_kk k'^2 + phi_k k'')/(phi_kk/span^2)
+    (m k'^2 + j phi_k k'')/(m/span^2), m that of the stroke; of a rocker alone j = 1 and m its acceleration
 
     Parameters
         cam : OscillatingCam
         k : (N,) array - fractions of the stroke, without 1/2, where the rocker has no acceleration in it
     """
     back = home(cam, crank_angle(cam, k))
-    view, span = cam.law.middle_view(k), cam.drive.crank_span
-    found: Reals = span**2 * (back.first**2 + back.second * view.velocity / view.acceleration)
+    span = cam.drive.crank_span
+    if isinstance(cam.law, AimedLaw):
+        law = cam.law.law
+        a, b = law.invariants(k, 1)
+        inertia = np.array([law.inertia_at(share) for share in a.ravel().tolist()]).reshape(a.shape)
+        pace = inertia * b / law.device_torque(k)
+    else:
+        view = cam.law.middle_view(k)
+        pace = view.velocity / view.acceleration
+    found: Reals = span**2 * (back.first**2 + back.second * pace)
     return found

@@ -17,8 +17,12 @@ from factory import design
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.cams.slider_cam import HalfLaw, SliderCam
+from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
 from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
+from gearlink.core.machines.wide_swing.spec import WideSwingSpec
+from gearlink.core.machines.wide_swing.way_back import crank_angle, home
+from gearlink.core.machines.wide_swing.way_back import ratio as way_home_ratio
 
 GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
 DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))
@@ -183,3 +187,65 @@ def test_a_cam_of_a_rocker_alone_has_none_of_its_places() -> None:
             with pytest.raises(NoSolution, match="section slider") as caught:
                 design(worked).quantity(name)
             assert caught.value.key == "slider"
+
+
+CRANK_ROCKER = {"crank": 40.0, "coupler": 400.0, "rocker": 96.0, "frame": 409.0}
+
+
+def driven(middle_angle: float) -> WideSwingDesign:
+    """A rocker with a slider on a cam that swings on a crank-rocker."""
+    data = {
+        "kind": "wide-swing-cam",
+        "layout": "twin-cam",
+        "drive": CRANK_ROCKER,
+        "swing": 120.0,
+        "speed": 60.0,
+        "inertia": 0.05,
+    }
+    device = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 100.0, "reserve": 0.3}
+    slider = {"crank": 150.0, "rod": 450.0, "middle_angle": middle_angle, "mass": 6.0}
+    cam = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}
+    return WideSwingDesign(
+        WideSwingSpec.model_validate(data | {"inertia": 0.05, "unloader": device, "slider": slider, "cam": cam})
+    )
+
+
+def test_cam_that_swings_is_met_where_the_ratio_of_speeds_has_its_extremum() -> None:
+    cam = driven(73.18).oscillating_cam
+    k = np.linspace(0.47, 0.5, 3001)
+    ratio = cam.law.swing * cam.law.middle_view(k).velocity / cam.drive.motion(k)[1]
+    place = int(np.argmax(ratio) if ratio.max() > max(ratio[0], ratio[-1]) else np.argmin(ratio))
+    assert k[place] == pytest.approx(cam.middle, abs=2e-5)  # twice the step of the grid
+    assert cam.rocker_radius == pytest.approx(200.0 / (1.0 + ratio[place]), rel=1e-8)
+    assert cam.middle_pressure_angle == pytest.approx(0.0, abs=1e-10)
+
+
+@pytest.mark.parametrize("middle_angle", [73.18, 80.0])
+def test_pressure_angle_of_the_cam_that_swings_is_that_of_its_curve(middle_angle: float) -> None:
+    cam, step = driven(middle_angle).oscillating_cam, 1e-6
+    k = np.array([0.1, 0.3, 0.42, 0.7, 0.9])
+    before, here, after = (cam.points(k + shift) for shift in (-step, 0.0, step))
+    way = after.pitch - before.pitch
+    arm = here.pitch + 200.0 * np.exp(1j * here.cam_angle)  # from the rocker's axis to the roller
+    slope = np.abs((way * np.conj(arm)).real / (np.abs(way) * np.abs(arm)))
+    # the normal of the curve against the way of the roller, square to its arm; differences over 2e-6 of the stroke
+    np.testing.assert_allclose(np.abs(np.sin(here.pressure_angle)), np.sqrt(1.0 - slope**2), atol=1e-6)
+
+
+def test_way_home_of_rocker_and_slider() -> None:
+    design = driven(73.18)
+    cam, motion, step = design.oscillating_cam, design.motion, 1e-5
+    k = np.array([0.1, 0.3, 0.7, 0.9])
+    turned = crank_angle(cam, k)
+
+    def energy(angle: Any) -> Any:
+        at = home(cam, angle)
+        return 0.5 * motion.kinetic(at.k) * at.first**2
+
+    def share(angle: Any) -> Any:
+        return motion.law.invariants(home(cam, angle).k, 0)[0]
+
+    # torque is the slope of the energy of motion over the rocker's angle
+    work = (energy(turned + step) - energy(turned - step)) / (share(turned + step) - share(turned - step))
+    expected = work / motion.torque(k) * cam.drive.crank_span**2 / motion.swing * motion.swing
+    np.testing.assert_allclose(way_home_ratio(cam, k), expected, rtol=1e-6)

@@ -19,14 +19,17 @@ from gearlink.core.machines.wide_swing.cams.contact import covered, fitting_roll
 from gearlink.core.machines.wide_swing.cams.curve import StrokeLaw
 from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
 from gearlink.core.machines.wide_swing.law.elastic_law import MiddleView
+from gearlink.core.machines.wide_swing.slider import SliderLaw
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.roots import bracketed_root
 
 _STOP = 1e-4
 """Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
 _AT_STOP = 1e-8
 """So near to a stop the first derivative has no more right digits in its direction than the limit there."""
-_FAR = 0.49
+_FAR = 0.98
+"""Part of the way from one stop to the next over which a roller that stands is looked at."""
 _NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
@@ -51,15 +54,91 @@ class Step:
     along: Points
 
 
+_ASIDE = 0.2
+"""Part of the stroke beside mid-swing in which the roller may pass the line of centres."""
+_JERK = 1e-4  # of the stroke, for a difference of accelerations
+
+
+@dataclass(frozen=True)
+class AimedLaw:
+    """Law of a rocker with a slider, seen from k*, where its roller passes the line of centres of a cam that swings.
+
+    phi'' chi' = phi' chi'' at k*, nearest to mid-swing: d phi/d chi has its extremum, and the pressure angle is 0
+
+    Parameters
+        law : SliderLaw
+        drive : CrankRockerDrive
+    Notes
+        Without such a place within 0.2 of the stroke of mid-swing, k* is that of mid-swing.
+    """
+
+    law: SliderLaw
+    drive: CrankRockerDrive
+
+    @property
+    def swing(self) -> float:
+        """gamma [rad]."""
+        return self.law.swing
+
+    @cached_property
+    def place(self) -> float:
+        """k*."""
+        middle = self.law.middle_place
+        k = np.linspace(max(middle - _ASIDE, 1e-3), min(middle + _ASIDE, 1.0 - 1e-3), 161)
+        bend = self._bend(k)
+        turns = np.flatnonzero(bend[:-1] * bend[1:] <= 0.0)
+        found = [
+            bracketed_root(lambda at: float(self._bend(np.array([at]))[0]), float(k[i]), float(k[i + 1])) for i in turns
+        ]
+        return min(found, key=lambda at: abs(at - middle), default=middle)
+
+    def _bend(self, k: Reals) -> Reals:
+        """c chi' - b chi''."""
+        _, b, c = self.law.invariants(k)
+        _, first, second = self.drive.motion(k)
+        return np.asarray(c * first - b * second)
+
+    @cached_property
+    def _at(self) -> tuple[float, float, float]:
+        return tuple(float(x[0]) for x in self.law.invariants(np.array([self.place])))  # type: ignore[return-value]
+
+    @property
+    def offset(self) -> float:
+        """phi_0 = phi(k*) [rad]."""
+        return self.swing * (self._at[0] - 0.5)
+
+    @property
+    def velocity_peak(self) -> float:
+        """b at k*; not the peak, where the cam does not turn evenly."""
+        return self._at[1]
+
+    @property
+    def acceleration(self) -> float:
+        """c at k*."""
+        return self._at[2]
+
+    @cached_property
+    def middle_jerk(self) -> float:
+        """dc/dk at k*."""
+        before, after = self.law.invariants(np.array([self.place - _JERK, self.place + _JERK]))[2]
+        return float(after - before) / (2.0 * _JERK)
+
+    def middle_view(self, k: Reals) -> MiddleView:
+        """The motion seen from k*, its angle counted from there."""
+        a, b, c = self.law.invariants(np.asarray(k, dtype=np.float64))
+        return MiddleView(self.swing * (a - 0.5) - self.offset, b, self.velocity_peak - b, c)
+
+
 @dataclass(frozen=True)
 class OscillatingCam:
     """External cam on the rocker of a crank-rocker, guiding a wide-swing rocker.
 
-    z = e^{i chi}(-1 + lambda e^{i phi}) a, lambda = r/a = 1/(1 + gamma B/|chi'|) at mid-swing
+    z = e^{i chi}(-1 + lambda e^{i (phi - phi_0)}) a, lambda = r/a = 1/(1 + gamma b/|chi'|) at k*, phi_0 = phi(k*)
 
     Parameters
         drive : CrankRockerDrive
-        law : StrokeLaw - law of motion of the wide-swing rocker
+        law : StrokeLaw or AimedLaw - law of motion of the wide-swing rocker; the roller passes the line of centres
+            at mid-swing, k* = 1/2, or with a slider where d phi/d chi has its extremum
         center_distance, roller_radius : float [mm] - a, r_p
     Raises
         NoSolution - for lengths that are not positive
@@ -79,7 +158,7 @@ class OscillatingCam:
     """
 
     drive: CrankRockerDrive
-    law: StrokeLaw
+    law: StrokeLaw | AimedLaw
     center_distance: float
     roller_radius: float
 
@@ -93,10 +172,20 @@ class OscillatingCam:
         """Crank angle of one stroke [rad]."""
         return self.drive.crank_span
 
+    @property
+    def middle(self) -> float:
+        """k*, fraction of the stroke at which the roller is on the line of centres."""
+        return self.law.place if isinstance(self.law, AimedLaw) else 0.5
+
+    @property
+    def arm_offset(self) -> float:
+        """phi_0, rocker angle from mid-swing at which the roller is on the line of centres [rad]."""
+        return self.law.offset if isinstance(self.law, AimedLaw) else 0.0
+
     @cached_property
     def _middle(self) -> tuple[float, float]:
-        """chi' and chi'' at mid-swing."""
-        _, first, second = self.drive.motion(np.array([0.5]))
+        """chi' and chi'' at k*."""
+        _, first, second = self.drive.motion(np.array([self.middle]))
         return float(first[0]), float(second[0])
 
     @cached_property
@@ -114,17 +203,19 @@ class OscillatingCam:
 
     @cached_property
     def middle_pressure_angle(self) -> float:
-        """Pressure angle that remains at mid-swing, in the sign of `WideSwingCam` [rad].
+        """Pressure angle that remains at k*, in the sign of `WideSwingCam` [rad].
 
-        tan delta = -(1 - lambda) chi''/(chi' phi'): zero only where the cam is at its speed extremum
+        tan delta = [lambda phi'' - (1 - lambda) chi'']/(chi' phi'): zero where d phi/d chi has its extremum
         """
         first, second = self._middle
-        return -math.atan((1.0 - self.ratio) * second / (first * self.law.swing * self.law.velocity_peak))
+        own = self.law.swing * self.law.acceleration if isinstance(self.law, AimedLaw) else 0.0
+        across = self.ratio * own - (1.0 - self.ratio) * second
+        return math.atan(across / (first * self.law.swing * self.law.velocity_peak))
 
     @property
     def loop_margin(self) -> float:
         """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
-        return self._stop(0.5)[0]
+        return self._stop(self.middle)[0]
 
     def _stop(self, k: float) -> tuple[float, float]:
         """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
@@ -133,7 +224,7 @@ class OscillatingCam:
         view = self.law.middle_view(np.array([k]))
         phi1, phi2 = swing * float(view.velocity[0]), swing * float(view.acceleration[0])
         # at the ends the rocker stands still, and the jerk that the law gives it with it
-        phi3 = swing * self.law.middle_jerk if k == 0.5 else 0.0
+        phi3 = swing * self.law.middle_jerk if k == self.middle else 0.0
         arm = r * cmath.exp(1j * float(view.angle[0]))
         f, f1 = arm - 1.0, 1j * phi1 * arm
         f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
@@ -152,7 +243,7 @@ class OscillatingCam:
             NoSolution - where the pitch curve has a loop
         """
         self.require_profile()
-        return self._left(self._stop(0.5))
+        return self._left(self._stop(self.middle))
 
     def _left(self, stop: tuple[float, float]) -> float:
         """Part of the stroke over which the roller leaves a stop, to leading order."""
@@ -171,15 +262,17 @@ class OscillatingCam:
         """
         self.require_profile()
         start, end = self._cover(0.0, 1.0), self._cover(1.0, -1.0)
-        return (start, self._cover(0.5, -1.0)), (self._cover(0.5, 1.0), end)
+        return (start, self._cover(self.middle, -1.0)), (self._cover(self.middle, 1.0), end)
 
     def _cover(self, stop: float, side: float) -> float:
         """How far from a stop, on one side of it, the roller that stands there covers the profile."""
         shape = self._stop(stop)
         if shape[0] <= 0.0:
             return stop
+        other = self.middle if stop in (0.0, 1.0) else 0.5 + 0.5 * side
+        far = _FAR * abs(other - stop)
         return stop + side * covered(
-            lambda t: self._step(stop + side * t, stop), self.roller_radius, _FAR, self._left(shape), _NOISE
+            lambda t: self._step(stop + side * t, stop), self.roller_radius, far, self._left(shape), _NOISE
         )
 
     def _step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
@@ -203,11 +296,11 @@ class OscillatingCam:
             (_, before), (after, _) = self.contact
         except NoSolution:
             return 0.5
-        return max(0.5 - before, after - 0.5)
+        return max(self.middle - before, after - self.middle)
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        lengths, depths = self._step(np.array([0.5 - zone, 0.5 + zone]), 0.5)
+        lengths, depths = self._step(np.array([self.middle - zone, self.middle + zone]), self.middle)
         return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
 
     @property
@@ -217,8 +310,8 @@ class OscillatingCam:
 
     @cached_property
     def end_radius(self) -> float:
-        """Pitch radius at both ends of the stroke [mm]."""
-        half = 0.5 * self.law.swing
+        """Pitch radius at the ends of the stroke, with a slider at the farther one [mm]."""
+        half = 0.5 * self.law.swing + abs(self.arm_offset)  # the farther end
         return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(half), self.ratio * math.sin(half))
 
     @property
@@ -243,7 +336,7 @@ class OscillatingCam:
             return np.abs(self.pressure_angle(k))
 
         # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
-        inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(0.5,), samples=256).value
+        inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(self.middle,), samples=256).value
         return max(inside, float(size(np.array([0.0, 1.0])).max()))
 
     def pressure_angle(self, k: Reals) -> Reals:
@@ -302,7 +395,7 @@ class OscillatingCam:
         Raises
             NoSolution - for k outside 0 to 1, or a pitch curve with a loop at mid-swing
         Notes
-            Curvature by the parametric formula; at k = 0, 1/2 and 1 its radius is zero.
+            Curvature by the parametric formula; at k = 0, k* and 1 its radius is zero.
         """
         self.require_profile()
         step = self.step(k)
@@ -310,7 +403,7 @@ class OscillatingCam:
         phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
         turn: Points = np.exp(1j * chi)
         pitch, along = turn * step.arm, turn * step.along
-        stop = (k == 0.0) | (k == 0.5) | (k == 1.0)
+        stop = (k == 0.0) | (k == self.middle) | (k == 1.0)
         size = np.where(stop, 1.0, np.abs(first))
         bend = np.where(stop, math.inf, (np.conj(first) * second).imag / size**3)
         profile = pitch + self.roller_radius / self.center_distance * 1j * along
@@ -339,9 +432,14 @@ class OscillatingCam:
         arm = reach - 1.0
         first = 1j * (chi1 * arm + phi1 * reach)
         second = 1j * (chi2 * arm + phi2 * reach) - chi1**2 * arm - phi1 * reach * (phi1 + 2.0 * chi1)
-        near = np.abs(k - np.round(2.0 * k) / 2.0) <= _AT_STOP
+        stops = np.array([0.0, self.middle, 1.0])
+        near = np.abs(k[..., None] - stops).min(axis=-1) <= _AT_STOP
         # where the curve stops its direction is that of the second derivative: before the stop it points back
-        along: Points = np.where(near, np.where((k < 0.25) | ((k > 0.5) & (k < 0.75)), second, -second), first)
+        along: Points = np.where(
+            near,
+            np.where((k < 0.5 * self.middle) | ((k > self.middle) & (k < 0.5 + 0.5 * self.middle)), second, -second),
+            first,
+        )
         return Step(view, (chi, chi1, chi2), arm, first, second, along / np.abs(along))
 
     def _pressure_angle(
@@ -360,4 +458,4 @@ class OscillatingCam:
         cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])
         across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
         side = np.where(along < 0.0, -1.0, 1.0)
-        return np.where(k == 0.5, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))
+        return np.where(k == self.middle, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))

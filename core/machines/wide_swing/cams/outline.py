@@ -19,7 +19,7 @@ def is_external(cam: AnyCam) -> bool:
 
 def middle_of(cam: AnyCam) -> float:
     """Fraction of the stroke at which the roller passes the line of centres."""
-    return cam.middle if isinstance(cam, SliderCam) else 0.5
+    return 0.5 if isinstance(cam, WideSwingCam) else cam.middle
 
 
 def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
