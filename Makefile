@@ -42,11 +42,11 @@ $(READY): pyproject.toml $(LOCK)
 
 # Two results, each short enough for a screen; without --quantity a command shows all of its results and checks.
 demo: $(READY)
-	@echo 'A feed that stands within +-0.5 deg over 70 deg of the crank (designs/standing_feed.yaml):'
+	@echo 'A feed that dwells within +-0.5 deg over 70 deg of the crank (designs/standing_feed.yaml):'
 	$(BIN)/gearlink synth dwell designs/standing_feed.yaml $(patsubst %,--quantity %,$(DEMO_DWELL))
 	@echo; echo 'The cams of a flatbed press (designs/ty460.yaml):'
 	$(BIN)/gearlink cam designs/ty460.yaml --plot $(patsubst %,--quantity %,$(DEMO_CAM))
-	@echo 'The picture is $(CURDIR)/TY-460-cam.png'
+	@echo 'The figure is $(CURDIR)/TY-460-cam.png'
 
 DEMO_DWELL := idler_teeth crank_length coupler_length frame_length tolerance_dwell_angle frame_length_interval gear_gap
 DEMO_CAM := follower_stroke max_pressure_angle min_curvature_radius min_radius max_radius
