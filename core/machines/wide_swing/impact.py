@@ -149,6 +149,7 @@ def end_position_gain(design: WideSwingDesign) -> float:
 
 def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
     """GL542: the speed of the blow, where the file has a limit."""
+    from gearlink.core.base.wording import short
     from gearlink.core.machines.wide_swing import codes
 
     limit = design.spec.limits.impact_speed
@@ -157,7 +158,12 @@ def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
     speed = design.impact.speed
     if speed is None:
         return
-    text = f"the roller changes flanks with {speed:.5g} mm/s at k = {design.impact.place:.4g}"
-    if speed > limit:
-        text += f", above {limit:g} mm/s: reduce cam.roller_clearance, cam.roller_radius or unloader.reserve"
-    yield codes.FLANK_IMPACT.check("warn" if speed > limit else "pass", text, speed, limit, "mm/s")
+    yield codes.FLANK_IMPACT.check(
+        "warn" if speed > limit else "pass",
+        "speed at which the roller changes flanks",
+        speed,
+        limit,
+        "mm/s",
+        at=f"k = {short(design.impact.place)}",
+        fix="reduce cam.roller_clearance" if speed > limit else "",
+    )
