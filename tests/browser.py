@@ -84,8 +84,22 @@ class Browser:
 
     def point(self, x: float, y: float) -> None:
         """Move the mouse to a place of the window."""
-        move = {"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y), "origin": "viewport"}
-        mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [move]}
+        self._mouse({"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y), "origin": "viewport"})
+
+    def drag(self, start: tuple[float, float], *places: tuple[float, float]) -> None:
+        """Press the mouse at one place of the window and move it, held, over others; `release` lets it go."""
+        self.point(*start)
+        self._mouse({"type": "pointerDown", "button": 0})
+        for place in places:
+            time.sleep(0.2)
+            self.point(*place)
+
+    def release(self) -> None:
+        """Let the mouse go."""
+        self._mouse({"type": "pointerUp", "button": 0})
+
+    def _mouse(self, *actions: dict[str, Any]) -> None:
+        mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [*actions]}
         self._ask("POST", "/actions", actions=[mouse])
 
     def wait(self, script: str, seconds: float = 10.0) -> float:

@@ -179,7 +179,8 @@ class Guard:
     def _with_headers(self, message: dict[str, Any]) -> dict[str, Any]:
         if message["type"] != "http.response.start":
             return message
-        sockets = " ".join(f"ws://{name}" for name in sorted(own_names(self._port)))
+        # An address in brackets is no source of a policy, and none that is listened to.
+        sockets = " ".join(f"ws://{name}" for name in sorted(own_names(self._port)) if "[" not in name)
         policy = (
             f"default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; connect-src 'self' {sockets}; "
             "frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
