@@ -116,7 +116,7 @@ class StudioPage:
         self.quiet = True
         self._rows: dict[str, _Row] = {}
         self._shown_titles: list[tuple[Any, ...]] = []
-        self._shown_checks: list[tuple[Any, ...]] = []
+        self._shown_checks: list[tuple[str, ...]] = []
         self._sheets: dict[str, Any] = {}
         self._ghost: dict[str, Any] | None = None
         self._build()
@@ -262,7 +262,7 @@ class StudioPage:
 
     def checks(self, found: Sequence[Check]) -> None:
         """The findings; those that pass in a fold."""
-        shown = [(c.code, c.name, c.status, c.message, _fix(c)) for c in found]
+        shown = [(c.code, c.name, c.status, *c.lines) for c in found]
         if shown == self._shown_checks:
             return
         self._shown_checks = shown
@@ -281,9 +281,13 @@ class StudioPage:
     def _check(self, check: Check) -> None:
         with _plain("div", "check", data_check=check.code, data_status=check.status):
             _plain("span", "said", words=f"{check.code} {check.name}: {check.message}")
-            if words := _fix(check):
-                button = _plain("button", type="button", data_fix=check.code, words=words)
+            if check.remedy:
+                button = _plain("button", type="button", data_fix=check.code, words=check.fix or "")
                 button.on("click", lambda: self.session.apply(check.remedy))
+            elif check.fix:
+                _plain("span", "more", words=f"fix: {check.fix}")
+            for note in check.note:
+                _plain("span", "more", words=f"note: {note}")
 
     def film(self, data: dict[str, Any] | None, ghost: dict[str, Any] | None) -> None:
         """The mechanism in motion, and pale behind it as it was opened."""
@@ -322,7 +326,7 @@ class StudioPage:
             self._editor.decorations = [
                 {"kind": "line", "line": line, "class": "wrong"} for line in sorted({each.line for each in own})
             ]
-            self._editor.line_tooltips = {each.line: each.as_sentence for each in own}
+            self._editor.line_tooltips = {each.line: "\n".join(each.lines) for each in own}
 
     def say(self, words: str) -> None:
         """A word about what was just asked for."""
@@ -341,10 +345,3 @@ class StudioPage:
 
 def _with_unit(value: Any, unit: str) -> str:
     return drawn(value, unit) + (f" {unit}" if unit not in ("", "1") else "")
-
-
-def _fix(check: Check) -> str:
-    """What a button says that applies the remedy of a finding."""
-    from gearlink.core.base.report import remedy_words
-
-    return remedy_words(check.remedy) if check.remedy else ""

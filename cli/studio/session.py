@@ -215,6 +215,11 @@ class Session:
             raise Refused("there is no mechanism yet")
         return Grip(*given), player_stage(self.state.study.scene(np.array([0.0])), "", reach=self.state.reach)
 
+    @property
+    def _held(self) -> float | None:
+        """The fraction of the loop at which a joint is held."""
+        return None if self._grip is None else self._grip[0].fraction
+
     async def drag(self, place: Sequence[float]) -> None:
         """The joint that is held is drawn to a place of the picture [pixels]."""
         if self._grip is not None:
@@ -333,8 +338,7 @@ class Session:
         slow = [command for command in study.commands if self._slow(command)]
         quick = [command for command in study.commands if command not in slow]
         given = study.text, study.file
-        held = self._grip[0].fraction if self._grip is not None else None
-        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self.state.reach, held)
+        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self.state.reach, self._held)
         self.state.checks |= checks
         self._each(lambda page: page.checks(self._all_checks()))
         await self._show_film(film)
@@ -369,7 +373,7 @@ class Session:
             return False
         self.document.rest()
         state, given = self.state, (study.text, study.file)
-        results, checks, film = await self._beside_page(making.whole, *given, state.reach)
+        results, checks, film = await self._beside_page(making.whole, *given, state.reach, self._held)
         if self._version != version:
             return False
         state.results, state.checks = results, checks

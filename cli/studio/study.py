@@ -171,12 +171,12 @@ def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> Found:
     return results, {command: study.checks(command, advised=False) for command in names}
 
 
-def whole(text: str, file: str, reach: Reach | None) -> tuple[Any, Any, Any]:
+def whole(text: str, file: str, reach: Reach | None, held: float | None) -> tuple[Any, Any, Any]:
     """Key results and findings of all commands, these with what would repair them, and the whole film."""
     study = _study(text, file)
     results = {command: study.results(command) for command in study.commands}
     checks = {command: study.checks(command, advised=True) for command in study.commands}
-    return results, checks, film(text, file, _MOST_PICTURES, reach)
+    return results, checks, film(text, file, _MOST_PICTURES, reach, held)
 
 
 def film(

@@ -247,7 +247,6 @@ def test_a_joint_is_dragged_and_a_wish_is_met(window: Browser, tmp_path: Path) -
     path.write_text(FEED)
     with _opened(window, path) as page:
         page.rests()
-        window.wait("return studio.player && studio.player.data.count === studio.player.data.count")
         page.click("#play")
         before = page.numbers()
         x, y = page.joint("C")
@@ -259,7 +258,7 @@ def test_a_joint_is_dragged_and_a_wish_is_met(window: Browser, tmp_path: Path) -
         assert changed <= {"links.crank", "links.frame"}
         window.release()
         page.click("[data-action=undo]")
-        page.until(lambda: page.numbers() == before)
+        page.until(lambda: page.numbers() == before and "back_step_angle" in page.quantities())
         wish = "document.querySelector('[data-wish=back_step_angle]')"
         enter = f"{wish}.dispatchEvent(new KeyboardEvent('keydown', {{key: 'Enter', bubbles: true}}))"
         window.run(f"{wish}.value = 'back-step 25'; {enter}")
