@@ -155,8 +155,8 @@ def _number(path: KeyPath, value: float, unit: str, factor: float, shapes: Any, 
 
 
 def _step(value: float, unit: str, factor: float) -> float:
-    """What can be built (0.1 mm, half a degree), finer where the file has more digits or the value is small; coarser for
-    numbers of many thousand steps."""
+    """What can be built (0.1 mm, half a degree); finer where the file has more digits or the value is small, coarser
+    for numbers of many thousand steps."""
     step = STEPS_BY_UNIT.get(unit, 0.1) / factor
     if factor != 1.0:
         step = 10.0 ** math.floor(math.log10(step))

@@ -21,7 +21,6 @@ REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {
     "kg",
     "kg m^2",
-    "kg",
     "kg/mm",
     "N/(mm um)",
     "deg C",

@@ -155,8 +155,8 @@ def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
     limit = design.spec.limits.impact_speed
     if limit is None or not design.has_profile:
         return
-    speed = design.impact.speed
-    if speed is None:
+    speed, place = design.impact.speed, design.impact.place
+    if speed is None or place is None:
         return
     yield codes.FLANK_IMPACT.check(
         "warn" if speed > limit else "pass",
@@ -164,6 +164,6 @@ def flank_impact(design: WideSwingDesign) -> Iterator[Check]:
         speed,
         limit,
         "mm/s",
-        at=f"k = {short(design.impact.place)}",
+        at=f"k = {short(place)}",
         fix="reduce cam.roller_clearance" if speed > limit else "",
     )

@@ -83,7 +83,10 @@ def test_all_commands_of_the_design(gearlink: Any, designs: Path, tmp_path: Path
 def test_failing_design_is_still_reported(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink("report", designs / "thesis_example_3_as_printed.yaml", "--out", tmp_path)
     assert ended.status == ExitCode.FINDING
-    assert "interference of the crank gear and the output gear: 1.6 mm" in (tmp_path / "thesis-example-3-as-printed.html").read_text()
+    assert (
+        "interference of the crank gear and the output gear: 1.6 mm"
+        in (tmp_path / "thesis-example-3-as-printed.html").read_text()
+    )
 
 
 def test_wrong_design_writes_nothing(gearlink: Any, crank: Path, tmp_path: Path) -> None:

@@ -88,7 +88,9 @@ class Page:
 
     def quantities(self) -> dict[str, str]:
         """Key results as they are shown."""
-        script = "return [...document.querySelectorAll('[data-quantity]')].map(e => [e.dataset.quantity, e.textContent])"
+        script = (
+            "return [...document.querySelectorAll('[data-quantity]')].map(e => [e.dataset.quantity, e.textContent])"
+        )
         return dict(self.window.run(script))
 
     def numbers(self) -> dict[str, str]:
