@@ -35,7 +35,7 @@ def family(quick: bool) -> Family:
         (
             "error of points: distance from the profile in 30 digits at the same cam angle; of the radial shortcut: "
             "how far the roller, set on it, would stand from its place",
-            "error of polyline and spline: greatest distance from the envelope between the points",
+            "error of polyline and spline: maximum distance from the envelope between the points",
         ),
     )
 
@@ -103,13 +103,13 @@ def _exact(theta: float) -> Any:
 
 
 def point_error(found: Points, theta: Array) -> float:
-    """Greatest distance of points from the profile in 30 digits at the same cam angle."""
+    """Maximum distance of points from the profile in 30 digits at the same cam angle."""
     mp = mpmath(30)
     return max(float(abs(mp.mpc(complex(found[i])) - _exact(float(theta[i])))) for i in sample_of(theta.size))
 
 
 def gap_of(found: Points) -> float:
-    """Greatest | distance from the pitch curve - roller radius | of points."""
+    """Maximum | distance from the pitch curve - roller radius | of points."""
     theta = np.linspace(0.0, 2.0 * math.pi, 200_000, endpoint=False)
     pitch = lift(theta)[0] * np.exp(-1j * theta)
     chosen = found[sample_of(found.size, 60)]

@@ -22,7 +22,7 @@ FULL = (*QUICK, 1_000_000)
 
 
 def positions(size: int) -> Array:
-    """Crank angles all over two turns."""
+    """Crank angles all over two revolutions."""
     return np.random.default_rng(1).uniform(-2.0 * math.pi, 2.0 * math.pi, size)
 
 
@@ -40,7 +40,7 @@ def family(quick: bool) -> Family:
         tuple(rows),
         (
             "error: worst of rocker direction and its two derivatives, in eps = 2^-52, at 40 positions",
-            "the linkage 18, 50, 100, 121.4 stays far from its dead points: the condition number is 1.5",
+            "the linkage 18, 50, 100, 121.4 stays far from its dead centres: the condition number is 1.5",
         ),
     )
 

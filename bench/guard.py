@@ -22,7 +22,7 @@ TRIES = 3
 
 
 def slower(name: str, recorded: dict[str, float]) -> dict[str, tuple[float, float]]:
-    """Methods of a family that are slower than on record: the least ratio of several tries, and that on record.
+    """Methods of a family that are slower than on record: the minimum ratio of several tries, and that on record.
 
     Raises
         LookupError - where the record has none of the family's methods, so that nothing would be compared

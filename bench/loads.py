@@ -159,7 +159,7 @@ def _motors() -> list[Method]:
         return MotorRun(_torque_of_load, inertia, Panels.over(TURN, []), SLOPE, NO_LOAD).speed(x)
 
     def marched() -> Reals:
-        """Runge-Kutta over the energy, 360 steps a turn, six turns from the no-load speed."""
+        """Runge-Kutta over the energy, 360 steps a revolution, six turns from the no-load speed."""
         step, energy, found = TURN / ROWS, 0.5 * INERTIA * NO_LOAD**2, np.empty(ROWS + 1)
 
         def rate(phi: float, e: float) -> float:

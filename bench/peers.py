@@ -82,7 +82,7 @@ def start(code: str) -> float:
 
 
 def pylinkage_linkage(size: int) -> Any:
-    """The four-bar as a pylinkage Linkage whose crank makes one turn in `size` steps."""
+    """The four-bar as a pylinkage Linkage whose crank makes one revolution in `size` steps."""
     from pylinkage.actuators import Crank
     from pylinkage.components import Ground
     from pylinkage.dyads import RRRDyad
@@ -131,7 +131,7 @@ def mechanism_sweep(size: int) -> Any:
 
 
 def error(points: Any) -> float:
-    """Greatest relative error of the coupler pin for the crank pin that the package itself gives, in 30 digits."""
+    """Maximum relative error of the coupler pin for the crank pin that the package itself gives, in 30 digits."""
     import mpmath as mp
 
     mp.mp.dps = 30

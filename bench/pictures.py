@@ -51,21 +51,21 @@ def family(quick: bool) -> Family:
         "none",
         "a process that draws five empty panels and saves them as PNG",
         rows,
-        ("the worked designs; modules compiled beforehand",),
+        ("the examples; modules compiled beforehand",),
     )
 
 
-FOLDERS = {"check of the worked designs": ["check", "."], "batch of the worked designs": ["batch", ".", "--jobs", "1"]}
+FOLDERS = {"check of the examples": ["check", "."], "batch of the examples": ["batch", ".", "--jobs", "1"]}
 
 
 def folders(quick: bool) -> Family:
-    """All worked designs in one process."""
+    """All examples in one process."""
     compile_all()
     methods = [Method(what, 1, process(designs(), "-c", RUN, *line)) for what, line in FOLDERS.items()]
     reference = process(designs(), "-c", RUN, "check", "candy_feed.yaml")
     return Family(
         "folders",
-        "All worked designs in one process",
+        "All examples in one process",
         "none",
         "the check of one of them, candy_feed.yaml",
         measure(methods, reference, 1, 1 if quick else 3),

@@ -1,4 +1,4 @@
-"""Samples of tolerance studies: drives as made, many at once against one by one."""
+"""Samples of tolerance studies: drives as manufactured, many at once against one by one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_out
 
 
 def family(quick: bool) -> Family:
-    """The table of the family; the error is the greatest difference from drives computed one by one."""
+    """The table of the family; the error is the maximum difference from drives computed one by one."""
     axis, size = ThreeGearSamples(_drive()), 2048 if quick else 8192
     columns = _columns(axis, size)
     few = {key: column[:: size // _FEW][:_FEW] for key, column in columns.items()}
@@ -33,7 +33,7 @@ def family(quick: bool) -> Family:
     rows: tuple[Row, ...] = measure(methods, numpy_pass(size), size, 3)
     return Family(
         "samples",
-        "Samples of a three-gear drive as made: one quantity and all checks",
+        "Samples of a three-gear drive as manufactured: one quantity and all checks",
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
         rows,

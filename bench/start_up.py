@@ -49,7 +49,7 @@ RUN = "import sys; from gearlink.cli.main import main; sys.exit(main())"
 
 
 def designs() -> Path:
-    """The folder of the worked designs."""
+    """The folder of the examples."""
     import gearlink.designs as package
 
     return Path(str(package.__file__)).parent
@@ -74,7 +74,7 @@ def family(quick: bool) -> Family:
         "none",
         "a minimal Typer program with one command",
         rows,
-        ("the worked designs; modules compiled beforehand, as an installed package's are",),
+        ("the examples; modules compiled beforehand, as an installed package's are",),
     )
 
 
@@ -146,7 +146,7 @@ PRESS = ("ty460.yaml",)
 
 
 def write_designs(folder: Path, count: int, kinds: tuple[str, ...] = SMALL) -> list[Path]:
-    """Copies of worked designs, no two files alike."""
+    """Copies of examples, no two files alike."""
     texts = [(designs() / kind).read_text(encoding="utf-8") for kind in kinds]
     written = []
     for i in range(count):

@@ -68,7 +68,7 @@ _FEW = 50
 
 
 def family(quick: bool) -> Family:
-    """The table of the family; the error is the greatest difference of any quantity from the design class's."""
+    """The table of the family; the error is the maximum difference of any quantity from the design class's."""
     methods = []
     studies = {command: _study(command) for command in _TASKS}
     studies["synth dwell, idler sought"] = _study("synth dwell", idler=False)

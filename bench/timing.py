@@ -116,7 +116,7 @@ def sample_of(size: int, most: int = 40) -> list[int]:
 
 
 def worst(found: Iterable[float], true: Iterable[Any]) -> float:
-    """Greatest error in units in the last place of the true value."""
+    """Maximum error in units in the last place of the true value."""
     return max(float(abs(type(t)(float(f)) - t)) / math.ulp(float(t)) for f, t in zip(found, true, strict=True))
 
 

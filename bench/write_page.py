@@ -52,7 +52,7 @@ _REASONS = """## Where a goal is missed, and why
   in as many processes as there are processors, each the next that none has taken. A film of a machine with true teeth
   spends its time on polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are
   processors.
-* **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
+* **All examples.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
   press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
   results and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) and 1.6 ms (synthesis with its meshes, dwell and
@@ -104,8 +104,8 @@ def goals(wide_vectors: bool) -> list[Goal]:
     seconds = [
         Goal(f"{what}, whole process", limit, "ns", _row(family, what, "nanoseconds"))
         for family, what, limit in (
-            ("folders", "check of the worked designs", 0.6e9),
-            ("folders", "batch of the worked designs", 0.6e9),
+            ("folders", "check of the examples", 0.6e9),
+            ("folders", "batch of the examples", 0.6e9),
             ("pictures", "report, press", 1.5e9),
             ("pictures", "report, wide swing", 1.5e9),
             ("pictures", "animate, GIF", 1.5e9),

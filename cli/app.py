@@ -111,7 +111,7 @@ def _studio(
 
     Example: gearlink studio press.yaml --open
     """
-    from gearlink.cli.commands.studio import run_studio
+    from gearlink.cli.studio.command import run_studio
 
     raise typer.Exit(run_studio(spec, options, port=port, show=show))
 

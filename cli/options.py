@@ -143,7 +143,7 @@ class Option(NamedTuple):
         help : str
         type : makes the value from its text; bool: the option has no value
         metavar : str or None - what stands for the value in --help; None: its type
-        least, most : bounds of a number
+        minimum, most : bounds of a number
         repeatable : bool - each use adds a value
         stands_for : bool - what an option without a value sets
         offers : str - function of `gearlink.cli.completing` that a shell asks on Tab
@@ -179,7 +179,7 @@ OPTIONS = {
     "tables": Option(
         ("--table",), "add a table; in csv alone (repeatable)", str, "NAME", repeatable=True, offers="tables"
     ),
-    "samples": Option(("--samples",), "rows per turn or stroke", int, least=FEWEST_ROWS, most=MOST_ROWS),
+    "samples": Option(("--samples",), "rows per revolution or stroke", int, least=FEWEST_ROWS, most=MOST_ROWS),
     "strict": Option(("--strict",), "treat a warning as a failure"),
     "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),
     "quiet": Option(("--quiet", "-q"), "print no notes on standard error"),
@@ -201,7 +201,7 @@ OF_REPORT = ("out", "overrides", "strict", "quiet")
 """Those that `report` has."""
 
 COMMANDS = {
-    "analyze": "Full analysis of a design: kinematics over a turn, dwells, all checks.",
+    "analyze": "Full analysis of a design: kinematics over a revolution, dwells, all checks.",
     "gear": "Gear pairs: a gear-pair design, or the pairs inside a press or a geared linkage.",
     "crank": "Crank length from the stroke of a slider-crank.",
     "press": "Flatbed press: both chains, 12 positions, velocities, synchronous zone.",
@@ -212,7 +212,7 @@ COMMANDS = {
     "synth dwell": "Size the linkage for a dwell over a given crank angle.",
     "synth back-step": "Size the linkage for a back-step.",
     "synth variable-speed": "Size the linkage for an output speed that varies between two values.",
-    "synth momentary-dwell": "Size the frame for one momentary standstill per turn.",
+    "synth momentary-dwell": "Size the frame for one momentary standstill per revolution.",
     "synth swing": "Crank-rocker from swing and time ratio, with the best transmission angle.",
     "synth function": "Crank-rocker through three pairs of crank and rocker angle.",
 }

@@ -52,7 +52,7 @@ def _reasons(found: Any) -> list[str]:
 SCALES = {"speed_ratio_min": 1.0, "min_transmission_angle": 1.0, "center_distance_modification": 1.0}
 """Sizes below which a value has not so many digits; all other quantities are compared relatively, however small.
 
-The least speed of an output that stands still is nothing but the rounding of the speeds whose difference it is. Of a
+The minimum speed of an output that stands still is nothing but the rounding of the speeds whose difference it is. Of a
 transmission angle [deg] near a dead point, tan^2(mu/2) is a difference of link lengths: their last digit costs eps/mu^2
 of it, 3e-9 at 0.015 deg. The modification of a centre distance, in modules, is what is left of two distances of tens.
 """

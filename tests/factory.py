@@ -1,4 +1,4 @@
-"""The one place where tests make designs: from the data of a design file, or from a worked design, with changes."""
+"""The one place where tests make designs: from the data of a design file, or from a example, with changes."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def design(given: str | Mapping[str, Any], /, *, command: str = "analyze", **key
     """The design of a file's data.
 
     Parameters
-        given : the data, or the name of a worked design ("ty460")
+        given : the data, or the name of a example ("ty460")
         command : str - whose design class it is; "analyze" stands for all but the four of `synth`
         keys - changes as in `changed`
     """
@@ -70,7 +70,7 @@ def changed(data: Mapping[str, Any], **keys: Any) -> dict[str, Any]:
 
 
 def worked(name: str) -> dict[str, Any]:
-    """The data of a worked design by the name of its file, named after it where it has no name, as the program does."""
+    """The data of a example by the name of its file, named after it where it has no name, as the program does."""
     return copy.deepcopy(_read(name))
 
 

@@ -1,4 +1,4 @@
-"""A worked design of every kind that has loads, for tests that hold of all of them."""
+"""A example of every kind that has loads, for tests that hold of all of them."""
 
 from __future__ import annotations
 

@@ -44,5 +44,5 @@ def wrapped(angle: Any, dial: float) -> Any:
 
 
 def turns(angle: float) -> float:
-    """An angle in rad as one of a turn in deg."""
+    """An angle in rad as one of a revolution in deg."""
     return math.degrees(angle) % 360.0

@@ -43,7 +43,7 @@ SIX_BARS = {
         [_train("EFA", [20, 30, 40], 2), _train("AB", [20, 20], 2)],
         {"coupler_1": 240, "output": -60}, "gear_1F", coupler_1=180, coupler_2=180, coupler_3=180,
     ),
-    "both trains on one link, two turns": _six_bar(
+    "both trains on one link, two revolutions": _six_bar(
         [_train("ABC", [20, 20, 20], 1), _train("BC", [30, 10], 1)],
         {"coupler_1": 120, "coupler_2": 120}, frame=30, coupler_2=180, coupler_3=150, output=120,
     ),

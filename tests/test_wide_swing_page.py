@@ -53,7 +53,7 @@ def test_passes_of_the_worked_designs() -> None:
         design(path.stem, command="swing", method="iteration").quantity("iteration_passes").value
         for path in sorted(DESIGNS.glob("wide_swing_*.yaml"))
     ]
-    words = re.search(r"(\d+) to (\d+) passes in the\s+worked designs", PAGE.read_text())
+    words = re.search(r"(\d+) to (\d+) passes in the\s+examples", PAGE.read_text())
     assert words, "the page says how many"
     assert [int(word) for word in words.groups()] == [min(found), max(found)]
 

@@ -245,7 +245,7 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     if place is None:
         raise NoSolution(
             (
-                "the output of this design never steps back (least speed ratio "
+                "the output of this design never steps back (minimum speed ratio "
                 f"{design.speed_ratio_min:.6g}), so it has no place in the chart {chart.name}"
             ),
             fix="shorten the frame, or take the chart nonuniformity",
@@ -270,7 +270,7 @@ def _off_family(marked: Marked) -> str:
 
 _COLORS = (style.BLUE, style.RED, style.GREEN, style.ORANGE, style.PURPLE, style.SKY, style.BLACK)
 _BESIDE_A_POINT = 25
-"""Places between two rows beside the greatest of a pointed curve."""
+"""Places between two rows beside the maximum of a pointed curve."""
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1.5, 2)))
 """Neighbours differ in their lines as well, for grey print; each of 21 curves has its own look."""
 
@@ -304,7 +304,7 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
 
 
 def _pointed(chart: DesignChart, x: Any, y: Any, parameter: float) -> tuple[Any, Any]:
-    """A curve with more places about its greatest row, from the row before it to that after it."""
+    """A curve with more places about its maximum row, from the row before it to that after it."""
     import numpy as np
 
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)

@@ -46,7 +46,7 @@ class Difference:
 
 
 def same(old: Any, new: Any, tolerance: float, least: float = 1.0) -> bool:
-    """Whether two values count as equal; numbers do within tolerance * max(least, |old|, |new|).
+    """Whether two values count as equal; numbers do within tolerance * max(minimum, |old|, |new|).
 
     Example
         >>> same(100.0, 100.0 + 1e-8, 1e-9), same(0.0, 1e-10, 1e-9), same("a", "b", 1.0), same(0.0, 1e-10, 1e-9, 0.0)

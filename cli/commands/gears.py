@@ -25,7 +25,7 @@ Application = Annotated[float, typer.Option("--application", min=0.1, max=10.0, 
 Grade = Annotated[int, typer.Option("--grade", min=1, max=11, help="accuracy grade of ISO 1328-1")]
 Oil = Annotated[float, typer.Option("--vg", min=1.0, max=1e4, help="viscosity of the oil at 40 deg C, mm^2/s")]
 Crowned = Annotated[bool, typer.Option("--crowned", help="the helix is crowned")]
-WidthRatio = Annotated[float, typer.Option("--width-ratio", min=0.05, max=3.0, help="greatest face width over d1")]
+WidthRatio = Annotated[float, typer.Option("--width-ratio", min=0.05, max=3.0, help="maximum face width over d1")]
 
 
 @takes("format", "color", "quiet")
@@ -34,7 +34,9 @@ def gears(
     ratio: Annotated[float, typer.Option("--ratio", metavar="I", min=1e-3, max=1e3, help="teeth 2 over teeth 1")],
     center_distance: Annotated[
         float | None,
-        typer.Option("--center-distance", metavar="A", min=1e-3, max=1e6, help="mm; with --torque the least is sought"),
+        typer.Option(
+            "--center-distance", metavar="A", min=1e-3, max=1e6, help="mm; with --torque the minimum is found"
+        ),
     ] = None,
     modules: Annotated[
         str, typer.Option("--modules", metavar="M,M", help="normal modules, mm; default: ISO 54 series I from 1 to 20")
@@ -43,7 +45,7 @@ def gears(
         str, typer.Option("--shift-sum", metavar="MIN:MAX", help="x1 + x2, ISO signs; default: -0.5:1, rings -0.5:0.5")
     ] = "",
     ratio_tolerance: Annotated[
-        float, typer.Option("--ratio-tolerance", min=0.0, max=1.0, help="greatest relative error of the ratio")
+        float, typer.Option("--ratio-tolerance", min=0.0, max=1.0, help="maximum relative error of the ratio")
     ] = 0.02,
     helix: Annotated[float, typer.Option("--helix", min=0.0, max=45.0, help="helix angle, deg")] = 0.0,
     internal: Annotated[bool, typer.Option("--internal", help="gear 2 is a ring")] = False,
@@ -62,7 +64,7 @@ def gears(
 
     x1 is shared for equal sliding; margin is how far it may move until undercut, a thin tip, a root fillet or a small
     contact ratio is met, negative where one is met already. Of more than 1000 pairs the nearest to the ratio are shown.
-    With --torque and --speed each pair is rated by ISO 6336: the least face width that carries the load for the life
+    With --torque and --speed each pair is rated by ISO 6336: the minimum face width that carries the load for the life
     with S_H 1 and S_F 1.4, the narrowest first. Exit status 1: no pair meets the conditions.
 
     Examples: gearlink gears --ratio 3.2 --center-distance 120
@@ -79,7 +81,9 @@ def gears(
             )
         carried = _carried(torque, speed, life, material, application, grade, vg, crowned, width_ratio)
     if center_distance is None and carried is None:
-        raise typer.BadParameter("give it, or --torque and --speed for the least one", param_hint="--center-distance")
+        raise typer.BadParameter(
+            "give it, or --torque and --speed for the smallest one", param_hint="--center-distance"
+        )
 
     task = PairTask(
         ratio=ratio,
@@ -151,7 +155,7 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
 
 
 def _rated(task: PairTask, carried: Carried, sought: bool) -> Table:
-    """The table of the pairs that carry the load, at the given centre distance or the least one."""
+    """The table of the pairs that carry the load, at the given centre distance or the smallest one."""
     from gearlink.core.parts.gears.shifts.carrying import carrying, rated_table, smallest
 
     return rated_table(smallest(task, carried)[1] if sought else carrying(task, carried))

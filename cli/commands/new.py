@@ -1,4 +1,4 @@
-"""`gearlink new`: the worked design of a kind as a template, with a list of the keys that it leaves out."""
+"""`gearlink new`: the example of a kind as a template, with a list of the keys that it leaves out."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def list_of_kinds() -> str:
 
 
 def template(kind: Kind, name: str = "") -> str:
-    """The text of a template: the schema's line, the worked design, and the keys that it leaves out as comments.
+    """The text of a template: the schema's line, the example, and the keys that it leaves out as comments.
 
     Parameters
         kind : Kind
         name : what the design is called; empty: it is named after its file
     Raises
-        LookupError - for a kind without a worked design in `gearlink.designs`
+        LookupError - for a kind without a example in `gearlink.designs`
     """
     design = worked_design(kind)
     if kind.name in KINDS:
@@ -77,7 +77,7 @@ def template(kind: Kind, name: str = "") -> str:
 
 
 def _explained(kind: Kind, text: str, name: str) -> str:
-    """A worked design under another name, every key with its unit, its meaning and who chooses it."""
+    """A example under another name, every key with its unit, its meaning and who chooses it."""
     from gearlink.cli.texts.written_design import written
 
     data = _read(text)

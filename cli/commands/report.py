@@ -93,7 +93,7 @@ def _taken() -> dict[int, Any]:
 
 
 class Section(NamedTuple):
-    """A command on the page: its report without tables, film (of the first command), sheet and results as HTML."""
+    """A command on the page: its report without tables, animation (of the first command), sheet and results as HTML."""
 
     report: Report
     film: str

@@ -23,7 +23,7 @@ class Method(StrEnum):
 
 
 Samples = Annotated[
-    int | None, typer.Option("--samples", min=16, max=2**24, help="designs as made; rounded up to 16 x 2^k")
+    int | None, typer.Option("--samples", min=16, max=2**24, help="designs as manufactured; rounded up to 16 x 2^k")
 ]
 Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
 
@@ -59,7 +59,7 @@ def _tolerance(
     jobs: Jobs = 0,
     dask: Scheduler = "",
 ) -> None:
-    """Yield of a design as made: spreads, capabilities, and which tolerance contributes what.
+    """Yield of a design as manufactured: spreads, capabilities, and which tolerance contributes what.
 
     Exit status: 1 a check of the nominal design fails, or the yield may lie below its target.
 

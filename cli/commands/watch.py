@@ -236,7 +236,7 @@ _EVERY = 0.05
 _GONE = 40
 """So many looks without a file, and it is told: an editor takes it away for a moment only."""
 _FIRST_PICTURES = 60
-"""A film of so few pictures comes at once; the whole one follows the sheets."""
+"""A animation of so few pictures comes at once; the whole one follows the sheets."""
 
 
 def run_watch(source: str, options: Options, *, port: int = 0, show: bool = False) -> int:

@@ -59,7 +59,7 @@ def _below(study: Exploration) -> list[str]:
             f"{study.shown} of {amount(study.kept, 'row')}, far from each other; coarsen the resolutions, or use csv"
         )
     if study.knee is not None:
-        lines.append("* knee: the least sum of objectives scaled to the front; a mark, no verdict")
+        lines.append("* knee: the minimum sum of objectives scaled to the front; a mark, no verdict")
     lines.append("--show INDEX prints a design's file, --write DIR writes all kept ones")
     return lines
 

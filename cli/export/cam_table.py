@@ -18,7 +18,7 @@ from gearlink.cli.render.errors import show_refusal
 
 
 def run_cam_table(source: str, options: Options, rows: int | None, tolerance: float | None) -> int:
-    """Write NAME-cam-table.csv, say its rows and the greatest error of position between them, give the exit status."""
+    """Write NAME-cam-table.csv, say its rows and the maximum error of position between them, give the exit status."""
     from gearlink.core.parts.cams.servo import greatest_error, servo_table
 
     try:

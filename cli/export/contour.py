@@ -136,7 +136,7 @@ class Contour:
     Attributes
         pieces : the stretches, joined; of a gear those of one pitch, both halves of it
         turns : unit vectors - the places of the pieces: one, or one for each tooth
-        error : float [mm] - greatest distance of any curve from its chords or cubics
+        error : float [mm] - maximum distance of any curve from its chords or cubics
     """
 
     part: Part
@@ -180,7 +180,7 @@ def contour(part: Part, tolerance: float, form: CurveForm) -> Contour:
 
     Parameters
         part : Part
-        tolerance : float [mm] - greatest distance of a curve from its chords or cubics
+        tolerance : float [mm] - maximum distance of a curve from its chords or cubics
         form : CurveForm
     Returns
         contour : Contour
@@ -217,7 +217,7 @@ def _steps(piece: Sampled) -> int:
 
 
 def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
-    """The least round tolerance that works, or the number of teeth that does."""
+    """The minimum round tolerance that works, or the number of teeth that does."""
     steps = [digit * 10.0**power for power in range(-5, 2) for digit in (1, 2, 5)]
     for coarser in (step for step in steps if tolerance < step <= MOST_TOLERANCE):
         with suppress(TooFine):
@@ -236,7 +236,7 @@ def _step(turns: Points) -> complex:
 
 
 def _joined(pieces: list[Sampled], closed: bool, step: complex) -> tuple[list[Sampled], float]:
-    """Ends of stretches that meet made the same to the bit, and the greatest gap that was there."""
+    """Ends of stretches that meet made the same to the bit, and the maximum gap that was there."""
     gap, joined = 0.0, []
     followers = [*pieces[1:], pieces[0].turned(step) if closed else None]
     for piece, following in zip(pieces, followers, strict=True):

@@ -484,7 +484,7 @@ _INSIDE = 1e-12
 
 
 def disc_cam(name: str, cam: DiscCam) -> Part:
-    """A closed cam: profile and pitch curve over a turn, a vertex at each joint of its law.
+    """A closed cam: profile and pitch curve over a revolution, a vertex at each joint of its law.
 
     Raises
         NoSolution - where the cam does not exist
@@ -514,7 +514,7 @@ def disc_cam(name: str, cam: DiscCam) -> Part:
 
 
 def flat_cam(name: str, cam: FlatCam) -> Part:
-    """A closed cam under a flat face: its profile over a turn, a vertex at each joint of its law."""
+    """A closed cam under a flat face: its profile over a revolution, a vertex at each joint of its law."""
 
     def stretch(low: float, high: float) -> Stretch:
         def inside(theta: Reals) -> Reals:
@@ -543,7 +543,7 @@ def flat_cam(name: str, cam: FlatCam) -> Part:
 
 
 def _joints(cam: DiscCam | FlatCam) -> list[float]:
-    """Cam angles from 0 to a turn where stretches meet."""
+    """Cam angles from 0 to a revolution where stretches meet."""
     inside = sorted(joint % _TURN for joint in cam.joints)
     apart = [0.0]
     for joint in inside:

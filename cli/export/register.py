@@ -43,7 +43,7 @@ def _export(
             min=LEAST_TOLERANCE,
             max=MOST_TOLERANCE,
             metavar="MM",
-            help="greatest chord error, 0.001 where left out; of --cam-table the greatest error of position (mm, deg)",
+            help="maximum chord error, 0.001 where left out; of --cam-table the maximum error of position (mm, deg)",
         ),
     ] = None,
     curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,

@@ -1,7 +1,7 @@
 """Curves as chords or as interpolating cubics, refined until the distance from the curve is within a tolerance.
 
 The distance is measured against the kernel's curve between all nodes, never estimated from a formula, and the
-greatest that is left is reported.
+maximum that is left is reported.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ MOST_POINTS = 100_000
 
 _PROBES = 8  # parts of a step at whose ends the distance is measured
 _SHARES = np.arange(_PROBES + 1) / _PROBES
-_UNSEEN = 9e-5  # share by which the greatest distance may pass what probes tell of it; 4e-5 was seen
-_CUBIC = 1.0 / math.sqrt(243.0)  # greatest of (x - x^3)/6 on [0, 1]: a cubic over its parabola, per third difference
+_UNSEEN = 9e-5  # share by which the maximum distance may pass what probes tell of it; 4e-5 was seen
+_CUBIC = 1.0 / math.sqrt(243.0)  # maximum of (x - x^3)/6 on [0, 1]: a cubic over its parabola, per third difference
 _TELLING = 500  # steps to be halved from which on they tell how many nodes there will be
 _FORESEEN = 16.0  # parts of a step at most that are foretold: beside a corner it needs fewer than by the rule
 _FEWER = 1.2  # times fewer nodes than by the rule, at most
@@ -69,7 +69,7 @@ class Sampled:
     Attributes
         nodes : (curves, N) complex array [mm]
         parameter : (N,) array - of the nodes
-        error : float [mm] - greatest distance between the curve and its chords or cubics
+        error : float [mm] - maximum distance between the curve and its chords or cubics
         knots, control : (N + 4,), (curves, N) arrays - of the cubic B-splines; empty for chords
     """
 
@@ -105,9 +105,9 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
 
     Parameters
         stretch : Stretch
-        tolerance : float [mm] - greatest distance
+        tolerance : float [mm] - maximum distance
         form : CurveForm
-        most : int - greatest number of nodes of all curves
+        most : int - maximum number of nodes of all curves
     Returns
         sampled : Sampled
     Raises
@@ -115,7 +115,7 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
     Notes
         Steps that are too long are halved, so that nodes lie dense only where the curve bends; what is known of the
         curve is kept. The distance is measured at seven places of each step, and the vertex of the parabola through
-        the greatest and its neighbours is added, with what the third difference there tells. Of a spline it is the
+        the maximum and its neighbours is added, with what the third difference there tells. Of a spline it is the
         distance at equal parameter, never less than that of the curves.
     """
     spline = form is CurveForm.SPLINE
@@ -195,7 +195,7 @@ def _from_cubics(cubic: Any, probes: Reals, points: Points) -> Reals:
 
 
 def _peaks(probes: Reals) -> Reals:
-    """Greatest distance in each step over all curves: the parabola's vertex beside the greatest probe, and what a cubic
+    """Maximum distance in each step over all curves: the parabola's vertex beside the maximum probe, and what a cubic
     through one probe more can stand above that parabola."""
     place = np.argmax(probes[:, :, 1:-1], axis=2)[..., None] + 1
     left, top, right = (np.take_along_axis(probes, place + shift, axis=2)[..., 0] for shift in (-1, 0, 1))

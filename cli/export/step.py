@@ -62,7 +62,7 @@ def as_step(contour: Contour, spec: Any, width: float | None = None) -> bytes:
 
 
 def helix_error(contour: Contour, width: float | None) -> float:
-    """Greatest distance of a solid's flanks from the section turned along the axis [mm]; 0 where it does not turn."""
+    """Maximum distance of a solid's flanks from the section turned along the axis [mm]; 0 where it does not turn."""
     turned = _turning(contour, width_of(contour, width))
     return 0.0 if turned is None else turned.error * _reach(contour)
 
@@ -254,7 +254,7 @@ class Turning:
         knots : with four at each end
         control : complex - control points of the turned unit vector; the first is 1, the last lies on the circle
         heights : share of the width at each control point
-        error : float - greatest distance from the circle's point at the same height, of radius 1
+        error : float - maximum distance from the circle's point at the same height, of radius 1
     """
 
     knots: Reals
@@ -268,7 +268,7 @@ def turning(angle: float, tolerance: float) -> Turning:
 
     Parameters
         angle : float [rad]
-        tolerance : float - greatest distance at radius 1
+        tolerance : float - maximum distance at radius 1
     Raises
         TooLong - where that takes more spans than a file should hold
     Notes

@@ -106,7 +106,7 @@ class Watch:
         self._told = True
         left = seconds / counted * (self.whole - done)
         if left > _LONG:
-            words = f"this takes about {_duration(left)}: {self.whole:,} designs as made are computed"
+            words = f"this takes about {_duration(left)}: {self.whole:,} designs as manufactured are computed"
             print(f"{words}, fewer with --samples", file=sys.stderr)
 
 

@@ -17,7 +17,7 @@ def allowed_numbers(model: type[BaseModel], path: KeyPath, data: Any, least: flo
     """The numbers that may stand at a key path; every number that is named may.
 
     Parameters
-        least, most : float - sizes of numbers, 0 aside, that a file may hold
+        minimum, most : float - sizes of numbers, 0 aside, that a file may hold
     Returns
         str - "from 1e-30 to 1e+12"; empty where nothing is known of the key
     """

@@ -33,7 +33,7 @@ class Number:
         path, name : its place in the file; as it is written
         value : float - as the file has it
         unit, factor : the unit in which the file has it; how much of the key's unit one of it is
-        least, most, left_out : float, float, bounds that are themselves out - what the schema allows, in that unit
+        minimum, most, left_out : float, float, bounds that are themselves out - what the schema allows, in that unit
         step : float - in which it can be built; 1 where it is whole
         choices : the only values that it may have; empty where it has a range
         words : str - what it is

@@ -156,7 +156,7 @@ class StudioPage:
             self._editor = ui.codemirror("", language="YAML", on_change=self._typed).classes("editor")
             self._numbers = ui.column().classes("scrolls")
             with ui.column().classes("scrolls") as self._right:
-                self._film = ui.element("div").classes("film w-full")
+                self._film = ui.element("div").classes("animation w-full")
                 self._key = (
                     ui.select([], label="a wish may change").props("dense options-dense").style("min-width: 16em")
                 )
@@ -293,7 +293,7 @@ class StudioPage:
         """The mechanism in motion, and pale behind it as it was opened."""
         same, self._ghost = ghost is self._ghost, ghost
         behind = "undefined" if same else as_script(ghost)
-        self._run(f"studio.film('{self._film.html_id}', {as_script(data)}, {behind})")
+        self._run(f"studio.animation('{self._film.html_id}', {as_script(data)}, {behind})")
 
     def sheets(self, commands: Sequence[str]) -> None:
         """A place for each sheet."""

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Remedy
 
 _AT_ONCE = 48
-"""Pictures of a film while the hand moves."""
+"""Pictures of a animation while the hand moves."""
 _QUICK = 0.02
 """Results of further commands that take longer are computed beside the page [s]."""
 _REST = 0.35
@@ -334,7 +334,7 @@ class Session:
         self._each(lambda page: page.numbers(self.state.numbers))
 
     async def _moving(self, study: Study, version: int) -> bool:
-        """Film and findings, then what takes longer; whether the text is still the newest."""
+        """Animation and findings, then what takes longer; whether the text is still the newest."""
         slow = [command for command in study.commands if self._slow(command)]
         quick = [command for command in study.commands if command not in slow]
         given = study.text, study.file
@@ -352,7 +352,7 @@ class Session:
         return self._version == version
 
     async def _show_film(self, film: tuple[dict[str, Any], Reach] | None) -> None:
-        """The film, before that of the design as it was opened, drawn to the same scale."""
+        """The animation, before that of the design as it was opened, drawn to the same scale."""
         if film is None:
             if self.state.study is not None and not self.state.study.moves:
                 self._each(lambda page: page.film(None, None))

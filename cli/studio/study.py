@@ -154,7 +154,7 @@ def _study(text: str, file: str) -> Study:
 def moving(
     text: str, file: str, commands: Sequence[str], count: int, reach: Reach | None, held: float | None
 ) -> tuple[Any, Any]:
-    """The findings of some commands, and a film of few pictures; None where nothing moves."""
+    """The findings of some commands, and a animation of few pictures; None where nothing moves."""
     study = _study(text, file)
     checks = {command: study.checks(command, advised=False) for command in commands}
     return checks, film(text, file, count, reach, held)
@@ -172,7 +172,7 @@ def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> Found:
 
 
 def whole(text: str, file: str, reach: Reach | None, held: float | None) -> tuple[Any, Any, Any]:
-    """Key results and findings of all commands, these with what would repair them, and the whole film."""
+    """Key results and findings of all commands, these with what would repair them, and the whole animation."""
     study = _study(text, file)
     results = {command: study.results(command) for command in study.commands}
     checks = {command: study.checks(command, advised=True) for command in study.commands}
@@ -182,7 +182,7 @@ def whole(text: str, file: str, reach: Reach | None, held: float | None) -> tupl
 def film(
     text: str, file: str, most: int, reach: Reach | None, held: float | None = None
 ) -> tuple[dict[str, Any], Reach] | None:
-    """The film of at most so many pictures; None where nothing moves, or it cannot be drawn."""
+    """The animation of at most so many pictures; None where nothing moves, or it cannot be drawn."""
     study = _study(text, file)
     if not study.moves:
         return None
@@ -423,7 +423,7 @@ class Grip:
 
         Notes
             Newton steps on the design's own sensitivities, brought up to date by Broyden's rank-one rule; a step that
-            leads to no mechanism is halved. Least change: Moore-Penrose inverse of the scaled slopes.
+            leads to no mechanism is halved. Minimum change: Moore-Penrose inverse of the scaled slopes.
         """
         import numpy as np
 

@@ -14,7 +14,7 @@ FILES: tuple[Rule, ...] = (
         "GL101",
         "file cannot be read",
         "There is no such file or folder, it may not be read, or a folder holds no design file (.yaml, .yml).",
-        "Nothing can be computed without it; a folder given where one file is wanted is not guessed at.",
+        "Nothing can be computed without it; a folder given where one file is required is not guessed at.",
         "Check the path. `gearlink batch` and `gearlink check` take folders, all other commands one file, or - for "
         "standard input.",
     ),
@@ -58,7 +58,8 @@ FILES: tuple[Rule, ...] = (
     Rule(
         "GL107",
         "wrong type of value",
-        "A number, a text, a list or a section stands where another of these is wanted, or a list has a wrong length.",
+        "A number, a text, a list or a section stands where another of these is required, or a list has a wrong "
+        "length.",
         "Numbers in quotation marks are text, 40:20 and no are text in YAML 1.2, and true is no number.",
         "Write the value as the message asks: numbers plain or with a unit, without quotation marks.",
     ),
@@ -287,7 +288,7 @@ TOLERANCES: tuple[Rule, ...] = (
         "too many sources",
         "The sources take more random numbers than 64 (32 with Sobol' indices); a pin takes two.",
         "Scrambled Sobol' points lose their balance in so many dimensions.",
-        "Leave out the sources that contribute least.",
+        "Leave out the sources that contribute minimum.",
     ),
     Rule(
         "GL176",

@@ -27,7 +27,7 @@ class Index:
         checks : check -> kinds that make it
         quantities : quantity -> kinds with the commands that show it
         laws : names of motion laws
-        first_commands : kind -> the first command that its worked design asks for
+        first_commands : kind -> the first command that its example asks for
     """
 
     checks: dict[str, list[str]]

@@ -1,4 +1,4 @@
-"""The worked design that shows a kind."""
+"""The example that shows a kind."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 
 
 def worked_design(kind: Kind) -> str:
-    """The text of the kind's worked design: the file that bears its name, else the first by name."""
+    """The text of the kind's example: the file that bears its name, else the first by name."""
     folder = Path(str(designs.__file__)).parent
     files = [(file.stem, file.read_text(encoding="utf-8")) for file in folder.rglob("*.yaml")]
     own = {stem: text for stem, text in files if (found := _KIND.search(text)) and found[1] == kind.name}
     if not own:
-        raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
+        raise LookupError(f"no example of kind {kind.name} in gearlink.designs")
     return own.get(kind.worked or kind.name.replace("-", "_"), own[min(own)])

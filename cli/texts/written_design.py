@@ -35,8 +35,8 @@ def written(
         >>> from gearlink.core.base.kinds import KINDS
         >>> print(written(KINDS["slider-crank"], {"kind": "slider-crank", "stroke": 310.0, "rod": 520}))
         kind: slider-crank   # an offset slider-crank given by its stroke or its crank
-        stroke: 310          # mm: stroke of the slider; may be left out
-        rod: 520             # mm: connecting rod; may be left out
+        stroke: 310          # mm: stroke of the slider; optional
+        rod: 520             # mm: connecting rod; optional
         <BLANKLINE>
     """
     keys = {key.path: key for key in spec_keys(kind)}
@@ -90,13 +90,13 @@ def choice(key: SpecKey) -> str:
     Example
         >>> key = SpecKey("rod", "mm", "connecting rod", "above 0", None, True, False)
         >>> choice(key)
-        'yours to choose'
+        'required'
     """
     if key.section:
         return ""
     if key.required:
-        return "yours to choose"
-    return "may be left out" if key.default is None else f"default {flow(key.default)}"
+        return "required"
+    return "optional" if key.default is None else f"default {flow(key.default)}"
 
 
 def flow(value: Any) -> str:

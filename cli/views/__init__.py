@@ -1,1 +1,1 @@
-"""Pictures: figures, scenes, films, the page."""
+"""Pictures: figures, scenes, animations, the page."""

@@ -110,7 +110,7 @@ class Design:
     """Quantities and checks that an extra table brings along, which are dear without it."""
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
-    """Keys of what the machine has to do: a remedy that changes one asks for less, and is sought last."""
+    """Keys of what the machine has to do: a fix that changes one asks for less, and is sought last."""
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
     kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself
@@ -218,7 +218,7 @@ class Design:
 
         Parameters
             name : str
-            samples : int - rows per turn or stroke, 2 to ten million; without it the table's own number of rows
+            samples : int - rows per revolution or stroke, 2 to ten million; without it the table's own number of rows
         Raises
             UnknownName
             GearlinkError - for a number of rows that no table has
@@ -275,7 +275,7 @@ class Design:
         return ()
 
     def as_found(self) -> Iterable[Found]:
-        """What completes the file for samples of the design as made: its links, and what still judges them."""
+        """What completes the file for samples of the design as manufactured: its links, and what still judges them."""
         return self.completion()
 
     @property
@@ -354,7 +354,7 @@ class Design:
             command : str - "synth dwell", "press", ...
             quantities : names - give these alone, without checks and tables of the command
             tables : names - tables to give besides those of the command
-            samples : int - rows of the tables per turn or stroke; without it each table's own number
+            samples : int - rows of the tables per revolution or stroke; without it each table's own number
             only : bool - give the named tables alone
             findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
                 the same, since a mechanism that does not exist has none, its tables are not

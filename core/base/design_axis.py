@@ -109,7 +109,7 @@ def kept_inside(
 
     Parameters
         columns : (N,) arrays by path
-        domains : by path, the least and the greatest value, and one between that stands in for those beyond
+        domains : by path, the minimum and the maximum value, and one between that stands in for those beyond
     Example
         >>> inside, outside = kept_inside({"teeth": np.array([20.0, -90.0])}, {"teeth": (1.0, 1e4, 30.0)})
         >>> inside["teeth"].tolist(), outside.tolist()

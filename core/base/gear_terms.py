@@ -28,7 +28,7 @@ GEAR_PAIR = {
     "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle (normal section)", "ISO 21771"),
     "tip_pressure_angle": Term("alpha_a", "deg", "angle between flank and radius at the tip circle", "ISO 21771"),
     "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
-    "min_shift_no_undercut": Term("x_min", "1", "least shift without undercut (rack tool)", "ISO 21771"),
+    "min_shift_no_undercut": Term("x_min", "1", "minimum shift without undercut (rack tool)", "ISO 21771"),
     "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
     "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
     "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),
@@ -45,7 +45,7 @@ GEAR_PAIR = {
     "path_of_contact": Term("g_alpha", "mm", "length of the path of contact", "ISO 21771"),
     "form_radius": Term("r_Ff", "mm", "root form radius, where the flank ends", "ISO 21771"),
     "used_root_radius": Term("r_Nf", "mm", "radius at which contact reaches the root (nominal)", "ISO 21771"),
-    "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mate's root", "ISO 21771"),
+    "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mating gear's root", "ISO 21771"),
     "specific_sliding_tip": Term("zeta_a", "1", "sliding over rolling velocity of the flank at the tip", "ISO 21771"),
     "sliding_factor": Term("K_g", "1", "sliding over pitch line speed, at A and at E", "ISO 21771"),
     "pin_diameter": Term("D_M", "mm", "measuring ball or pin", "DIN 21773"),
@@ -53,14 +53,14 @@ GEAR_PAIR = {
     "measure_over_pins": Term("M_dR", "mm", "measure over two pins, of a ring between them", "DIN 21773"),
     "chordal_thickness": Term("s_c", "mm", "chordal tooth thickness on the reference circle", "DIN 21773"),
     "chordal_height": Term("h_c", "mm", "height of the chord of the tooth thickness below the tip", "DIN 21773"),
-    "generating_shift": Term("x_E", "1", "generating shift of each gear, least and greatest", "DIN 3960"),
-    "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, least and greatest"),
-    "measure_limits": Term("M_dK min, max", "mm", "measure over balls of each gear, least and greatest"),
-    "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, least and greatest", "DIN 3967"),
-    "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, least and greatest", "DIN 3967"),
-    "backlash_angle": Term("j_phi", "deg", "free turn of each gear, least and greatest"),
+    "generating_shift": Term("x_E", "1", "generating shift of each gear, minimum and maximum", "DIN 3960"),
+    "span_measurement_limits": Term("W_k min, max", "mm", "span measurement of each gear, minimum and maximum"),
+    "measure_limits": Term("M_dK min, max", "mm", "measure over balls of each gear, minimum and maximum"),
+    "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, minimum and maximum", "DIN 3967"),
+    "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
+    "backlash_angle": Term("j_phi", "deg", "free turn of each gear, minimum and maximum"),
     "output_play": Term(
-        "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; least and greatest"
+        "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; minimum and maximum"
     ),
     "tangential_force": Term("F_t", "N", "force on the reference circle", "ISO 6336-1"),
     "zone_factor": Term(
@@ -115,7 +115,7 @@ GEAR_PAIR = {
     "reduced_mass": Term(
         "m_red", "kg/mm", "mass of both gears, reduced to the line of action, per width", "ISO 6336-1"
     ),
-    "single_stiffness": Term("c'", "N/(mm um)", "greatest stiffness of a pair of teeth", "ISO 6336-1"),
+    "single_stiffness": Term("c'", "N/(mm um)", "maximum stiffness of a pair of teeth", "ISO 6336-1"),
     "mesh_stiffness": Term("c_gamma,alpha", "N/(mm um)", "mean stiffness of the mesh", "ISO 6336-1"),
     "mesh_stiffness_face": Term(
         "c_gamma,beta", "N/(mm um)", "mean stiffness for the load across the face", "ISO 6336-1"

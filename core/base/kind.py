@@ -32,16 +32,16 @@ class Kind(NamedTuple):
         motion : str - what gives the motion of a design, of which all that is generic is made; "": nothing moves
         codes : str - module of the rules of its checks; "": those of the libraries are enough
         array : str - its array form, which computes many designs at once; "": none
-        samples : str - array form of the designs as made, for `tolerance`; "": each is computed alone
+        samples : str - array form of the designs as manufactured, for `tolerance`; "": each is computed alone
         outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
         errors : str - what its sizes, gears and pins move, for `register`; "": pins alone are known
         register_at : str - where `register` looks where the file does not say
         drawn : commands that all kinds share and whose picture is its own all the same
-        picture, scene : str - what draws its own commands, what builds its film; "": what any motion has
+        picture, scene : str - what draws its own commands, what builds its animation; "": what any motion has
         profiles, parts : str, (names) - what makes the parts that `export` takes; their names, where a kind fixes them
         rexs : (names) or None - its gears in REXS, in the order of the file; (): as the file names them; None: no pair
         sheets : dict - what gives the content of a sheet, by its name; "": it has not the one that any motion has
-        worked : str - stem of the worked design to begin with, where it is not called as the kind
+        worked : str - stem of the example to begin with, where it is not called as the kind
     """
 
     name: str
@@ -105,7 +105,7 @@ class Kind(NamedTuple):
         return found
 
     def samples_maker(self) -> Any:
-        """What makes the array form of a nominal design as made; None where it has none."""
+        """What makes the array form of a nominal design as manufactured; None where it has none."""
         return self._own(self.samples) if self.samples else None
 
     def _own(self, place: str) -> Any:

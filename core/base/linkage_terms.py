@@ -1,4 +1,4 @@
-"""The words of gear-linkages, of motion at real speed and of sliders."""
+"""The words of geared linkages, of motion at real speed and of sliders."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ GEAR_LINKAGE: dict[str, Term] = {
         "l4", "mm", "distance between the two fixed pivots", "own closed form in place of thesis (4-26)..(4-33)"
     ),
     "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),
-    "speed_ratio_max": Term("(w5/w1)max", "1", "greatest output speed per input speed", "thesis (4-13)"),
-    "speed_ratio_min": Term("(w5/w1)min", "1", "least output speed per input speed", "thesis (4-13)"),
+    "speed_ratio_max": Term("(w5/w1)max", "1", "maximum output speed per input speed", "thesis (4-13)"),
+    "speed_ratio_min": Term("(w5/w1)min", "1", "minimum output speed per input speed", "thesis (4-13)"),
     "motion": Term("", "1", "kind of output motion", "thesis 4.2.1"),
     "dwell_crank_angles": Term("phi(1), phi(2)", "deg", "crank angles of zero output speed", "thesis (4-14)"),
     "back_step_angle": Term("phi5(1)-phi5(2)", "deg", "back-step of the output", "thesis (4-16), (4-19)"),
     "back_step_crank_angle": Term("phi12", "deg", "crank angle during which the output turns back", "thesis (4-15)"),
     "dwell_angle": Term("phi13", "deg", "crank angle until the output regains its place", "own derivation"),
     "dwell_angle_approximate": Term("1.5 phi12", "deg", "the thesis's approximation of phi13", "thesis (4-17)"),
-    "min_transmission_angle": Term("mu_min", "deg", "least transmission angle over the turn", "VDI 2142"),
+    "min_transmission_angle": Term("mu_min", "deg", "minimum transmission angle over the turn", "VDI 2142"),
     "gear_gap": Term("s15", "mm", "tips of the crank (input) and the output gear at the closest", "own derivation"),
     "nonuniformity": Term("delta", "1", "(max - min)/mean of the speed ratio", "thesis (4-20)"),
     "tolerance_dwell_angle": Term("phi_tol", "deg", "longest crank angle with the output within +- the tolerance"),
@@ -44,10 +44,10 @@ GEAR_LINKAGE: dict[str, Term] = {
     "segment_eg": Term("EG", "mm", "pole of idler and output gear to the foot of D", "thesis (4-31)"),
     "segment_gd": Term("GD", "mm", "output axis to the line of the poles", "thesis (4-32)"),
     "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which the longest dwell within the tolerance starts"),
-    "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "greatest output acceleration", "thesis (4-25)"),
-    "acceleration_ratio_max_at": Term("", "deg", "crank angle of the greatest output acceleration"),
-    "acceleration_ratio_min": Term("(e5/w1^2)min", "1", "least output acceleration", "thesis (4-25)"),
-    "acceleration_ratio_min_at": Term("", "deg", "crank angle of the least output acceleration"),
+    "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "maximum output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_max_at": Term("", "deg", "crank angle of the maximum output acceleration"),
+    "acceleration_ratio_min": Term("(e5/w1^2)min", "1", "minimum output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_min_at": Term("", "deg", "crank angle of the minimum output acceleration"),
 }
 
 REAL_SPEED: dict[str, Term] = {
@@ -57,51 +57,51 @@ REAL_SPEED: dict[str, Term] = {
     "uniform_angle": Term("", "deg", "longest crank angle at a nearly even speed", "thesis 4.2.1; own derivation"),
     "uniform_start": Term("", "deg", "crank angle where the even stretch starts"),
     "uniform_ratio": Term("", "1", "level of the speed ratio in that stretch"),
-    "lay_speed": Term("v_L", "mm/s", "greatest speed of the sheet on the last way before the lay", "thesis 3.3.2"),
+    "lay_speed": Term("v_L", "mm/s", "maximum speed of the sheet on the last way before the lay", "thesis 3.3.2"),
     "lay_angle": Term("", "deg", "crank angle at which the sheet arrives at the lay"),
     "lay_time": Term("", "ms", "time of the last way before the lay"),
     "arrival_speed": Term("", "mm/s", "speed of the sheet when it arrives at the lay"),
     "dwell_pole_line_error": Term("", "mm", "distance of A from the line of P13, P35 in standstills; 0", "thesis 4-9"),
-    "feed_per_turn": Term("s_F", "mm", "net travel of what is fed per turn of the input", "thesis 3.3.2"),
+    "feed_per_turn": Term("s_F", "mm", "net travel of what is fed per revolution of the input", "thesis 3.3.2"),
     "feed_back_step": Term("s_12", "mm", "travel back of web, chain or belt in the back-step"),
     "chain_ripple": Term("1-cos(pi/z)", "1", "share by which a chain's speed falls between two teeth"),
-    "feed_velocity_max": Term("v_F,max", "mm/s", "greatest velocity of what is fed"),
-    "feed_velocity_min": Term("v_F,min", "mm/s", "least velocity of what is fed"),
+    "feed_velocity_max": Term("v_F,max", "mm/s", "maximum velocity of what is fed"),
+    "feed_velocity_min": Term("v_F,min", "mm/s", "minimum velocity of what is fed"),
     "feed_velocity_mean": Term("v_F,m", "mm/s", "mean velocity of what is fed"),
-    "feed_acceleration_max": Term("a_F,max", "mm/s^2", "greatest acceleration of what is fed"),
-    "feed_acceleration_min": Term("a_F,min", "mm/s^2", "least acceleration of what is fed"),
+    "feed_acceleration_max": Term("a_F,max", "mm/s^2", "maximum acceleration of what is fed"),
+    "feed_acceleration_min": Term("a_F,min", "mm/s^2", "minimum acceleration of what is fed"),
     "turn_time": Term("T", "ms", "time of an input turn"),
-    "output_speed_max": Term("w5_max", "rad/s", "greatest speed of the output at this input speed"),
-    "output_speed_min": Term("w5_min", "rad/s", "least speed of the output at this input speed"),
-    "output_acceleration_max": Term("e5_max", "rad/s^2", "greatest acceleration of the output at this input speed"),
-    "output_acceleration_min": Term("e5_min", "rad/s^2", "least acceleration of the output at this input speed"),
+    "output_speed_max": Term("w5_max", "rad/s", "maximum speed of the output at this input speed"),
+    "output_speed_min": Term("w5_min", "rad/s", "minimum speed of the output at this input speed"),
+    "output_acceleration_max": Term("e5_max", "rad/s^2", "maximum acceleration of the output at this input speed"),
+    "output_acceleration_min": Term("e5_min", "rad/s^2", "minimum acceleration of the output at this input speed"),
     "back_step_time": Term("t12", "ms", "time during which the output turns back"),
     "dwell_time": Term("t_d", "ms", "time during which the output stands"),
     "tolerance_dwell_time": Term("t_tol", "ms", "time of the longest dwell within the tolerance"),
     "motion_time": Term("t_m", "ms", "time of a motion between two dwells"),
     "driven_speed": Term("w_F", "rad/s", "speed of the driven gear during a motion"),
     "rocker_speed_at_start": Term("w_R0", "rad/s", "speed of the rocker right after the hardest start"),
-    "slider_velocity_max": Term("v_max", "mm/s", "greatest velocity of the slider at this input speed"),
-    "slider_velocity_min": Term("v_min", "mm/s", "least velocity of the slider at this input speed"),
-    "slider_acceleration_max": Term("a_max", "mm/s^2", "greatest acceleration of the slider at this input speed"),
-    "slider_acceleration_min": Term("a_min", "mm/s^2", "least acceleration of the slider at this input speed"),
+    "slider_velocity_max": Term("v_max", "mm/s", "maximum velocity of the slider at this input speed"),
+    "slider_velocity_min": Term("v_min", "mm/s", "minimum velocity of the slider at this input speed"),
+    "slider_acceleration_max": Term("a_max", "mm/s^2", "maximum acceleration of the slider at this input speed"),
+    "slider_acceleration_min": Term("a_min", "mm/s^2", "minimum acceleration of the slider at this input speed"),
     "forward_time": Term("t_f", "ms", "time of the slider's stroke away from the crank's axis"),
     "return_time": Term("t_r", "ms", "time of the slider's stroke towards the crank's axis"),
 }
 
 SLIDER: dict[str, Term] = {
-    "velocity_max": Term("v'_max", "mm/rad", "greatest velocity of slider (outwards) or point per input speed"),
-    "velocity_max_at": Term("", "deg", "input angle of the greatest velocity"),
-    "velocity_min": Term("v'_min", "mm/rad", "least velocity per input speed; of a slider the greatest inwards"),
-    "velocity_min_at": Term("", "deg", "input angle of the least velocity"),
+    "velocity_max": Term("v'_max", "mm/rad", "maximum velocity of slider (outwards) or point per input speed"),
+    "velocity_max_at": Term("", "deg", "input angle of the maximum velocity"),
+    "velocity_min": Term("v'_min", "mm/rad", "minimum velocity per input speed; of a slider the maximum inwards"),
+    "velocity_min_at": Term("", "deg", "input angle of the minimum velocity"),
     "acceleration_max": Term(
-        "a'_max", "mm/rad^2", "greatest acceleration of slider or point per square of the input speed"
+        "a'_max", "mm/rad^2", "maximum acceleration of slider or point per square of the input speed"
     ),
-    "acceleration_max_at": Term("", "deg", "input angle of the greatest acceleration"),
+    "acceleration_max_at": Term("", "deg", "input angle of the maximum acceleration"),
     "acceleration_min": Term(
-        "a'_min", "mm/rad^2", "least acceleration of slider or point per square of the input speed"
+        "a'_min", "mm/rad^2", "minimum acceleration of slider or point per square of the input speed"
     ),
-    "acceleration_min_at": Term("", "deg", "input angle of the least acceleration"),
+    "acceleration_min_at": Term("", "deg", "input angle of the minimum acceleration"),
     "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
     "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
 }
@@ -111,8 +111,8 @@ CRANK_ROCKER: dict[str, Term] = {
     "inner_dead_center": Term("phi_i", "deg", "crank angle with crank and coupler folded over each other", "VDI 2130"),
     "crank_offset": Term("phi_0", "deg", "angle added to the given crank angles, 0 or 180", "own derivation"),
     "rocker_offset": Term("psi_0", "deg", "angle added to the given rocker angles, 0 or 180", "own derivation"),
-    "rocker_speed_max": Term("w3_max", "rad/s", "greatest speed of the rocker at this input speed"),
-    "rocker_speed_min": Term("w3_min", "rad/s", "least speed of the rocker at this input speed"),
-    "rocker_acceleration_max": Term("e3_max", "rad/s^2", "greatest acceleration of the rocker at this input speed"),
-    "rocker_acceleration_min": Term("e3_min", "rad/s^2", "least acceleration of the rocker at this input speed"),
+    "rocker_speed_max": Term("w3_max", "rad/s", "maximum speed of the rocker at this input speed"),
+    "rocker_speed_min": Term("w3_min", "rad/s", "minimum speed of the rocker at this input speed"),
+    "rocker_acceleration_max": Term("e3_max", "rad/s^2", "maximum acceleration of the rocker at this input speed"),
+    "rocker_acceleration_min": Term("e3_min", "rad/s^2", "minimum acceleration of the rocker at this input speed"),
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gearlink.core.base.term import Term
 
 MACHINE = {
-    "least_margin": Term("", "deg", "least margin of the relations between events", "own derivation"),
+    "least_margin": Term("", "deg", "minimum margin of the relations between events", "own derivation"),
     "limiting_relations": Term("", "1", "relations that leave the free phases no greater margin"),
     "cycle_turns": Term("", "1", "turns of the main shaft after which everything repeats"),
     "phase": Term("", "deg", "machine angle at which the member's input angle is 0, as found", "own derivation"),
@@ -16,9 +16,9 @@ MACHINE = {
     "speed_limit_member": Term("", "1", "the member that limits the machine's speed"),
     "speed_limit_check": Term("", "1", "the check by which it does"),
     "members_without_loads": Term("", "1", "members that add nothing, since they have no section loads"),
-    "wind_up_max_at": Term("", "deg", "machine angle of the greatest wind-up"),
+    "wind_up_max_at": Term("", "deg", "machine angle of the maximum wind-up"),
     "wind_up_disc": Term("", "1", "the disc that is wound up most"),
-    "wind_up_max": Term("", "deg", "greatest wind-up of a disc of the main shaft against the first one", "modes"),
+    "wind_up_max": Term("", "deg", "maximum wind-up of a disc of the main shaft against the first one", "modes"),
     "wind_up_at_print": Term("", "mm", "shift of the register by the twist of the main shaft, alike in every machine"),
     "machine_yield": Term("", "1", "share of the machines that keep the allowed register", "normal law"),
 }

@@ -85,7 +85,7 @@ class RealSpeed:
 
 
 class OutputSpeed:
-    """Greatest and least speed [rad/s] and acceleration [rad/s^2] of an output, from its ratios to the input."""
+    """Maximum and minimum speed [rad/s] and acceleration [rad/s^2] of an output, from its ratios to the input."""
 
     output_speed_max: float | None = per_time("speed_ratio_max", 1)
     output_speed_min: float | None = per_time("speed_ratio_min", 1)
@@ -94,7 +94,7 @@ class OutputSpeed:
 
 
 class SliderSpeed(RealSpeed):
-    """Greatest and least velocity [mm/s] and acceleration [mm/s^2] of a slider, from its rates by the input angle."""
+    """Maximum and minimum velocity [mm/s] and acceleration [mm/s^2] of a slider, from its rates by the input angle."""
 
     slider_velocity_max: float | None = per_time("velocity_max", 1)
     slider_velocity_min: float | None = per_time("velocity_min", 1)

@@ -381,7 +381,7 @@ def without_noise(value: float, scale: float) -> float:
     """The value, or 0 where it is below the rounding error of what has the size `scale`.
 
     A closed form in double precision is off by a few ulp of its largest term; 8 ulp are taken, twice the most that
-    the residuals of the worked designs show.
+    the residuals of the examples show.
 
     Example
         >>> without_noise(-4.46e-13, 2970.0), without_noise(-4.46e-10, 2970.0)

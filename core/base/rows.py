@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 FEWEST_ROWS, MOST_ROWS = 2, 10_000_000
-"""Of a turn or stroke: its ends; what is more than memory is asked for by mistake."""
+"""Of a revolution or stroke: its ends; what is more than memory is asked for by mistake."""
 
 
 class Rows(int):

@@ -165,18 +165,18 @@ class GearLimits(Spec):
     """Limits of the gear checks."""
 
     undercut: Share = Field(0.05, description="how far the profile shift may lie below x_min")
-    tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
-    contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
-    sliding: Ratio | None = Field(None, description="greatest specific sliding; left out: only above 8 is reported")
+    tip_thickness: Share = Field(0.25, description="minimum tip thickness over the module")
+    contact_ratio: Ratio = Field(1.1, description="minimum transverse contact ratio")
+    sliding: Ratio | None = Field(None, description="maximum specific sliding; left out: only above 8 is reported")
 
 
 class DrawingLimits(Spec):
     """Limits of what only a drawing fixes: backlash and strength of gears."""
 
-    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
-    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
-    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
-    safety_scuffing: Ratio = Field(1.8, description="least safety against scuffing, with rating")
+    backlash: SignedLength = Field(0.0, description="minimum normal backlash; below it a warning")
+    safety_pitting: Ratio = Field(1.0, description="minimum safety against pitting")
+    safety_bending: Ratio = Field(1.4, description="minimum safety against breaking at the root")
+    safety_scuffing: Ratio = Field(1.8, description="minimum safety against scuffing, with rating")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

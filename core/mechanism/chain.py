@@ -70,7 +70,7 @@ class Chain:
 
     @cached_property
     def _sizes(self) -> tuple[float, float, float]:
-        """What displacements of a link are measured by: the greatest distance in the machine [mm], and 1 rad."""
+        """What displacements of a link are measured by: the maximum distance in the machine [mm], and 1 rad."""
         size = 1.0 + max(float(np.abs(link.origin.value).max()) for link in self.mechanism.links.values())
         return size, size, 1.0
 
@@ -314,7 +314,7 @@ class _Moved:
 
 
 def _spin(turn: Any) -> Any:
-    """e^(i t) - 1, exact for small turns and right for those of less than half a turn."""
+    """e^(i t) - 1, exact for small turns and right for those of less than half a revolution."""
     if not np.any(turn):
         return 0j
     half = np.sin(0.5 * turn)

@@ -48,7 +48,7 @@ class Link:
 
 
 class Later(Sequence[T]):
-    """Joints that are made when first looked at: tables, films and sheets need the links alone."""
+    """Joints that are made when first looked at: tables, animations and sheets need the links alone."""
 
     def __init__(self, make: Callable[[], Sequence[T]]) -> None:
         self._make = make

@@ -1,6 +1,6 @@
 """The motion of a machine: its links and joints at any input, with derivatives with respect to the input.
 
-What a machine is, is said once, by its `Motion`; tables, curves, films, clearance, loads and register read it.
+What a machine is, is said once, by its `Motion`; tables, curves, animations, clearance, loads and register read it.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Motion:
     Fields
         input : Input
         make : function of an array of inputs (N,) [rad or mm], of the order of the highest derivative, and of the side
-        outputs : what moves in the end, as sheets and films show it; of the first one `register` counts the errors
+        outputs : what moves in the end, as sheets and animations show it; of the first one `register` counts the errors
         highest : int - the highest derivative there is; 2 where a law has no third
 
     A rate that jumps at an input is the one just after it, with `side` -1 the one just before.

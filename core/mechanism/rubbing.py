@@ -90,7 +90,7 @@ class Rubbing:
             SelfLocking - where no sizes do
         Notes
             A few passes first, which suffice where the friction is small; then Newton's steps, whose matrix is kept for
-            five, since near locking each pass takes off hardly anything. Relative to the greatest force: 1e-14.
+            five, since near locking each pass takes off hardly anything. Relative to the maximum force: 1e-14.
         """
         found = np.zeros((self.free.shape[-1], len(self.shares)))
         inverse = np.eye(len(self.shares))

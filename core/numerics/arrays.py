@@ -19,7 +19,7 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     """Angles that divide turns into equal steps, from 0.
 
     Parameters
-        samples : int - angles of a turn, 360 where none are given; `Rows`: a part of all angles
+        samples : int - angles of a revolution, 360 where none are given; `Rows`: a part of all angles
         turns : int
     Returns
         angles : (samples * turns,) array [deg], or the part

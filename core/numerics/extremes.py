@@ -1,4 +1,4 @@
-"""Refined extremes of a function over a turn or a stroke, with joints where its derivatives may jump."""
+"""Refined extremes of a function over a revolution or a stroke, with joints where its derivatives may jump."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ _INSIDE_ULPS = 16.0
 _MOST_CANDIDATES = 16
 # Samples of a bracket that differ by no more are rounding: another round gains 1/16 of it at a kink, less elsewhere.
 _FLAT_ULPS = 16.0
-_NOTHING = 1e-22  # of the greatest magnitude, by which samples may differ that touch 0
+_NOTHING = 1e-22  # of the maximum magnitude, by which samples may differ that touch 0
 
 
 class Extreme(NamedTuple):
@@ -148,7 +148,7 @@ def maximum_over(
 
     Parameters
         f : function of a float64 array, returning one like it
-        start, end : float - the interval, one turn by default
+        start, end : float - the interval, one revolution by default
         joints : floats - places where the function or a derivative may jump; both one-sided values count
         samples : int - points over the interval; two humps closer than four steps may be taken for one
         fewest : int - points between two joints at least
@@ -289,7 +289,7 @@ def minimum_over(
 
 
 def least_convex_radius(curvature: Function, *, joints: Sequence[float] = (), samples: int = 2048) -> Extreme:
-    """Least convex radius of curvature of a closed curve, 1/max(kappa); inf where it is convex nowhere.
+    """Minimum convex radius of curvature of a closed curve, 1/max(kappa); inf where it is convex nowhere.
 
     Parameters
         curvature : function of cam angle - kappa [1/mm], convex positive (its negative for a groove's far flank)
@@ -307,7 +307,7 @@ def least_convex_radius(curvature: Function, *, joints: Sequence[float] = (), sa
 
 
 def convex_radius(curvature: Extreme) -> Extreme:
-    """The radius of a greatest curvature, inf where it is convex nowhere.
+    """The radius of a maximum curvature, inf where it is convex nowhere.
 
     Example
         >>> convex_radius(Extreme(0.025, 1.0))

@@ -36,15 +36,15 @@ class HarmonicSum:
         return math.fsum(-a * f * math.sin(f * x + p) for a, f, p in self.terms)
 
     def extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest value over an interval, each as (place, value); the ends count.
+        """Minimum and maximum value over an interval, each as (place, value); the ends count.
 
         Parameters
             start, end : float - the interval
         Returns
-            least, greatest : (float, float)
+            minimum, maximum : (float, float)
         Notes
             Signs of the derivative at 40 places a wave of the highest frequency, then bracketed roots; on a long
-            interval only of those next to which an end's value may be the least or the greatest. Of several places
+            interval only of those next to which an end's value may be the minimum or the greatest. Of several places
             with the same value but for rounding it is the first, whatever the processor's cosines.
         Example
             >>> HarmonicSum(5.0, ((2.0, 1.0, 0.0),)).extremes(-1.0, 1.0)[1]
@@ -59,7 +59,7 @@ class HarmonicSum:
         return 2.0**-52 * (abs(self.constant) + terms)
 
     def few_roots(self, start: float, end: float, count: int) -> list[float]:
-        """Roots of the derivative, looked for in `count` steps, that may be the least or the greatest of an interval.
+        """Roots of the derivative, looked for in `count` steps, that may be the minimum or the maximum of an interval.
 
         Within a step the sum passes the nearer end's value by no more than h^2/8 max |f''|.
         """

@@ -23,7 +23,7 @@ class Solution(NamedTuple):
 
 
 def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -> Reals | None:
-    """The x of least cost @ x with rows @ x <= limits and lower <= x <= upper, by the dual simplex method.
+    """The x of minimum cost @ x with rows @ x <= limits and lower <= x <= upper, by the dual simplex method.
 
     Parameters
         cost, lower, upper : (N,) arrays - bounds may be infinite
@@ -43,10 +43,10 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
 def solution(
     cost: Reals, rows: Reals, least_: Reals, most: Reals, lower: Reals, upper: Reals, *, tolerance: float = 1e-7
 ) -> Solution | None:
-    """The x of least cost @ x with least_ <= rows @ x <= most and lower <= x <= upper, and the duals of the rows.
+    """The x of minimum cost @ x with least_ <= rows @ x <= most and lower <= x <= upper, and the duals of the rows.
 
     Parameters
-        as of `least`; tolerance : float - of limits and reduced costs
+        as of `minimum`; tolerance : float - of limits and reduced costs
     """
     from highspy import HighsLp, HighsModelStatus, HighsStatus, MatrixFormat
 

@@ -36,7 +36,7 @@ def descend(
         x : (K, N) array - starts
         steps : int - at most; fewer once no row gains
         damping : (K,) array or float - to begin with; it falls with each gain and rises with each loss
-        least, most : floats - bounds of it
+        minimum, most : floats - bounds of it
     Returns
         x : (K, N) array; state : as given, there; damping : (K,) array; taken : int - steps that were tried
     Source
@@ -67,7 +67,7 @@ def damped(slopes: Reals, value: Reals, damping: Reals, *, free: Mask | None = N
     Parameters
         slopes : (K, M, N) array - J; value : (K, M) array; damping : (K,) array
         free : (K, N) array - unknowns that may move; None: all
-        scaled : bool - Marquardt's D, the diagonal of J^T J and a thousandth of its greatest; else Levenberg's, 1
+        scaled : bool - Marquardt's D, the diagonal of J^T J and a thousandth of its maximum; else Levenberg's, 1
     Returns
         step : (K, N) array
     """

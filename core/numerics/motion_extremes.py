@@ -1,4 +1,4 @@
-"""Greatest and least values of a motion with the places where they occur, as quantities of a design.
+"""Maximum and minimum values of a motion with the places where they occur, as quantities of a design.
 
 Of a curve `bed_velocity` there are `bed_velocity_max`, `bed_velocity_max_at` and the same of `_min`.
 """

@@ -123,7 +123,7 @@ class Sobol:
 
 
 def _block(first: int, most: int) -> int:
-    """The greatest power of two that divides an index and is not above `most`."""
+    """The maximum power of two that divides an index and is not above `most`."""
     size: int = 1 << (most.bit_length() - 1)
     return min(size, first & -first) if first else size
 

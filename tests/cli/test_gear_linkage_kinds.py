@@ -1,4 +1,4 @@
-"""The smaller gear-linkages at the command line: every worked design, its figure, the errors that a user can make.
+"""The smaller geared linkages at the command line: every example, its figure, the errors that a user can make.
 
 Tolerances: none of its own; numbers are tested beside the engine. Plotted data equal the tables they come from.
 """
@@ -25,7 +25,7 @@ PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
 
 def asked(name):
-    """The commands that a worked design asks for, the main one first."""
+    """The commands that a example asks for, the main one first."""
     data = factory.worked(name)
     return KINDS[data["kind"]].spec_model().model_validate(data).commands()
 
@@ -52,7 +52,7 @@ def test_worked_design(kind, name, gearlink, designs):
 @pytest.mark.parametrize("name", [*(names[0] for names in WORKED.values()), "two_gear_standing"])
 def test_every_command_in_every_format(name, gearlink, designs):
     for command in asked(name):
-        for form in ("table", "csv", "md"):  # as JSON: every worked design runs
+        for form in ("table", "csv", "md"):  # as JSON: every example runs
             assert gearlink(*command.split(), designs / f"{name}.yaml", "--format", form).status == 0
 
 

@@ -78,7 +78,7 @@ def as_json(lines: list[str]) -> list[str]:
 
 @cache
 def ladder() -> dict[str, set[str]]:
-    """Modules after each line in one process, those first that need least: what a line may not import none before it
+    """Modules after each line in one process, those first that need minimum: what a line may not import none before it
     may either, so that a process for each line would say no more."""
     lines = [
         *VERSION,

@@ -113,7 +113,7 @@ def test_the_page_shows_the_gear_tables(gearlink, designs, tmp_path):
     ended = gearlink("report", designs / "drawn_lever.yaml", "--out", tmp_path, "--quiet")
     assert ended.status == 0
     page = (tmp_path / "drawn-lever.html").read_text()
-    assert "span measurement, greatest" in page
+    assert "span measurement, maximum" in page
 
 
 def test_a_ring_has_one_rim_whichever_key_gives_it() -> None:

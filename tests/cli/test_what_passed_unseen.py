@@ -124,7 +124,7 @@ def test_a_momentary_dwell_with_a_rounded_frame_still_shows_its_place(
 
 
 def test_a_ratio_above_the_estimate_but_below_the_least_fails(gearlink: Any, tmp_path: Path) -> None:
-    """3.17 lies between the estimate of the stretch at 4.43, 3.1583, and the least ratio, 3.1923."""
+    """3.17 lies between the estimate of the stretch at 4.43, 3.1583, and the minimum ratio, 3.1923."""
     path = tmp_path / "swing.yaml"
     path.write_text(
         "{kind: wide-swing-cam, layout: twin-cam, swing: 219.9, cycle_angle: 60, speed: 60, inertia: 0.3, unloader: "

@@ -321,7 +321,7 @@ def test_key_is_given_where_there_is_none_yet():
     ("value", "status"), [(40.0 - 1e-9, "fail"), (40.0, "warn"), (45.0 - 1e-9, "warn"), (45.0, "pass"), (90.0, "pass")]
 )
 def test_below_at_its_limits(value, status):
-    check = TRANSMISSION_ANGLE.below(value, 40.0, 45.0, "deg", "the least angle", "lengthen l4")
+    check = TRANSMISSION_ANGLE.below(value, 40.0, 45.0, "deg", "the minimum angle", "lengthen l4")
     assert (check.status, check.value, check.limit, check.unit) == (status, value, 40.0, "deg")
     assert (check.fix == "lengthen l4") == (status != "pass")
     assert ("(limit >= 40 deg)" in check.message) == (status != "warn")

@@ -1,6 +1,6 @@
 """Extremes of motions and their places: against dense grids, and against the design's tables.
 
-A grid of h misses a smooth extreme by h^2/8 of its bend: 20000 steps of a turn leave 1e-7 of the range.
+A grid of h misses a smooth extreme by h^2/8 of its bend: 20000 steps of a revolution leave 1e-7 of the range.
 """
 
 from __future__ import annotations

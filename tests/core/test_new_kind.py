@@ -107,7 +107,7 @@ def test_sheet_film_report_and_picture(run: Any, tmp_path: Path) -> None:
 
 
 def test_film_runs_on_the_pins(run: Any) -> None:
-    """The film's bar from A over B to C, at the fractions of a revolution that it is asked for."""
+    """The animation's bar from A over B to C, at the fractions of a revolution that it is asked for."""
     from gearlink.cli.views.scenes.of_motion import build
     from gearlink.cli.views.scenes.scene import Chain
     from gearlink.core.push_rod.design import PushRod

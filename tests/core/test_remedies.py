@@ -355,7 +355,7 @@ def test_a_remedy_that_leaves_a_warning_says_so() -> None:
 
 
 def test_a_change_of_what_is_asked_for_comes_last_and_says_so() -> None:
-    """The rod of the least ripple stays within 0.221 mm: no other rod keeps less, so that less must be asked for."""
+    """The rod of the minimum ripple stays within 0.221 mm: no other rod keeps less, so that less must be asked for."""
     for tolerance, key in ((0.25, "rod.length"), (0.05, "dwell.tolerance")):
         made = factory.design("hypocycloid_slider", rod={"rule": "osculating"}, dwell__tolerance=tolerance)
         check = fails(made, "analyze", "dwell-quality")

@@ -1,7 +1,7 @@
-"""Bodies of the gear-linkages by brute force: where every axis is over the cycle, and which two bodies come how near.
+"""Bodies of the geared linkages by brute force: where every axis is over the cycle, and which two bodies come how near.
 
 A second way that shares nothing with the engine: joints by the intersection of circles in complex numbers, from the
-data of a design file alone; gaps sampled over the whole cycle and sampled again round the least.
+data of a design file alone; gaps sampled over the whole cycle and sampled again round the minimum.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Machine:
     end: float = 2.0 * math.pi
 
     def gaps(self) -> Iterator[tuple[frozenset[str], float]]:
-        """Names of every two bodies that could meet, and their least gap [mm]."""
+        """Names of every two bodies that could meet, and their minimum gap [mm]."""
         for one, other in combinations(self.bodies, 2):
             names = frozenset((one.name, other.name))
             if names not in self.apart:

@@ -64,7 +64,7 @@ def standstills(drives: Drives, extremes: Places) -> Places:
 
 @dataclass(frozen=True)
 class Turn:
-    """What one drive does over a turn: places of the greatest and the least speed, standstills in order."""
+    """What one drive does over a revolution: places of the maximum and the minimum speed, standstills in order."""
 
     drive: Drives
     greatest: Any
@@ -81,7 +81,7 @@ class Turn:
         return start, width, at_start - self.drive.angle(start + width), regained
 
     def over(self, function: str, start: Any, width: Any) -> Any:
-        """Greatest condition of a result over an interval."""
+        """Maximum condition of a result over an interval."""
         return max(self.drive.condition(function, start + width * share) for share in (0, 0.25, 0.5, 0.75, 1))
 
 

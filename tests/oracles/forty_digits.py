@@ -56,7 +56,7 @@ def working_pressure_angle(teeth: tuple, shifts: tuple, alpha: float) -> Any:
 
 
 def stroke(crank: float, rod: float, offset: float) -> Any:
-    """Distance of the dead points of a slider-crank."""
+    """Distance of the dead centres of a slider-crank."""
     r, rod, e = map(mp.mpf, (crank, rod, offset))
     return mp.sqrt((rod + r) ** 2 - e * e) - mp.sqrt((rod - r) ** 2 - e * e)
 

@@ -18,12 +18,12 @@ Array = Any
 
 
 def phi() -> Array:
-    """Input angles of a turn."""
+    """Input angles of a revolution."""
     return 2.0 * math.pi * np.arange(ROWS) / ROWS
 
 
 def derivative(values: Array, order: int = 1) -> Array:
-    """With respect to the input angle, of a periodic function plus whole turns."""
+    """With respect to the input angle, of a periodic function plus whole revolutions."""
     turns = np.round((2.0 * values[-1] - values[-2] - values[0]).real / (2.0 * math.pi)) if values.dtype == float else 0
     waves = np.fft.fftfreq(ROWS, 1.0 / ROWS)
     waves[ROWS // 2] = 0.0

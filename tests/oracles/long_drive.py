@@ -124,7 +124,7 @@ class Drives:
     def size(self, function: str, phi: Any) -> Any:
         """Sum of the magnitudes of the terms of a result: what rounding them alone leaves open.
 
-        Of angles half a turn of each link, of accelerations those of the acceleration polygon.
+        Of angles half a revolution of each link, of accelerations those of the acceleration polygon.
         """
         shares = [abs(self.through(*unit)) for unit in ((1, (0, 0)), (0, (1, 0)), (0, (0, 1)))]
         if function == "turned":

@@ -35,7 +35,7 @@ def loop_gains(crank_angle: Reals, coupler_angle: Reals, rocker_angle: Reals, ro
     Returns
         gains : LoopGains
     Notes
-        1/sin(t2 - t3) is the condition of the loop, infinite in a dead point.
+        1/sin(t2 - t3) is the condition of the loop, infinite in a dead centre.
     Example
         >>> from gearlink.core.parts.linkages.fourbar import sweep
         >>> from gearlink.core.parts.linkages.fourbar.position import FourBar

@@ -171,13 +171,13 @@ def at(coefficients, u):
 
 
 TY460 = Press((116.0, 100.0, 100.0, 37.0, 1), 177.0, 620.0, 520.0, 50.0, (100.0, 100.0, 95.0, 40.0, -1), 57.109, 140.0)
-# Three more machines: every sign of the offset, both assemblies of both drag links, one and two turns a sheet.
+# Three more machines: every sign of the offset, both assemblies of both drag links, one and two revolutions a sheet.
 PRESSES = {
     "ty460": TY460,
     "negative offset": Press(
         (110.0, 96.0, 104.0, 30.0, 1), 150.0, 560.0, 480.0, -40.0, (90.0, 100.0, 95.0, 35.0, -1), 60.0, 126.0
     ),
-    "centric, two turns a sheet": Press(
+    "centric, two revolutions a sheet": Press(
         (120.0, 100.0, 105.0, 40.0, -1), -160.0, 600.0, 600.0, 0.0, (105.0, 100.0, 98.0, 42.0, -1), 95.0, 68.0, 2.0
     ),
     "mirrored cylinder chain": Press(

@@ -46,7 +46,7 @@ class PressGains:
 
     @cached_property
     def cam_slope(self) -> Reals:
-        """s' [mm/rad]: what the cam takes back per turn of CD."""
+        """s' [mm/rad]: what the cam takes back per revolution of CD."""
         return self.lift.slope(self.phi)
 
     @cached_property
@@ -66,7 +66,7 @@ class PressGains:
 
     @cached_property
     def bed_per_turn(self) -> Reals:
-        """dp/dpsi [mm/rad]: travel of the bed per turn of the slider's crank."""
+        """dp/dpsi [mm/rad]: travel of the bed per revolution of the slider's crank."""
         psi, eta = self._slider
         rate: Reals = -2.0 * self.motion.bed.slider_crank_length * np.sin(psi - eta) / np.sin(eta)
         return rate

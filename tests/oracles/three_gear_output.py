@@ -41,7 +41,7 @@ def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) ->
     Returns
         motion : OutputMotion
     Raises
-        NoSolution - when the linkage does not close, or stands in a dead point, at one of the angles
+        NoSolution - when the linkage does not close, or stands in a dead centre, at one of the angles
     Notes
         By the four-bar's kernel alone, without links.
     Source

@@ -67,7 +67,7 @@ def loop_rates(
     angles = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
     e_a, e_b, e_c = (np.exp(1j * x) for x in angles)
     if not np.all((e_c * e_b.conjugate()).imag):
-        raise NoSolution("coupler and rocker align: their rates are not determined; move the crank off the dead point")
+        raise NoSolution("coupler and rocker align: their rates are not determined; move the crank off the dead centre")
     motion = (np.asarray(x, dtype=np.float64) for x in (velocity, acceleration, jerk))
     return tuple(unit_rates(linkage, e_a, e_b, e_c, order, *motion))
 

@@ -1,4 +1,4 @@
-"""The edges of every family: change points, equal lengths, greatest strokes, tangencies, limits."""
+"""The edges of every family: change points, equal lengths, maximum strokes, tangencies, limits."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def off(angle: float, exact: Any) -> float:
-    """How far an angle is from another, whole turns aside [rad]."""
+    """How far an angle is from another, whole revolutions aside [rad]."""
     gap = mp.mpf(angle) - exact
     return abs(float(gap - 2 * mp.pi * mp.nint(gap / (2 * mp.pi))))
 

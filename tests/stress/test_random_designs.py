@@ -111,7 +111,7 @@ def test_four_bars_of_every_class(count: int) -> None:
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_scale_mirror_and_period_of_four_bars(count: int) -> None:
-    """The size takes no part in the angles, the mirror image changes signs alone, a turn adds 2 pi to an ulp."""
+    """The size takes no part in the angles, the mirror image changes signs alone, a revolution adds 2 pi to an ulp."""
     rng, worst = np.random.default_rng(12), Worst()
     for _ in range(count // 10):
         a = float(rng.uniform(0.1, 1.0))
@@ -143,14 +143,14 @@ def test_scale_mirror_and_period_of_four_bars(count: int) -> None:
         )
         after = fourbar.solve(linkage, phi + 2.0 * math.pi, 0)
         worst.take(
-            "a turn", abs(after.rocker_angle - state.rocker_angle) * near / (EPS * 2 * math.pi), (a, b, c, d, phi)
+            "a revolution", abs(after.rocker_angle - state.rocker_angle) * near / (EPS * 2 * math.pi), (a, b, c, d, phi)
         )
-    worst.check("four-bar invariance", count // 10, {"a power of two": 1.0, "inches": 8.0, "a turn": 8.0})
+    worst.check("four-bar invariance", count // 10, {"a power of two": 1.0, "inches": 8.0, "a revolution": 8.0})
 
 
 @pytest.mark.parametrize("exponent", range(1, 9))
 def test_transmission_angles_down_to_1e_8(exponent: int) -> None:
-    """Near a dead point the angle is lost as eps/gamma, the velocity as eps/gamma^2 of its size."""
+    """Near a dead centre the angle is lost as eps/gamma, the velocity as eps/gamma^2 of its size."""
     gamma = 10.0**-exponent
     b, c, d = 3.0, 2.0, 4.0
     n = math.sqrt((b - c) ** 2 + 4.0 * b * c * math.sin(0.5 * gamma) ** 2)  # of the triangle with gamma at C

@@ -90,7 +90,7 @@ def test_motion_of_whole_drives(count: int) -> None:
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_net_turns_of_whole_drives(count: int) -> None:
-    """After a turn of the crank the output has gained 2 pi times the mean ratio, in the second way as well."""
+    """After a revolution of the crank the output has gained 2 pi times the mean ratio, in the second way as well."""
     drawn = designs(np.random.default_rng(22), count // 10)
     drives = Drives.three_gears(*arrays(drawn))
     gained = drives.turned(np.full(len(drawn), TURN)) / TURN
@@ -205,7 +205,7 @@ class Analysed:
 
 
 def take_extremes(worst: Worst, turn: Turn, design: Any, name: str = "") -> None:
-    """Errors of the greatest and the least speed ratio."""
+    """Errors of the maximum and the minimum speed ratio."""
     for key, place in (("speed_ratio_max", turn.greatest), ("speed_ratio_min", turn.least)):
         gap = abs(getattr(design, key) - turn.drive.speed(place))
         worst.take(name + key, float(gap / (EPS * turn.drive.condition("speed", place))), str(design))
@@ -282,7 +282,7 @@ class Labelled:
 
 @pytest.mark.parametrize("count", [10, pytest.param(max(1, MANY // 100), marks=pytest.mark.stress)])
 def test_momentary_dwells_stand_still_where_they_say(count: int) -> None:
-    """The least speed of the second way is zero to the last digits and lies at the crank angle of the standstill."""
+    """The minimum speed of the second way is zero to the last digits and lies at the crank angle of the standstill."""
     drawn, worst = designs(np.random.default_rng(27), count, ("momentary-dwell",)), Worst()
     for design, turn in zip(drawn, turns(Drives.three_gears(*arrays(drawn)), count), strict=True):
         (place,) = dwells.dwell_positions(design.linkage, design.train)

@@ -34,7 +34,7 @@ def turn_blocks(samples: int) -> Iterator[np.ndarray]:
 
 
 def four_bar(count: int) -> float:
-    """Greatest acceleration of the rocker, from angles, velocities and accelerations."""
+    """Maximum acceleration of the rocker, from angles, velocities and accelerations."""
     return max(fourbar_sweep.solve(LINKAGE, phi, 2).rocker_acceleration.max() for phi in turn_blocks(count))
 
 
@@ -45,12 +45,12 @@ def unit_vectors(count: int) -> float:
 
 
 def three_gears(count: int) -> float:
-    """Least speed ratio of a three-gear four-bar."""
+    """Minimum speed ratio of a three-gear four-bar."""
     return min(output_motion(LINKAGE, TRAIN, phi).speed_ratio.min() for phi in turn_blocks(count))
 
 
 def cam(count: int) -> float:
-    """Greatest pressure angle of a cam, with profile and curvature."""
+    """Maximum pressure angle of a cam, with profile and curvature."""
     found = 0.0
     for theta in turn_blocks(count):
         cosine, sine = np.cos(2.0 * theta), np.sin(2.0 * theta)
@@ -98,7 +98,7 @@ for count in (SIZES[0], SIZES[-1]):
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc: getrusage would tell the parent's peak")
 @pytest.mark.parametrize("name", SWEEPS)
 def test_memory_of_the_process_stays(name: str) -> None:
-    """Greatest resident memory of a process of its own, after 1e5 positions and after 1e7 more."""
+    """Maximum resident memory of a process of its own, after 1e5 positions and after 1e7 more."""
     code = MEASURE.format(folder=str(Path(__file__).parents[1]), name=name)
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     few, many = (int(line) / 1024.0 for line in out.split())
@@ -107,7 +107,7 @@ def test_memory_of_the_process_stays(name: str) -> None:
 
 
 def traced(sweep: Callable[[int], float], count: int) -> float:
-    """Greatest memory in use during a sweep, in MB."""
+    """Maximum memory in use during a sweep, in MB."""
     tracemalloc.start()
     sweep(count)
     peak = tracemalloc.get_traced_memory()[1]

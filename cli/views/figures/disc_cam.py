@@ -25,7 +25,7 @@ def draw(command: str, design: DiscCamDesign) -> Figure:
     made = panels.page(f"{design.spec.name}: {command}")
     grid = made.add_gridspec(5, 1, height_ratios=(3.2, 1.0, 1.0, 1.0, 1.0))
     outline = made.add_subplot(grid[0])
-    panels.drawing(outline, "Cam and follower an eighth of a turn after cam angle 0")
+    panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")
     scene = build(design, np.array([_SHOWN]))
     scene_axes.draw(outline, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])))
     phi = np.linspace(0.0, 2.0 * math.pi, 1441)

@@ -25,11 +25,11 @@ _WORDS = {
     "phase": "output's direction at input angle 0",
     "five_bar_ratio": "output speed/input speed",
     "coupler_ratio": "coupler speed/input speed",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
     "path_width": "path along the frame",
     "path_height": "path across the frame",
     "path_deviation_rms": "distance from the points, rms",
-    "structural_error": "greatest error of the function",
+    "structural_error": "maximum error of the function",
     "error_extremes": "alternating extremes of that size",
 }
 
@@ -85,7 +85,7 @@ def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
 
 
 def _period(axes: Axes, design: GearedFiveBar) -> None:
-    """The x axis over as many turns as bring the linkage home."""
+    """The x axis over as many revolutions as bring the linkage home."""
     axes.set_xlim(0.0, 360.0 * design.period_turns)
     style.turns(axes, design.period_turns)
 
@@ -134,7 +134,7 @@ def _function(axes: Axes, design: GearedFiveBar) -> None:
 
 
 def _structural_error(axes: Axes, design: GearedFiveBar) -> None:
-    """Error of the function over its interval, magnified; its greatest values and the tolerance."""
+    """Error of the function over its interval, magnified; its maximum values and the tolerance."""
     table, greatest = design.table("structural_error", samples=240), math.degrees(design.structural_error or 0.0)
     linkage.chart(axes, "Structural error", "error [deg]", "input angle [deg]", turn=False)
     axes.plot(table["input_angle"], table["error"], color=style.BLUE, linewidth=1.6, label="error")

@@ -1,4 +1,4 @@
-"""Sheets of a geared rocker: the mechanism at both ends of the output's swing, and the swing over a turn."""
+"""Sheets of a geared rocker: the mechanism at both ends of the output's swing, and the swing over a revolution."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _WORDS = {
     "output_swing": "swing of the output",
     "swing_multiple": "output swing/rocker swing",
     "naive_multiple": "1 + z2/z5",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
 }
 
 

@@ -23,7 +23,7 @@ _WORDS = {
     "period_turns": "input turns until all repeats",
     "mean_ratio": "net output turns per input turn",
     "output_swing": "swing of the output",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
 }
 
 

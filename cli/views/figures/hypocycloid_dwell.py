@@ -23,7 +23,7 @@ _WORDS = {
     "dwell_ripple": "range of the slider in the dwell",
     "dwell_carrier_angle": "dwell wanted",
     "tolerance_carrier_angle": "widest dwell within the tolerance",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
 }
 
 
@@ -69,7 +69,7 @@ def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], lis
 
 
 def _turn(axes: Axes, design: HypocycloidDwell) -> None:
-    linkage.chart(axes, "Slider over a turn", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
+    linkage.chart(axes, "Slider over a revolution", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
     _mark(axes, design, "dwell wanted")
     axes.plot(*_deviations(design, 180.0), color=style.BLUE, linewidth=1.6)
     panels.legend_above(axes, 1)

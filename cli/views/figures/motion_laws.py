@@ -114,7 +114,7 @@ def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> 
     return path
 
 
-_FAINTEST = 1e-5  # of the greatest
+_FAINTEST = 1e-5  # of the maximum
 
 
 def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:

@@ -21,7 +21,7 @@ _WORDS = {
     "dwell_turns": "input turns in the dwell",
     "driven_speed_ratio": "driven speed/input speed",
     "rocker_swing": "swing of the rocker",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
 }
 
 

@@ -65,7 +65,7 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
 
 
 def _along(axes: Axes, design: RegisterDesign) -> None:
-    """The greatest sources along the stretch, each at its limit, relative to its start."""
+    """The maximum sources along the stretch, each at its limit, relative to its start."""
     import numpy as np
 
     degrees = np.degrees(design.input_angles)
@@ -80,7 +80,7 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     axes.set_xlim(degrees[0], degrees[-1])
     _in_time(axes, design)
     _from_zero(axes)
-    shown = f", the {len(_COLORS)} greatest of {len(order)}" if len(order) > len(_COLORS) else ""
+    shown = f", the {len(_COLORS)} maximum of {len(order)}" if len(order) > len(_COLORS) else ""
     dashed = "; dashed: torque −1" if len(costs) > 1 else ""
     panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
 
@@ -116,7 +116,7 @@ def _in_time(axes: Axes, design: Any) -> None:
 
 def _sources(axes: Axes, design: RegisterDesign) -> None:
     """Three sigma of every source, and its mean, where the whole is greatest."""
-    style.curves(axes, "3 sigma and mean where the whole is greatest [mm]", "")
+    style.curves(axes, "3 sigma and mean where the whole is largest [mm]", "")
     panels.small_ticks(axes)
     found = _signs(design)
     order = sorted(found[0][1].rows, key=_width)

@@ -116,7 +116,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
 
 
 def _window(design: ThreeGearFourBar, near: float) -> Stretch | None:
-    """The dwell within a tolerance, in the turn [deg] that starts half a turn before a place."""
+    """The dwell within a tolerance, in the turn [deg] that starts half a revolution before a place."""
     found = design.tolerance_dwell
     if found is None:
         return None
@@ -209,7 +209,7 @@ def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
     failing.past(axes, x, y, y < limit, "below the limit")
     axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
     least = math.degrees(design.min_transmission_angle)
-    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"least {least:.5g}°")
+    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"minimum {least:.5g}°")
     axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 15))
     panels.legend_above(axes, 3)
@@ -221,10 +221,10 @@ _LINKS = {
     "rocker_length": "rocker CD",
     "frame_length": "frame AD",
     "gear_gap": "gap of gears 1 and 5",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
     "mean_ratio": "output turns per crank turn",
 }
-_STEADY = {"speed_ratio_max": "greatest speed ratio", "speed_ratio_min": "least speed ratio"}
+_STEADY = {"speed_ratio_max": "maximum speed ratio", "speed_ratio_min": "minimum speed ratio"}
 _BACK_STEP = {
     "back_step_angle": "back-step of the output",
     "back_step_crank_angle": "crank angle of it, φ₁₂",
@@ -241,7 +241,7 @@ def dwell_position(design: ThreeGearFourBar) -> tuple[float, str]:
         return design.back_step.start + 0.5 * design.back_step.crank_angle, "middle of the back-step"
     if places:
         return places[0], "momentary dwell"
-    return design.speed_extremes.least_angle, "least output speed"
+    return design.speed_extremes.least_angle, "minimum output speed"
 
 
 def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:

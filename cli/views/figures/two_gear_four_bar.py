@@ -1,4 +1,4 @@
-"""Sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a turn."""
+"""Sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a revolution."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _WORDS = {
     "frame_length": "frame AD",
     "gear_ratio": "gear ratio, −z2/z5 (ring: z2/z5)",
     "standstill_coupler_ratio": "w2/w1 at a standstill",
-    "dwell_teeth_ratio": "greatest z5/z2 with a standstill",
+    "dwell_teeth_ratio": "maximum z5/z2 with a standstill",
     "dwell_crank_angles": "standstills",
     "back_step_angle": "back-step of the output",
-    "min_transmission_angle": "least transmission angle",
+    "min_transmission_angle": "minimum transmission angle",
 }
 
 
@@ -52,7 +52,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     """Links and gears to scale where the output stands, or is slowest; the pitch point lies on the line CD there."""
     places = design.dwell_crank_angles
     phi = places[0] if places else design.speed_ratio_min_at
-    words = "standstill" if places else "least output speed"
+    words = "standstill" if places else "minimum output speed"
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
     scene = build(design, np.array([phi / (2.0 * math.pi)]))
     scene_axes.draw(axes, scene, ahead=build(design, np.array([phi / (2.0 * math.pi) + scene_axes.AHEAD])))

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Report, Table
 
 
-# The film of a design inside a page: its positions as data for the player
+# The animation of a design inside a page: its positions as data for the player
 
 _FPS, _MOST = 25, 150
 """A page takes no more pictures; faster teeth than these show are no loss beside the numbers."""
 
 
 def film_data(design: Design, pictures: int = 0) -> dict[str, Any] | None:
-    """What the player draws; None where the design has no film, or cannot make its loop.
+    """What the player draws; None where the design has no animation, or cannot make its loop.
 
     Parameters
         pictures : int - how many; 0 leaves it to the teeth
@@ -99,9 +99,9 @@ def head(spec: Any, reports: Sequence[Report]) -> str:
 
 
 def film(design: Design, pictures: int = 0) -> str:
-    """The film of a design; empty where it has none."""
+    """The animation of a design; empty where it has none."""
     data = film_data(design, pictures)
-    return "" if data is None else f'<h2 class="first">Film</h2>\n<div class="film">{as_data(data, "data")}</div>'
+    return "" if data is None else f'<h2 class="first">Animation</h2>\n<div class="film">{as_data(data, "data")}</div>'
 
 
 def given(text: str, spec: Any) -> str:

@@ -25,7 +25,7 @@ _REACH = 1.15
 
 
 def build(design: DiscCamDesign, fraction: Reals) -> Scene:
-    """Positions over fractions of a turn of the cam."""
+    """Positions over fractions of a revolution of the cam."""
     scene = of_motion.build(design, fraction)
     return replace(scene, parts=(*_cams(design, fraction), *scene.parts, *_followers(design, fraction)))
 

@@ -1,4 +1,4 @@
-"""The flatbed press: one turn of the input, a sheet. Chains and cams are to scale, as in its diagram."""
+"""The flatbed press: one revolution of the input, a sheet. Chains and cams are to scale, as in its diagram."""
 
 from __future__ import annotations
 

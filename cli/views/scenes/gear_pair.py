@@ -51,7 +51,7 @@ def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scen
 
 
 def loop_pitches(teeth: tuple[int, int]) -> int:
-    """Pitches that pass in the loop: a turn of a small gear 1, else as many as let both gears keep their holes.
+    """Pitches that pass in the loop: a revolution of a small gear 1, else as many as let both gears keep their holes.
 
     Example
         >>> loop_pitches((20, 40)), loop_pitches((72, 72)), loop_pitches((101, 103))

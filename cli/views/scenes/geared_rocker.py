@@ -1,4 +1,4 @@
-"""The geared rocker: one turn of the crank."""
+"""The geared rocker: one revolution of the crank."""
 
 from __future__ import annotations
 

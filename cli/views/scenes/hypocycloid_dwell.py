@@ -1,4 +1,4 @@
-"""The dwell on an arc of a hypocycloid: one turn of the carrier."""
+"""The dwell on an arc of a hypocycloid: one revolution of the carrier."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the scenes of the smaller gear-linkages share: the four joints, and a chart over the crank angle."""
+"""What the scenes of the smaller geared linkages share: the four joints, and a chart over the crank angle."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def coupler_windings(motion: Motion) -> float:
 
 
 def over_crank(phi: Reals, curves: tuple[Curve, ...], ylabel: str, marked: tuple[Band, ...] = ()) -> Chart:
-    """A chart over one turn of the crank; its curves have as many points as `loop()`."""
+    """A chart over one revolution of the crank; its curves have as many points as `loop()`."""
     return Chart("crank angle [deg]", ylabel, 360.0 * loop(), np.degrees(phi), curves, marked)
 
 

@@ -1,4 +1,4 @@
-"""A gear on a rack: the rack goes there and back, so that the film comes to meet itself."""
+"""A gear on a rack: the rack goes there and back, so that the animation comes to meet itself."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Body:
 
     outline : (M,) points in the body's own frame
     place, turn : (N,) tracks of its origin and of the direction of its x axis [rad]
-    repeats : after a turn by 2 pi/repeats the outline looks the same; 1 without such a symmetry, 0 for a circle
+    repeats : after a revolution by 2 pi/repeats the outline looks the same; 1 without such a symmetry, 0 for a circle
     label, name : words on the body, and in a legend
     pitch : radius of the pitch circle of a gear [mm]
     shows_turn : there to show how far something has turned; left out where nothing moves
@@ -186,7 +186,7 @@ def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...
 
 
 def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str) -> Body:
-    """A plain disc, such as a roller: it looks the same at every turn."""
+    """A plain disc, such as a roller: it looks the same at every revolution."""
     at, level = track(place, fraction), np.zeros_like(fraction)
     return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0)
 

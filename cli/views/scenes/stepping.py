@@ -24,7 +24,7 @@ _RIM = 2.5
 
 
 def geneva(design: GenevaDrive, fraction: Reals) -> Scene:
-    """Positions over fractions of a turn of the crank: wheel with its slots, locking disc, pins."""
+    """Positions over fractions of a revolution of the crank: wheel with its slots, locking disc, pins."""
     scene = of_motion.build(design, fraction)
     links = design.moving.at(of_motion.inputs(design.moving.input, fraction), 0).links
     drive, pin = design.drive, design.spec.pin_radius
@@ -124,7 +124,7 @@ def _round(center: Points, turn: Reals, circle_radius: float, radius: float, cou
 
 
 def grooved(design: Grooved, fraction: Reals) -> Scene:
-    """Positions over fractions of a turn of the input: the links, the roller, and both walls of its groove."""
+    """Positions over fractions of a revolution of the input: the links, the roller, and both walls of its groove."""
     scene = of_motion.build(design, fraction)
     theta, groove = TURN * fraction, design.groove
     still, axis = np.zeros_like(fraction), np.zeros(fraction.shape, dtype=np.complex128)
@@ -146,7 +146,7 @@ def _is_block(part: Part) -> bool:
 
 
 def linked_cams(design: LinkedCams, fraction: Reals) -> Scene:
-    """Positions over fractions of a turn: both cams, their rollers, and the table on its path."""
+    """Positions over fractions of a revolution: both cams, their rollers, and the table on its path."""
     scene = of_motion.build(design, fraction)
     theta = TURN * fraction
     links = design.moving.at(theta, 0).links

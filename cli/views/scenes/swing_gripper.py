@@ -1,4 +1,4 @@
-"""The swing gripper: one turn of the cylinder shaft, a sheet."""
+"""The swing gripper: one revolution of the cylinder shaft, a sheet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The three-gear four-bar: one turn of the crank."""
+"""The three-gear four-bar: one revolution of the crank."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The two-gear four-bar: one turn of the crank."""
+"""The two-gear four-bar: one revolution of the crank."""
 
 from __future__ import annotations
 

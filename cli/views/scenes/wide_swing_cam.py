@@ -53,12 +53,12 @@ class Cycle:
 
     @property
     def whole(self) -> bool:
-        """Whether strokes and rests fill one turn as the file says."""
+        """Whether strokes and rests fill one revolution as the file says."""
         return self.design.spec.cycle is not None
 
     @cached_property
     def turned(self) -> float:
-        """Angle that the cam, or the crank, turns in the loop: whole turns with room for both strokes [rad]."""
+        """Angle that the cam, or the crank, turns in the loop: whole revolutions with room for both strokes [rad]."""
         return (
             TURN
             if self.oscillates or self.whole

@@ -102,7 +102,7 @@ def shared(*keys: str, step: float) -> tuple[Way, ...]:
 
 
 def at_most(value: float, step: float = 0.1) -> float:
-    """The greatest value that can be built up to a bound; of one below the step to two digits.
+    """The maximum value that can be built up to a bound; of one below the step to two digits.
 
     Example
         >>> at_most(7.3421), at_most(0.0562), at_most(43.2, 0.5)
@@ -112,7 +112,7 @@ def at_most(value: float, step: float = 0.1) -> float:
 
 
 def at_least(value: float, step: float = 0.1) -> float:
-    """The least value that can be built from a bound on; of one below the step to two digits.
+    """The minimum value that can be built from a bound on; of one below the step to two digits.
 
     Example
         >>> at_least(7.3421), at_least(0.0562), at_least(2.52431, 0.01)
@@ -140,7 +140,7 @@ def left_out(key: str) -> Way:
 
 
 def greatest_length(spec: Any) -> float:
-    """The greatest length in a design file [mm]."""
+    """The maximum length in a design file [mm]."""
     paths = (path for name, field in type(spec).model_fields.items() for path in numbers_at(spec, field.alias or name))
     return max((abs(number_at(spec, path) or 0.0) for path in paths if unit_at(spec, path) == "mm"), default=0.0)
 
@@ -149,7 +149,7 @@ def can_be_built(spec: Any, remedy: Remedy, greatest: float) -> bool:
     """Whether the lengths of a remedy suit the machine.
 
     Parameters
-        greatest : float [mm] - that of the file: no length becomes greater by more than four times, and greater than it
+        maximum : float [mm] - that of the file: no length becomes greater by more than four times, and greater than it
     """
     for path, value in remedy:
         old = number_at(spec, path)

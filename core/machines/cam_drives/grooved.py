@@ -102,7 +102,7 @@ class Grooved(RealSpeed, Design):
         return {}
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The output over a turn of the input."""
+        """The output over a revolution of the input."""
         import numpy as np
 
         from gearlink.core.numerics.arrays import turn_degrees
@@ -266,7 +266,7 @@ class CamGear(Grooved):
 
 
 class CamLinkage(Grooved):
-    """A five-bar A-B-C-D-E whose joint C runs in a groove: the output by any law, full turns too.
+    """A five-bar A-B-C-D-E whose joint C runs in a groove: the output by any law, full revolutions too.
 
     Source
         thesis 1.3.2; own derivation
@@ -296,7 +296,7 @@ class CamLinkage(Grooved):
 
     @cached_property
     def _span(self) -> tuple[Extreme, Extreme]:
-        """Greatest and least distance of B and D."""
+        """Maximum and minimum distance of B and D."""
         import numpy as np
 
         from gearlink.core.numerics.arrays import units
@@ -312,7 +312,7 @@ class CamLinkage(Grooved):
         return far, near
 
     def require_closed(self) -> None:
-        """Coupler and follower must reach from B to D over the whole turn."""
+        """Coupler and follower must reach from B to D over the whole revolution."""
         links, (far, near) = self.spec.links, self._span
         least, most = abs(links.coupler - links.follower), links.coupler + links.follower
         open_at = far if far.value >= most else near if near.value <= least else None

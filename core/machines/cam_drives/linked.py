@@ -23,7 +23,7 @@ _LARGER = "enlarge its base_radius"
 
 
 class LinkedCams(RealSpeed, Design):
-    """Each coordinate of the path is the lift of an in-line cam, counted from its least.
+    """Each coordinate of the path is the lift of an in-line cam, counted from its minimum.
 
     Source
         thesis 1.3.1; own derivation: tan alpha = s'/(r_0 + s)
@@ -90,7 +90,7 @@ class LinkedCams(RealSpeed, Design):
 
     @cached_property
     def lowest(self) -> list[float]:
-        """Least x and y of the path [mm]."""
+        """Minimum x and y of the path [mm]."""
         return [found[0] for found in self._reach]
 
     @cached_property
@@ -124,12 +124,12 @@ class LinkedCams(RealSpeed, Design):
 
     @property
     def path_speed_max(self) -> float | None:
-        """Greatest speed along the path [mm/s]."""
+        """Maximum speed along the path [mm/s]."""
         return None if self.angular_speed is None else self._speeds[0] * self.angular_speed
 
     @property
     def path_speed_min(self) -> float | None:
-        """Least speed along the path [mm/s]."""
+        """Minimum speed along the path [mm/s]."""
         return None if self.angular_speed is None else self._speeds[1] * self.angular_speed
 
     # The cams
@@ -156,22 +156,22 @@ class LinkedCams(RealSpeed, Design):
 
     @property
     def max_pressure_angle(self) -> list[float]:
-        """Greatest pressure angle of both cams [rad]."""
+        """Maximum pressure angle of both cams [rad]."""
         return [cam.max_pressure_angle.value for cam in self.cams]
 
     @property
     def min_curvature_radius(self) -> list[float]:
-        """Least convex radius of both pitch curves [mm]."""
+        """Minimum convex radius of both pitch curves [mm]."""
         return [cam.min_curvature_radius.value for cam in self.cams]
 
     @property
     def max_radius(self) -> list[float]:
-        """Greatest radius of both pitch curves [mm]."""
+        """Maximum radius of both pitch curves [mm]."""
         return [cam.max_radius + cam.roller_radius for cam in self.cams]
 
     @property
     def min_radius(self) -> list[float]:
-        """Least radius of both pitch curves [mm]."""
+        """Minimum radius of both pitch curves [mm]."""
         return [cam.min_radius + cam.roller_radius for cam in self.cams]
 
     # Tables and checks

@@ -36,7 +36,7 @@ PathPoint = Annotated[list[SignedLength], Field(min_length=3, max_length=3), Ent
 class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
-    pressure_angle: SteepAngle = Field(45.0, description="greatest pressure angle")
+    pressure_angle: SteepAngle = Field(45.0, description="maximum pressure angle")
 
 
 Roller = Annotated[Length, Field(description="radius of the roller in the groove")]

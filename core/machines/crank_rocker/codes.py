@@ -7,7 +7,8 @@ from gearlink.core.base.report import Rule
 FULL_TURN = Rule(
     "GL330",
     "crank does not turn fully",
-    "The linkage that was found for three pairs of angles goes through them, but its crank cannot make a full turn.",
+    "The linkage that was found for three pairs of angles goes through them, but its crank cannot make a full "
+    "revolution.",
     "A drive that turns on stops or breaks the linkage; one that swings within the range is enough for the pairs.",
     "Drive the crank to and fro within `range`, or ask for other pairs: a smaller swing of the rocker, or another "
     "crank angle at one of them.",

@@ -216,7 +216,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
     # Tables
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The rocker over a turn of the crank, or over its range with both ends."""
+        """The rocker over a revolution of the crank, or over its range with both ends."""
         from gearlink.core.machines.crank_rocker.mechanism import rocker
         from gearlink.core.mechanism.courses import Shown, between
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class CrankRockerLoads(LoadsDesign):
-    """Input angle: the crank's, from the line of the frame; loads are those of whole turns."""
+    """Input angle: the crank's, from the line of the frame; loads are those of whole revolutions."""
 
     kind = "crank-rocker"
     spec: CrankRockerSpec
@@ -36,13 +36,13 @@ class CrankRockerLoads(LoadsDesign):
         found = made(self.spec)
         if found.crank_range is not None:
             key = "range" if self.spec.range is not None else "function.pairs"
-            message = "loads are those of whole turns at even speed"
+            message = "loads are those of whole revolutions at even speed"
             raise NoSolution(message, key=key, fix="leave range out, with links whose crank turns")
         return found
 
     @property
     def transmission_angle(self) -> float:
-        """Least transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the turn [rad]."""
         return self.design.min_transmission_angle
 
     def counterweights(self) -> dict[str, complex]:

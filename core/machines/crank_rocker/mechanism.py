@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def motion(design: CrankRocker) -> Motion:
-    """Links and joints over the crank angle, A at 0 and D on +x: a turn, or the range of the file."""
+    """Links and joints over the crank angle, A at 0 and D on +x: a revolution, or the range of the file."""
     linkage, span = design.linkage, design.crank_range
     point = design.coupler_point
 

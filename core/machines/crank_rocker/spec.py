@@ -28,7 +28,7 @@ _SIZES = ("crank", "coupler", "rocker", "frame")
 class RockerLimits(LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle")
 
 
 class Swing(Spec):
@@ -84,11 +84,11 @@ class CrankRockerSpec(DrivenSpec):
     links: FourLinks | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     range: Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[from, to]", "[60, 120]")] | None = (
-        Field(None, description="crank angles between which it moves; left out: whole turns")
+        Field(None, description="crank angles between which it moves; left out: whole revolutions")
     )
     coupler_point: (
         Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[55, 40]")] | None
-    ) = Field(None, description="point of the coupler whose path is wanted, from B along BC and to the left of it")
+    ) = Field(None, description="point of the coupler whose path is required, from B along BC and to the left of it")
     swing: Swing | None = Field(None, description="asked of `synth swing`")
     function: Function | None = Field(None, description="asked of `synth function`")
     limits: RockerLimits = RockerLimits.model_construct()

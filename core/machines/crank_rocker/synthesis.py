@@ -59,7 +59,7 @@ def half_angles(swing: float, ratio: float, same: bool) -> tuple[float, float]:
 
 
 def best_ratios(p: float, q: float) -> Ratios:
-    """Links with the greatest least transmission angle that a swing and a time ratio allow.
+    """Links with the maximum minimum transmission angle that a swing and a time ratio allow.
 
     t^2 x^3 + 2 x^2 - x - (1 + 1/t^2) tan^2(q - p) = 0,   (b/a)^2 = 1/x,   t = cot p,   0 < x < 1
     d^2 sin^2 q = a^2 cos^2(q - p) + b^2 sin^2(q - p),   c^2 sin^2 q = a^2 cos^2 p + b^2 sin^2 p
@@ -195,7 +195,7 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
         across = ((joint - pin).conjugate() * (joint - frame)).imag / (b * abs(c))
         if abs(across) < _IN_LINE:
             raise NoSolution(
-                f"coupler and rocker are in line at pair {number}, which then is a dead point", fix="move it"
+                f"coupler and rocker are in line at pair {number}, which then is a dead centre", fix="move it"
             )
         sides.add(across > 0.0)
     if len(sides) > 1:

@@ -109,7 +109,7 @@ class CycloidalReducer(RealSpeed, Design):
 
     @property
     def pressure_angle_min(self) -> float:
-        """Least pressure angle at the pins that push, eccentric at 0 [rad]."""
+        """Minimum pressure angle at the pins that push, eccentric at 0 [rad]."""
         return float(self._pressure_angles.min())
 
     @property
@@ -119,7 +119,7 @@ class CycloidalReducer(RealSpeed, Design):
 
     @property
     def pressure_angle_max(self) -> float:
-        """Their greatest [rad]."""
+        """Their maximum [rad]."""
         return float(self._pressure_angles.max())
 
     # Forces
@@ -150,7 +150,7 @@ class CycloidalReducer(RealSpeed, Design):
         }.get(name, "")  # fmt: skip
 
     def _over_pitch(self, pins: int, course: Callable[[Reals], Reals]) -> Extreme:
-        """Greatest value over the eccentric's angle, which repeats after a pitch; a pin begins or ends to push."""
+        """Maximum value over the eccentric's angle, which repeats after a pitch; a pin begins or ends to push."""
         from gearlink.core.numerics.extremes import maximum_over
 
         pitch = TURN / pins
@@ -158,7 +158,7 @@ class CycloidalReducer(RealSpeed, Design):
 
     @cached_property
     def pin_force_max(self) -> float | None:
-        """Greatest force of a ring pin [N]."""
+        """Maximum force of a ring pin [N]."""
         torque = self.worst_torque
         if torque is None:
             return None
@@ -185,14 +185,14 @@ class CycloidalReducer(RealSpeed, Design):
 
     @cached_property
     def contact_stress(self) -> float | None:
-        """Greatest contact stress of a ring pin [N/mm^2]; None where an undercut flank has none."""
+        """Maximum contact stress of a ring pin [N/mm^2]; None where an undercut flank has none."""
         if self.worst_torque is None or self.spec.width is None or self.disc.pin >= self.min_curvature_radius:
             return None
         return self._over_pitch(self.disc.pins, lambda phi: self.stresses(phi).max(axis=1)).value
 
     @cached_property
     def output_pin_force_max(self) -> float | None:
-        """Greatest force of an output pin [N]."""
+        """Maximum force of an output pin [N]."""
         pins, torque = self.spec.output_pins, self.worst_torque
         if pins is None or torque is None:
             return None
@@ -227,7 +227,7 @@ class CycloidalReducer(RealSpeed, Design):
 
     @cached_property
     def efficiency(self) -> float | None:
-        """Estimate from the forces without loss, mean over a turn of the eccentric.
+        """Estimate from the forces without loss, mean over a revolution of the eccentric.
 
         1/(1 + loss), loss per unit of the output's work; churning and seals are not in it. In the eccentric's bearing
         ring pins and output pins are counted as pushing the same way, which is on the safe side.
@@ -253,7 +253,7 @@ class CycloidalReducer(RealSpeed, Design):
 
     @cached_property
     def tightest(self) -> Extreme | None:
-        """Least gap of the modified profile over 0 < u < 180 deg [mm], and where."""
+        """Minimum gap of the modified profile over 0 < u < 180 deg [mm], and where."""
         if self.spec.modification is None:
             return None
         from gearlink.core.numerics.extremes import minimum_over
@@ -310,7 +310,7 @@ class CycloidalReducer(RealSpeed, Design):
     # Checks
 
     def check_undercut(self) -> Check:
-        """GL201: the pin's radius against the least convex radius of the pitch curve."""
+        """GL201: the pin's radius against the minimum convex radius of the pitch curve."""
         radius, least = self.spec.pin_radius, self.min_curvature_radius
         share = radius / least
         status: Status = "fail" if share >= 1.0 else "warn" if share > _NEAR else "pass"
@@ -361,7 +361,7 @@ class CycloidalReducer(RealSpeed, Design):
         return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 
     def check_pitting(self) -> Iterator[Check]:
-        """GL210: what the material bears over the greatest contact stress."""
+        """GL210: what the material bears over the maximum contact stress."""
         stress, bears = self.contact_stress, self.spec.material.contact_limit
         if stress is None or bears is None:
             return

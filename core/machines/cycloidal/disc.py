@@ -83,7 +83,7 @@ class Disc:
 
     @cached_property
     def min_convex_radius(self) -> float:
-        """Least convex radius of curvature of the pitch curve [mm].
+        """Minimum convex radius of curvature of the pitch curve [mm].
 
         K > (Z - 2)/(2 Z - 1):  R sqrt(27 (1 - K^2)(Z - 1)/(Z + 1)^3);  else  R (1 + K)^2/(1 + Z K)
         """

@@ -44,7 +44,7 @@ class ReducerMaterial(Spec):
     poisson: Annotated[float, Field(ge=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.3, description="Poisson's ratio"
     )
-    contact_limit: Stress | None = Field(None, description="greatest contact stress that it bears")
+    contact_limit: Stress | None = Field(None, description="maximum contact stress that it bears")
 
 
 class ReducerLimits(LoadLimits):

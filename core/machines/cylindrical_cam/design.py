@@ -83,25 +83,25 @@ class CylindricalCamDesign(OfFollower, Design):
 
     @cached_property
     def steepest(self) -> Extreme:
-        """Greatest magnitude of the pressure angle, at the bottom of the track [rad], and its cam angle."""
+        """Maximum magnitude of the pressure angle, at the bottom of the track [rad], and its cam angle."""
         return self._most(lambda phi: abs(self.drum.pressure_angle(self.drum.bottom, phi)))
 
     max_pressure_angle: float = placed("steepest.value")
 
     @cached_property
     def pressure_angle_outside(self) -> float:
-        """Greatest magnitude of the pressure angle at the outside of the drum [rad]."""
+        """Maximum magnitude of the pressure angle at the outside of the drum [rad]."""
         return self._most(lambda phi: abs(self.drum.pressure_angle(self.drum.outside, phi))).value
 
     @cached_property
     def min_curvature_radius(self) -> float:
-        """Least radius of the developed pitch curve, of either sense, over both radii [mm]."""
+        """Minimum radius of the developed pitch curve, of either sense, over both radii [mm]."""
         bend = max(self._most(lambda phi, x=x: abs(self.drum.curvature(x, phi))).value for x in self._radii)  # type: ignore[misc]
         return 1.0 / bend if bend > 0.0 else math.inf
 
     @cached_property
     def thinnest(self) -> Extreme:
-        """Least wall factor over both walls and both radii, and its cam angle [rad]."""
+        """Minimum wall factor over both walls and both radii, and its cam angle [rad]."""
         found = [
             self._most(lambda phi, x=x, side=side: -self.drum.wall_factor(x, side, phi))  # type: ignore[misc]
             for x in self._radii

@@ -31,8 +31,8 @@ class DrumBody(Spec):
 class DrumLimits(Spec):
     """Limits of the checks."""
 
-    pressure_angle: SteepAngle = Field(30.0, description="greatest pressure angle, at the bottom of the track")
-    jerk_step: Distance | None = Field(None, description="greatest jump of the jerk, mm per rad^3")
+    pressure_angle: SteepAngle = Field(30.0, description="maximum pressure angle, at the bottom of the track")
+    jerk_step: Distance | None = Field(None, description="maximum jump of the jerk, mm per rad^3")
 
 
 class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):

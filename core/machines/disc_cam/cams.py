@@ -1,4 +1,4 @@
-"""The cams of a follower: what the file gives, or the least that keep its limits."""
+"""The cams of a follower: what the file gives, or the minimum that keep its limits."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class FollowerCams:
 
     @cached_property
     def lifts(self) -> tuple[float, float]:
-        """Least and greatest lift [mm or rad]."""
+        """Minimum and maximum lift [mm or rad]."""
         course, joints = (lambda phi: self.motion.evaluate(phi, 0)[0]), self.motion.joints
         low, high = (
             minimum_over(course, joints=joints, samples=SAMPLES),
@@ -75,7 +75,7 @@ class FollowerCams:
 
     @cached_property
     def limits(self) -> tuple[float, float, float]:
-        """Greatest pressure angle of rise, return and dwell [rad], of the size where it gives one."""
+        """Maximum pressure angle of rise, return and dwell [rad], of the size where it gives one."""
         size = self.spec.cam.size
         given = None if size is None else size.pressure_angle
         rise, back = given if isinstance(given, list) else (given, given) if given else self.spec.pressure_limits()
@@ -94,7 +94,7 @@ class FollowerCams:
 
     @cached_property
     def place(self) -> Place:
-        """The place, given or the least.
+        """The place, given or the minimum.
 
         Raises
             NoSolution - none keeps the limits, or the roller would reach over the cam's axis
@@ -103,7 +103,7 @@ class FollowerCams:
         roller = getattr(self.follower, "roller_radius", 0.0)
         if found.radius <= roller:
             given = self.spec.cam.prime_radius is not None
-            words = "prime_radius" if given else "the least prime radius"
+            words = "prime_radius" if given else "the minimum prime radius"
             message = f"{words} {found.radius:.6g} mm is not above roller_radius {roller:g} mm, which leaves no cam: "
             message += "raise it" if given else "give cam.prime_radius, or cam.size.curvature_radius"
             raise NoSolution(message, key="cam.prime_radius" if given else "cam.size")
@@ -114,7 +114,7 @@ class FollowerCams:
         if not isinstance(follower, TranslatingRoller):
             radius = cam.base_radius or least_cam.flat_base_radius(self.motion, self._least_radius)
             if not radius > 0.0:
-                message = f"the least base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
+                message = f"the minimum base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
         if cam.prime_radius is not None:
@@ -154,7 +154,7 @@ class FollowerCams:
         return Place(radius, 0.0, distance, math.acos(share))
 
     def _room(self, start: float, distance: float | None) -> float:
-        """Least convex curvature radius less what is asked for [mm], of a start angle."""
+        """Minimum convex curvature radius less what is asked for [mm], of a start angle."""
         assert distance is not None
         cam = DiscCam(
             "main cam", self._rocking_path(Place(0.0, 0.0, distance, start)), self.sense, 0.0, self.motion.joints
@@ -300,18 +300,18 @@ class FollowerCams:
 
     @cached_property
     def hollow(self) -> tuple[float, float] | None:
-        """Least hollow radius of the main cam's profile [mm] and its cam angle [rad]; None where it is convex."""
+        """Minimum hollow radius of the main cam's profile [mm] and its cam angle [rad]; None where it is convex."""
         return self.hollow_of(self.main)
 
     def hollow_of(self, cam: DiscCam) -> tuple[float, float] | None:
-        """Least hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad]."""
+        """Minimum hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad]."""
         lowest = minimum_over(cam.curvature, joints=self.motion.joints, samples=SAMPLES)
         if lowest.value >= -1e-12 / self.place.radius:
             return None
         return cam.roller_radius - 1.0 / lowest.value, lowest.place
 
     def most_in_strokes(self, sense: int) -> float | None:
-        """Greatest magnitude of the pressure angle in rises (+1), returns (-1) or dwells (0) [rad]."""
+        """Maximum magnitude of the pressure angle in rises (+1), returns (-1) or dwells (0) [rad]."""
         cams = (self.flat,) if self.spec.is_flat else tuple(c for c in (self.main, self.back) if c)
         found = [
             least_cam.most_in_strokes(self.motion, lambda phi, cam=cam: np.abs(cam.pressure_angle(phi)), sense)  # type: ignore[misc]

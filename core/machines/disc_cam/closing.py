@@ -69,7 +69,7 @@ class Closing:
 
     @cached_property
     def preload(self) -> float | None:
-        """Force of the spring at lift 0, given or the least [N, or N m]; None without a spring."""
+        """Force of the spring at lift 0, given or the minimum [N, or N m]; None without a spring."""
         spring = self.spec.spring
         if spring is None:
             return None
@@ -98,7 +98,7 @@ class Closing:
 
     @cached_property
     def unloading(self) -> Extreme | None:
-        """Greatest 1/Omega*^2 = -m s''/T_static and its cam angle; None without spring or mass.
+        """Maximum 1/Omega*^2 = -m s''/T_static and its cam angle; None without spring or mass.
 
         It is inf where the spring does not hold the follower on the cam at rest.
         """

@@ -202,27 +202,27 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def max_pressure_angle(self) -> Any:
-        """Greatest pressure angle [rad]."""
+        """Maximum pressure angle [rad]."""
         return self._one_or_both([cam.max_pressure_angle.value for cam in self.profiles])
 
     @cached_property
     def pressure_angle_rise(self) -> float | None:
-        """Greatest pressure angle of the rises [rad]."""
+        """Maximum pressure angle of the rises [rad]."""
         return self.cams.most_in_strokes(1)
 
     @cached_property
     def pressure_angle_return(self) -> float | None:
-        """Greatest pressure angle of the returns [rad]."""
+        """Maximum pressure angle of the returns [rad]."""
         return self.cams.most_in_strokes(-1)
 
     @property
     def min_curvature_radius(self) -> Any:
-        """Least convex radius of the pitch curve (flat: of the profile) [mm]."""
+        """Minimum convex radius of the pitch curve (flat: of the profile) [mm]."""
         return self._one_or_both([cam.min_curvature_radius.value for cam in self.profiles])
 
     @property
     def min_concave_radius(self) -> Any:
-        """Least radius of the hollow flanks of the profile [mm]; None where there are none."""
+        """Minimum radius of the hollow flanks of the profile [mm]; None where there are none."""
         if self.spec.is_flat:
             return None
         found = [self.cams.hollow_of(cam) for cam in (self.cams.main, self.cams.back) if cam is not None]
@@ -249,12 +249,12 @@ class DiscCamDesign(OfFollower, Design):
 
     @property
     def contact_place_max(self) -> float | None:
-        """Greatest place of the contact along a flat face [mm]."""
+        """Maximum place of the contact along a flat face [mm]."""
         return self._contact_place(1)
 
     @property
     def contact_place_min(self) -> float | None:
-        """Least place of the contact along a flat face [mm]."""
+        """Minimum place of the contact along a flat face [mm]."""
         return self._contact_place(0)
 
     @property

@@ -177,7 +177,7 @@ class DiscCamLoads(CamLoadsDesign):
 
     @property
     def preload_needed(self) -> float | None:
-        """Least preload that keeps both rollers of a conjugate pair on their cams [N]: half the greatest force."""
+        """Minimum preload that keeps both rollers of a conjugate pair on their cams [N]: half the maximum force."""
         if self.spec.closure != "conjugate":
             return None
         return 0.5 * max(abs(self.extreme(self.side_force, greatest).value) for greatest in (True, False))

@@ -119,17 +119,17 @@ class Making:
 
     @cached_property
     def lift_error_worst(self) -> float | None:
-        """Greatest sum of the errors [mm, or rad]; None without errors."""
+        """Maximum sum of the errors [mm, or rad]; None without errors."""
         return None if self.spec.errors is None else self._most(self._worst)
 
     @cached_property
     def lift_error_rss(self) -> float | None:
-        """Greatest root of the sum of their squares [mm, or rad]."""
+        """Maximum root of the sum of their squares [mm, or rad]."""
         return None if self.spec.errors is None else self._most(self._rss)
 
     @cached_property
     def acceleration_error(self) -> float | None:
-        """Greatest acceleration that waves of the profile make, n^2 Omega^2 delta/cos alpha [mm/s^2, or rad/s^2]."""
+        """Maximum acceleration that waves of the profile make, n^2 Omega^2 delta/cos alpha [mm/s^2, or rad/s^2]."""
         given = self.spec.errors
         if given is None or given.waves is None or self.spec.speed is None:
             return None
@@ -164,7 +164,7 @@ class Making:
 
     @cached_property
     def servo_error(self) -> float | None:
-        """Greatest error of the position between the rows [mm, or rad]."""
+        """Maximum error of the position between the rows [mm, or rad]."""
         rows = self.servo_rows
         return None if rows is None else greatest_error(self.cams.motion, rows)
 

@@ -28,7 +28,7 @@ Kilograms = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Inertia = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})]
 Reach = Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[from, to]")]
 ROLLER_SHARE = 0.8
-"""Of the least curvature radius of the pitch curve: the usual greatest roller."""
+"""Of the minimum curvature radius of the pitch curve: the usual maximum roller."""
 
 
 def _refuse(key: str, message: str) -> PydanticCustomError:
@@ -96,10 +96,10 @@ class Size(Spec):
     """What the smallest cam keeps."""
 
     pressure_angle: SteepAngle | Strokes | None = Field(
-        None, description="greatest pressure angle, or [rise, return]; left out: limits.pressure_angle"
+        None, description="maximum pressure angle, or [rise, return]; left out: limits.pressure_angle"
     )
     curvature_radius: Length | None = Field(
-        None, description="least curvature radius of the pitch curve (flat: of the profile); roller_radius/0.8"
+        None, description="minimum curvature radius of the pitch curve (flat: of the profile); roller_radius/0.8"
     )
 
 
@@ -133,7 +133,7 @@ class Spring(Spec):
         0.0, description="rate (oscillating: N m/rad)"
     )
     least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
-        None, description="least force that is to stay (oscillating: N m), in place of preload"
+        None, description="minimum force that is to stay (oscillating: N m), in place of preload"
     )
 
     @model_validator(mode="after")
@@ -145,7 +145,7 @@ class Spring(Spec):
 
 
 class Errors(Spec):
-    """Errors of the cam as made."""
+    """Errors of the cam as manufactured."""
 
     profile: Distance = Field(0.0, description="error of the profile along its normal")
     run_out: Distance = Field(
@@ -158,7 +158,7 @@ class Errors(Spec):
     )
     roller_radius: Distance = Field(0.0, description="error of the roller's radius")
     waves: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="waves of the profile a turn"
+        None, description="waves of the profile a revolution"
     )
 
 
@@ -168,7 +168,7 @@ class Servo(Spec):
     rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
         None, description="rows of the table, both ends"
     )
-    tolerance: Length | None = Field(None, description="greatest position error between rows, in place of rows")
+    tolerance: Length | None = Field(None, description="maximum position error between rows, in place of rows")
 
     @model_validator(mode="after")
     def _one(self) -> Servo:
@@ -181,10 +181,10 @@ class DiscCamLimits(LoadLimits):
     """Limits of the checks."""
 
     pressure_angle: SteepAngle | Strokes | None = Field(
-        None, description="greatest pressure angle, or [rise, return]; 30 translating, 45 oscillating"
+        None, description="maximum pressure angle, or [rise, return]; 30 translating, 45 oscillating"
     )
     curvature_radius: Distance = Field(0.0, description="of a flat face: radius of the profile below which it warns")
-    jerk_step: Distance | None = Field(None, description="greatest jump of the jerk, lift per rad^3")
+    jerk_step: Distance | None = Field(None, description="maximum jump of the jerk, lift per rad^3")
 
 
 class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
@@ -196,7 +196,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     closure: Literal["spring", "groove", "conjugate"] = Field("spring", description="what holds the follower")
     return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
-    errors: Errors | None = Field(None, description="errors of the cam as made")
+    errors: Errors | None = Field(None, description="errors of the cam as manufactured")
     servo: Servo | None = Field(None, description="table of a drive in place of the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
@@ -268,7 +268,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         return self
 
     def pressure_limits(self) -> tuple[float, float]:
-        """Greatest pressure angle of rise and return [deg], of the limits, the size or the usual."""
+        """Maximum pressure angle of rise and return [deg], of the limits, the size or the usual."""
         size = None if self.cam.size is None else self.cam.size.pressure_angle
         given = self.limits.pressure_angle or size or (45.0 if self.oscillates else 30.0)
         rise, back = given if isinstance(given, list) else (given, given)

@@ -7,7 +7,7 @@ from gearlink.core.base.report import Rule
 START_SHOCK = Rule(
     "GL310",
     "start with a shock, and what the model leaves out",
-    "A mutilated gear takes its mate to full speed at once (always a warning).",
+    "A mutilated gear takes its mating gear to full speed at once (always a warning).",
     "The model ends at the pitch circles: the cut tips of the first and last tooth and the locking arcs change "
     "where exactly motion begins and ends, and the blow limits the speed.",
     "Let the crank stand at a dead centre (leave start_angle out), keep the speed low, add entry cams.",

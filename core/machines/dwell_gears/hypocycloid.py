@@ -66,7 +66,7 @@ class HypocycloidSlider:
 
     @cached_property
     def widest_offset(self) -> float:
-        """Greatest distance of the point from the slide line [mm]."""
+        """Maximum distance of the point from the slide line [mm]."""
         if self.ratio == 1.0:
             return widest_offset(self.planet_radius, self.cusps)
         count = _STEPS_PER_ARC * self.cusps
@@ -135,7 +135,7 @@ class HypocycloidSlider:
 
     @property
     def max_rod_angle(self) -> float:
-        """Greatest angle of the rod to the slide line over the turn [rad]."""
+        """Maximum angle of the rod to the slide line over the turn [rad]."""
         return math.asin(self.widest_offset / self.rod)
 
     @cached_property
@@ -147,17 +147,17 @@ class HypocycloidSlider:
 
     @cached_property
     def fastest(self) -> tuple[float, float]:
-        """Greatest speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
+        """Maximum speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
         return self._greatest(self.speed, self.acceleration)
 
     @cached_property
     def hardest(self) -> tuple[float, float]:
-        """Greatest acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
+        """Maximum acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
         return self._greatest(self.acceleration, self.jerk)
 
     @cached_property
     def hardest_inwards(self) -> tuple[float, float]:
-        """Greatest acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
+        """Maximum acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
         value, place = self._greatest(lambda t: -self.acceleration(t), self.jerk)
         return -value, place
 
@@ -174,15 +174,15 @@ class HypocycloidSlider:
         return max(values) - min(values)
 
     def deviation_range(self, angle: float) -> tuple[float, float]:
-        """Least and greatest deviation while the carrier turns by an angle about the middle of the arc.
+        """Minimum and maximum deviation while the carrier turns by an angle about the middle of the arc.
 
         Parameters
             angle : float [rad] - whole carrier angle, 0..2 pi
         Returns
-            least, greatest : float, float [mm]
+            minimum, maximum : float, float [mm]
         Example
-            >>> least, greatest = HypocycloidSlider(1.0, 3, 7.5).deviation_range(math.radians(120.0))
-            >>> round(least, 12), round(greatest, 12)
+            >>> minimum, maximum = HypocycloidSlider(1.0, 3, 7.5).deviation_range(math.radians(120.0))
+            >>> round(minimum, 12), round(maximum, 12)
             (-0.035623639735, 0.005358514097)
         """
         half = 0.5 * angle
@@ -220,7 +220,7 @@ class HypocycloidSlider:
                 edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
                 return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
             low, high = min(low, value), max(high, value)
-        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole turn", fix="ask for less")
+        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole revolution", fix="ask for less")
 
 
 def require_cusps(planet_radius: float, cusps: int) -> None:
@@ -244,7 +244,7 @@ def require_cusps(planet_radius: float, cusps: int) -> None:
 
 
 def widest_offset(planet_radius: float, cusps: int) -> float:
-    """Greatest distance of the point from the slide line, below which no rod can follow it [mm].
+    """Maximum distance of the point from the slide line, below which no rod can follow it [mm].
 
     y' = 0 at the cusps and where (n - 2) t is an odd multiple of pi
 

@@ -55,13 +55,13 @@ class SlottedArm:
 
     @property
     def speed_max(self) -> float:
-        """Greatest speed of the arm over the carrier's, in the middle of an arc: (n - 1)(1 + l)/(n - 1 - l)."""
+        """Maximum speed of the arm over the carrier's, in the middle of an arc: (n - 1)(1 + l)/(n - 1 - l)."""
         k = self.teeth - 1.0
         return k * (1.0 + self.ratio) / (k - self.ratio)
 
     @property
     def speed_min(self) -> float:
-        """Least speed of the arm over the carrier's, in a cusp: (n - 1)(1 - l)/(n - 1 + l)."""
+        """Minimum speed of the arm over the carrier's, in a cusp: (n - 1)(1 - l)/(n - 1 + l)."""
         k = self.teeth - 1.0
         return k * (1.0 - self.ratio) / (k + self.ratio)
 

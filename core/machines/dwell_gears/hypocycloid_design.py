@@ -153,7 +153,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             yield (("gears.ring", self.ring_teeth - self.planet_teeth),)
 
     def _better_rods(self) -> Iterator[Remedy]:
-        """The rod of the least ripple over the dwell, to tenths and hundredths; or what is sought of it."""
+        """The rod of the minimum ripple over the dwell, to tenths and hundredths; or what is sought of it."""
         rod = self.spec.rod
         if self.spec.point.ratio != 1.0:
             return
@@ -186,7 +186,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             raise NoSolution(
                 (
                     f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close "
-                    "in one turn of the carrier"
+                    "in one revolution of the carrier"
                 ),
                 key="gears.ring",
                 fix=f"take a whole multiple, for example {near * planet}",
@@ -278,7 +278,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def steps(self) -> int | None:
-        """Steps of the arm per turn of the carrier; None where teeth make no whole number."""
+        """Steps of the arm per revolution of the carrier; None where teeth make no whole number."""
         planet, ring = self.planet_teeth, self.ring_teeth
         return None if ring % planet else ring // planet
 
@@ -310,12 +310,12 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def dwell_deviation_min(self) -> float:
-        """Least deviation in the dwell [mm]."""
+        """Minimum deviation in the dwell [mm]."""
         return self.slider.deviation_range(self.dwell_carrier_angle)[0]
 
     @property
     def dwell_deviation_max(self) -> float:
-        """Greatest deviation in the dwell [mm]."""
+        """Maximum deviation in the dwell [mm]."""
         return self.slider.deviation_range(self.dwell_carrier_angle)[1]
 
     @property
@@ -341,7 +341,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def velocity_min(self) -> float:
-        """Greatest velocity inwards, as a negative number [mm/rad]: the motion is its own mirror image."""
+        """Maximum velocity inwards, as a negative number [mm/rad]: the motion is its own mirror image."""
         return -self.slider.fastest[0]
 
     @property
@@ -364,7 +364,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least angle between the rod and the normal of the slide line over the turn [rad]."""
+        """Minimum angle between the rod and the normal of the slide line over the turn [rad]."""
         return 0.5 * math.pi - self.slider.max_rod_angle
 
     @cached_property
@@ -373,7 +373,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         return hypocycloid_layout(self)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
+        """Slider and point over a revolution of the carrier; the middle of the dwell is at carrier angle 0."""
         from gearlink.core.machines.dwell_gears.hypocycloid_mechanism import outwards
         from gearlink.core.mechanism.courses import Shown, coordinate, motion_table, turned
 

@@ -14,7 +14,7 @@ _SCAN = 120
 
 
 def minimax(planet_radius: float, cusps: int, angle: float) -> float:
-    """Rod length with the smallest greatest deviation from the slider's place in mid-dwell.
+    """Rod length with the smallest maximum deviation from the slider's place in mid-dwell.
 
     max |s(t) - s(0)| over +- angle/2  ->  min
 
@@ -91,7 +91,7 @@ def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
 
 
 def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: float | None = None) -> float:
-    """Rod of the greatest quality, sought over its curvature 1/L from well below to well above the named circles."""
+    """Rod of the maximum quality, sought over its curvature 1/L from well below to well above the named circles."""
     if angle is not None and not 0.0 < angle <= 2.0 * math.pi / cusps * (1.0 + 1e-12):
         raise NoSolution(
             f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",

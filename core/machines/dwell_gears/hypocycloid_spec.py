@@ -36,7 +36,7 @@ class Rod(Spec):
     rule: Literal["tangent-circle", "osculating", "minimax"] | None = Field(
         None,
         description="tangent-circle: through the ends of the dwell and its middle; osculating: circle of curvature; "
-        "minimax: smallest greatest deviation from the place in mid-dwell",
+        "minimax: smallest maximum deviation from the place in mid-dwell",
     )
 
     @model_validator(mode="after")
@@ -49,7 +49,7 @@ class Rod(Spec):
 
 
 class HypocycloidDwellSection(Spec):
-    """The dwell that is wanted."""
+    """The required dwell."""
 
     angle: CarrierAngle | None = Field(None, description="carrier angle of the dwell; left out: the whole arc")
     tolerance: Length | None = Field(

@@ -69,7 +69,7 @@ class MutilatedGear:
     """Reduction, mutilated wheel and driven gear.
 
     Parameters
-        reduction : float - i_r, input turns per turn of the wheel
+        reduction : float - i_r, input turns per revolution of the wheel
         full_teeth : int - Z_M, teeth that the wheel would have without gaps
         group_teeth : int - n, teeth in a group
         groups : int - g, groups evenly round the wheel

@@ -179,7 +179,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     @property
     def generated_root_factor(self) -> tuple[float | None, float | None]:
-        """Greatest tension on the generated fillet over F_t/(b m), of the tooth beside a gap and of the driven gear."""
+        """Maximum tension on the generated fillet over F_t/(b m), of the tooth beside a gap and of the driven gear."""
         one, other = (None if root is None else root.tension.factor for root in self.generated_roots)
         return one, other
 
@@ -278,7 +278,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     @property
     def min_transmission_angle(self) -> float | None:
-        """Least transmission angle of the turn [rad]."""
+        """Minimum transmission angle of the turn [rad]."""
         return None if self.linkage is None else self.linkage.min_transmission_angle()
 
     driven_speed: float | None = per_time("driven_speed_ratio", 1)

@@ -44,7 +44,7 @@ class MutilatedShafts(PivotShafts):
 
 
 class WantedTimes(Spec):
-    """The motion and the dwell that are wanted, in turns of the input or, at input_speed, in time; teeth are chosen."""
+    """The required motion and dwell, in revolutions of the input or, at input_speed, in time; teeth are chosen."""
 
     motion_turns: Turns | None = Field(None, description="input turns while the driven gear turns")
     dwell_turns: Turns | None = Field(None, description="input turns while it stands")
@@ -53,7 +53,7 @@ class WantedTimes(Spec):
     driven_turn: Turns = Field(1.0, description="turns of the driven gear in a motion, a fraction of whole teeth")
     most_teeth: Teeth = Field(200, description="most teeth for which the wheel may have room")
     tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
-        0.01, description="greatest miss of either, as a share of it"
+        0.01, description="maximum miss of either, as a share of it"
     )
 
     @model_validator(mode="after")
@@ -74,9 +74,9 @@ class MutilatedGearDwellSpec(DrivenSpec):
 
     kind: Literal["mutilated-gear-dwell"]
     reduction: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="input turns per turn of the mutilated wheel; wanted times give it"
+        None, description="input turns per revolution of the mutilated wheel; wanted times give it"
     )
-    target: WantedTimes | None = Field(None, description="motion and dwell that are wanted")
+    target: WantedTimes | None = Field(None, description="required motion and dwell")
     gears: MutilatedGears
     links: FourLinks | None = Field(None, description="the four-bar that the driven gear turns")
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")

@@ -261,7 +261,7 @@ _STEPS = 80
 _WIDEST = math.log(20.0)
 _FARTHEST = 2.0 * _WIDEST
 _SCATTER = 1.5
-# A five-bar that comes nearer to its dead point than this is of no use to anybody [rad].
+# A five-bar that comes nearer to its dead centre than this is of no use to anybody [rad].
 _LEAST_ANGLE = math.radians(0.5)
 # Sum of squared misses over the input link of a candidate that is worth following; its motion decides.
 _CLOSE = 1e-22
@@ -297,10 +297,10 @@ def five_bar_for_positions(
     Parameters
         start : FunctionFiveBar - input link and coupler ratio are kept (the gears give them); the rest is a start
         positions : sequence of (phi, psi) [rad] - two to five, phi ascending
-        transmission_angle : float [rad] - the least that is wanted between the first and the last position
+        transmission_angle : float [rad] - the minimum that is wanted between the first and the last position
     Returns
-        bar : FunctionFiveBar - of those found that have this transmission angle the one whose links differ least in
-            length; where none has it, the one with the greatest
+        bar : FunctionFiveBar - of those found that have this transmission angle the one whose links differ minimum in
+            length; where none has it, the one with the maximum
     Raises
         NoSolution - for too few or too many positions, or where nothing meets them on one unbroken motion
     Notes
@@ -378,7 +378,7 @@ def _state(x: Reals, phi: Reals, psi: Reals, ratio: float) -> State:
 
 
 def _step(x: Reals, state: State, damping: Reals) -> Reals:
-    """Levenberg's step of least length for every row: -J^T (J J^T + damping)^-1 value."""
+    """Levenberg's step of minimum length for every row: -J^T (J J^T + damping)^-1 value."""
     cost, value, slopes = state
     square = slopes @ np.swapaxes(slopes, 1, 2)
     # The floor goes with the size, else rounding takes it where one link is a million times the others.
@@ -405,7 +405,7 @@ def _moving(bar: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFive
 
 
 def _stands(bar: FunctionFiveBar, phi: float, psi: float) -> bool:
-    """Whether the output link points the right way at an input angle, whole turns aside."""
+    """Whether the output link points the right way at an input angle, whole revolutions aside."""
     return abs(math.remainder(bar.output_angle(phi) - psi, 2.0 * math.pi)) <= _EXACT
 
 
@@ -647,7 +647,7 @@ class FiveBarParts(Meshed):
 
     @property
     def pose_error_max(self) -> float | None:
-        """Greatest distance of the body's point from a pose [mm]."""
+        """Maximum distance of the body's point from a pose [mm]."""
         return None if self.guidance is None else float(self.guidance.position_errors.max())
 
     @property
@@ -657,7 +657,7 @@ class FiveBarParts(Meshed):
 
     @property
     def pose_angle_error_max(self) -> float | None:
-        """Greatest angle by which the body misses a pose [rad]."""
+        """Maximum angle by which the body misses a pose [rad]."""
         return None if self.guidance is None else float(self.guidance.angle_errors.max())
 
     body_angle: float | None = placed("guidance.body_angle")
@@ -977,7 +977,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     @cached_property
     def _spans(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest distance that the dyad spans, each with its input angle."""
+        """Minimum and maximum distance that the dyad spans, each with its input angle."""
         if self.is_path:
             return self.path_bar.span_extremes
         return self.function_bar.reach_extremes(*self.input_range)
@@ -1018,7 +1018,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     @property
     def path_deviation_max(self) -> float | None:
-        """Greatest distance of a point from the path [mm]."""
+        """Maximum distance of a point from the path [mm]."""
         return None if self.fit is None else float(self.fit.distance.max())
 
     @cached_property
@@ -1043,7 +1043,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     @property
     def structural_error_at(self) -> list[float] | None:
-        """Input angles at which the structural error is greatest [rad]."""
+        """Input angles at which the structural error is largest [rad]."""
         found, wanted = self.function_fit, self.wanted
         if found is None or wanted is None:
             return None

@@ -170,7 +170,8 @@ class FiveBarFamily:
         return np.where(there, sign * cosine, -1.0), np.where(there[..., None], sign[:, None] * slopes, 0.0)
 
     def _extreme_pins(self, x: Reals) -> tuple[Points, Points, Mask]:
-        """AB and ED where |BD| is least and greatest, from the grid's humps by Newton's steps; which of them exist."""
+        """AB and ED where |BD| is smallest and maximum, from the grid's humps by Newton's steps; which of them "
+        "exist."""
         square = _square(self._way(x, self._span_turns))
         (low, some), (high, others) = _humps(-square, _HUMPS), _humps(square, _HUMPS)
         phi = self._span_grid[np.concatenate((low, high), axis=1)]
@@ -189,7 +190,7 @@ class FiveBarFamily:
         return way
 
     def spans(self, x: Reals) -> tuple[Reals, Reals]:
-        """Least and greatest |BD| at the grid's places, one each for every row; coupler and follower do not count."""
+        """Minimum and maximum |BD| at the grid's places, one each for every row; coupler and follower do not count."""
         square = _square(self._way(x, self._turns))
         return np.sqrt(square.min(axis=1)), np.sqrt(square.max(axis=1))
 
@@ -204,7 +205,7 @@ def _offset(x: Reals) -> Points:
 
 
 def _humps(value: Reals, most: int) -> tuple[Places, Mask]:
-    """The greatest local maxima along a last axis that closes upon itself, and which of those given are such."""
+    """The maximum local maxima along a last axis that closes upon itself, and which of those given are such."""
     top = (value >= np.roll(value, 1, axis=-1)) & (value > np.roll(value, -1, axis=-1))
     score = np.where(top, value, -np.inf)
     found = np.argpartition(-score, most - 1, axis=-1)[..., :most]

@@ -39,7 +39,7 @@ class PathProblem:
         family : FiveBarFamily
         targets : (N,) complex array - about 1 apart
         low, high : (7,) arrays - bounds of the unknowns
-        cosine : float - greatest |cos| of the transmission angle
+        cosine : float - maximum |cos| of the transmission angle
         weight : float - of its excess, against distances
     """
 
@@ -133,7 +133,7 @@ def _state(problem: PathProblem, limit: Reals, z: Reals) -> State:
 
 
 def _drawn_in(problem: PathProblem, x: Reals, limit: Reals) -> Reals:
-    """The limits at the least and the greatest span, lowered by the excess there, raised where there is room."""
+    """The limits at the minimum and the maximum span, lowered by the excess there, raised where there is room."""
     cosine = problem.family.cosines(x)[0].reshape(len(x), 2, -1).max(axis=2)
     shift = np.clip(limit - cosine, -_MOST_SHIFT, 0.0)
     return np.asarray(problem.cosine + np.where(np.isfinite(shift), shift, 0.0))
@@ -213,7 +213,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
         start : PathFiveBar - a start; frame, gear ratio and assembly are kept
         offset : complex [mm] - u + i v to start with
         targets : (N,) complex array [mm] - in the frame of the five-bar, any order, N >= 3
-        transmission_angle : float [rad] - the least that is allowed, between coupler and follower
+        transmission_angle : float [rad] - the minimum that is allowed, between coupler and follower
     Returns
         fit : Fit - the distances are those from the path of the five-bar that is given, over its whole period
     Raises
@@ -241,7 +241,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
         raise NoSolution(
-            ("none of the starts closes over a whole turn with the transmission angle that is asked for"),
+            ("none of the starts closes over a whole revolution with the transmission angle that is asked for"),
             fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return min(found + given, key=lambda fit: fit.rms)

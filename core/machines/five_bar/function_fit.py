@@ -1,4 +1,4 @@
-"""A geared five-bar that generates a function over an interval with the least greatest error."""
+"""A geared five-bar that generates a function over an interval with the minimum maximum error."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MARGIN = math.radians(0.01)  # of the transmission angle against rounding
 
 @dataclass(frozen=True, slots=True)
 class Round:
-    """A round of the search: starts so far, and the least greatest error so far [rad], NaN before one is found."""
+    """A round of the search: starts so far, and the minimum maximum error so far [rad], NaN before one is found."""
 
     starts: int
     error: float
@@ -50,7 +50,7 @@ class FunctionFit:
 def fit_function(
     first: FunctionFiveBar, start: float, wanted: Wanted, transmission_angle: float, seconds: float | None = None
 ) -> FunctionFit:
-    """Links, phase and start with which the greatest error over the interval is least.
+    """Links, phase and start with which the maximum error over the interval is smallest.
 
     max |psi(phi0 + dphi s) - psi_wanted(s) - psi0| -> min over b, c, e, d, t20, phi0, psi0
 
@@ -58,7 +58,7 @@ def fit_function(
         first : FunctionFiveBar - a start; input link and coupler ratio are kept
         start : float [rad] - phi0 of it
         wanted : Wanted
-        transmission_angle : float [rad] - the least that is allowed over the interval
+        transmission_angle : float [rad] - the minimum that is allowed over the interval
         seconds : float or None - budget of time: rounds of starts are begun until it is spent; without one there are
             one round, and the same file gives the same links
     Returns
@@ -141,7 +141,7 @@ def _moving(first: FunctionFiveBar, row: Reals, wanted: Wanted) -> Iterator[tupl
     """The five-bar of a row in the assembly in which it follows the function, if it closes in either."""
     b, c, e, d = (first.input * math.exp(float(value)) for value in row[:4])
     phase, start = math.remainder(float(row[4]), 2.0 * math.pi), float(row[5]) % (2.0 * math.pi)
-    # the phase is the coupler's direction at input angle 0: whole turns of the start change it with the ratio
+    # the phase is the coupler's direction at input angle 0: whole revolutions of the start change it with the ratio
     phase += first.coupler_ratio * (float(row[5]) - start)
     s = np.linspace(0.0, 1.0, _GRID)
     spread = []
@@ -213,7 +213,7 @@ def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine
 
 _LEVELLING_GRID = 121
 WIDEST = math.log(20.0)
-"""Logarithm of the greatest ratio of another link to the input link, or of this to the other."""
+"""Logarithm of the maximum ratio of another link to the input link, or of this to the other."""
 # Shares of the promised gain: below the first a step is corrected, above the others trust grows or stays.
 _CORRECTED, _TRUSTED, _KEPT = 0.75, 0.5, 0.1
 _LEAST_GAIN, _LEAST_TRUST = 1e-5, 1e-10
@@ -221,7 +221,7 @@ Slopes: TypeAlias = tuple[Reals, Reals]
 
 
 class Levelling:
-    """A five-bar on its way to the least greatest error over an interval.
+    """A five-bar on its way to the minimum maximum error over an interval.
 
     max_s |psi(phi0 + dphi s) - psi_wanted(s) - psi0| -> min over ln b, ln c, ln e, ln d, t20, phi0 and psi0
 
@@ -243,7 +243,7 @@ class Levelling:
             bar : FunctionFiveBar - it closes over the whole interval
             start : float [rad] - phi0
             wanted : Wanted
-            limit : float - the greatest |cos mu| that is allowed, mu the transmission angle
+            limit : float - the maximum |cos mu| that is allowed, mu the transmission angle
         """
         s = 0.5 * (
             1.0 - np.cos(math.pi * np.linspace(0.0, 1.0, _LEVELLING_GRID))
@@ -307,13 +307,13 @@ class Levelling:
         return replace(self._first, coupler=b, follower=c, output=e, frame=d, phase=float(x[4]))
 
     def _worst(self, miss: Reals, cosine: Reals) -> float:
-        """The greatest error, with the excess of cos mu as what must go first."""
+        """The maximum error, with the excess of cos mu as what must go first."""
         if not np.all(np.isfinite(miss)):
             return math.inf
         return float(np.abs(miss).max() + 10.0 * max(0.0, float(np.abs(cosine).max()) - self._limit))
 
     def _program(self, miss: Reals, cosine: Reals) -> Reals | None:
-        """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
+        """Step of the unknowns that makes the maximum error minimum, as far as its slopes tell."""
         outward, turns = self._slopes
         if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
             return None

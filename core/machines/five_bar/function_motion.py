@@ -122,7 +122,7 @@ class FunctionFiveBar:
         return HarmonicSum(math.fsum((a * a, b * b, d * d)), terms)
 
     def reach_extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest |CE| over a range of the input, each as (input angle [rad], distance [mm])."""
+        """Minimum and maximum |CE| over a range of the input, each as (input angle [rad], distance [mm])."""
         (low, least), (high, greatest) = self.reach_squared.extremes(start, end)
         return (low, math.sqrt(max(least, 0.0))), (high, math.sqrt(greatest))
 
@@ -137,7 +137,7 @@ class FunctionFiveBar:
             start, end : float [rad]
             free : bool - whether a narrower range is a remedy
         Returns
-            least, greatest : (float, float) - the extremes of |CE|, as `reach_extremes`
+            minimum, maximum : (float, float) - the extremes of |CE|, as `reach_extremes`
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
         """
@@ -164,7 +164,7 @@ class FunctionFiveBar:
         return (low, least), (high, greatest)
 
     def min_transmission_angle(self, start: float, end: float) -> tuple[float, float]:
-        """Least angle between follower and output over a range, an obtuse one counted from the other side.
+        """Minimum angle between follower and output over a range, an obtuse one counted from the other side.
 
         Returns
             angle, place : float, float [rad] - and the input angle at which it occurs
@@ -184,7 +184,7 @@ class FunctionFiveBar:
         Raises
             NoSolution - where the five-bar opens between the first and the last
         Notes
-            Between two of them the angle is followed in steps in which it cannot turn by half a turn:
+            Between two of them the angle is followed in steps in which it cannot turn by half a revolution:
             |w4| <= (a + |m| b)/(e sin(mu)).
         """
         least, _ = self.min_transmission_angle(angles[0], angles[-1])
@@ -195,7 +195,7 @@ class FunctionFiveBar:
             value = result[-1]
             for i in range(1, parts + 1):
                 new = self.output_angle(one + (other - one) * i / parts)
-                # whole turns alone are carried on, so that an angle does not depend on those before it
+                # whole revolutions alone are carried on, so that an angle does not depend on those before it
                 value = new + 2.0 * math.pi * round((value - new) / (2.0 * math.pi))
             result.append(value)
         return result

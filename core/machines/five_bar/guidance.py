@@ -43,7 +43,7 @@ class Task:
         start : PathFiveBar - of the file; its frame and ratio count, and the links that are kept
         keep : keys of the file that stay
         free : bool - the frame may lie anywhere
-        least : float [rad] - transmission angle
+        minimum : float [rad] - transmission angle
     """
 
     places: Points
@@ -113,7 +113,7 @@ class Guidance:
 
     @property
     def angle_errors(self) -> Reals:
-        """Angle by which the body misses each pose [rad], within half a turn."""
+        """Angle by which the body misses each pose [rad], within half a revolution."""
         missed = self.reached[1] - self.task.angles
         return np.asarray(np.abs(np.angle(np.exp(1j * missed))))
 
@@ -133,7 +133,7 @@ class Guidance:
 
 
 def in_order(angles: Reals) -> Reals:
-    """Angles counted on so that they rise in their order within a turn; where they do not, so that they fall.
+    """Angles counted on so that they rise in their order within a revolution; where they do not, so that they fall.
 
     Example
         >>> np.degrees(in_order(np.radians([350.0, 10.0, 90.0]))).round(9).tolist()
@@ -149,7 +149,7 @@ def in_order(angles: Reals) -> Reals:
 
 
 def is_ordered(angles: Reals) -> bool:
-    """Whether angles that were counted on lie within a turn."""
+    """Whether angles that were counted on lie within a revolution."""
     return bool(abs(angles[-1] - angles[0]) < TURN)
 
 

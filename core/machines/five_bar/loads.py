@@ -54,7 +54,7 @@ class FiveBarLoads(LoadsDesign):
         if gears.idler is None or gears.input is None or not is_directed(self.section, "idler"):
             return turns
         home = (turns * Fraction(gears.input, gears.idler)).denominator
-        return homecoming(turns * home, "the idler comes home", "gears.idler")
+        return homecoming(turns * home, "the idler is back in its initial position", "gears.idler")
 
     @cached_property
     def function_bar(self) -> FunctionFiveBar:
@@ -70,7 +70,7 @@ class FiveBarLoads(LoadsDesign):
 
     @property
     def transmission_angle(self) -> float:
-        """Least transmission angle over the whole period [rad], whatever the range."""
+        """Minimum transmission angle over the whole period [rad], whatever the range."""
         if self.design.is_path:
             return self.design.min_transmission_angle
         return self.function_bar.min_transmission_angle(0.0, 2.0 * math.pi * self.turns)[0]

@@ -61,9 +61,9 @@ def _rates(
 
 
 def coupler_angles(bar: PathFiveBar, phi: Reals) -> Reals:
-    """Coupler angle over ascending input angles [rad] without jumps, however near the dead points it comes.
+    """Coupler angle over ascending input angles [rad] without jumps, however near the dead centres it comes.
 
-    The coupler stands within half a turn of BD, always on the same side: it winds as BD does.
+    The coupler stands within half a revolution of BD, always on the same side: it winds as BD does.
     """
     start, end, u2, _ = _position(bar, phi)
     angle, way = np.angle(u2), end - start
@@ -99,7 +99,7 @@ def _way(bar: PathFiveBar, phi: Reals) -> Points:
 
 
 def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
-    """Least and greatest x, least and greatest y of the path, refined, with their input angles.
+    """Minimum and maximum x, minimum and maximum y of the path, refined, with their input angles.
 
     Raises
         NoSolution - where the five-bar opens

@@ -93,7 +93,7 @@ class PathFiveBar:
 
     @cached_property
     def span_extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest |BD| over the period, each as (input angle [rad], distance [mm]).
+        """Minimum and maximum |BD| over the period, each as (input angle [rad], distance [mm]).
 
         Example
             >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
@@ -138,7 +138,7 @@ class PathFiveBar:
             )
 
     def min_transmission_angle(self) -> tuple[float, float]:
-        """Least angle between coupler and follower over the period, an obtuse one counted from the other side.
+        """Minimum angle between coupler and follower over the period, an obtuse one counted from the other side.
 
         Returns
             angle, place : float, float [rad] - and the input angle at which it occurs

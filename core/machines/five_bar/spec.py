@@ -113,7 +113,7 @@ class WantedFunction(Spec):
         description="turn of the output from the first y to the last, negative clockwise"
     )
     tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="greatest structural error that is accepted"
+        None, description="maximum structural error that is accepted"
     )
     links: Literal["sought", "given"] = Field(
         "sought", description="given: the links of the file are judged, from range.start on"
@@ -166,9 +166,9 @@ class FiveBarTarget(Spec):
         [], description="of poses: keys of the file that stay as they are"
     )
     angle_tolerance: Annotated[float, Field(gt=0, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="of poses: greatest angle by which the body may miss one"
+        None, description="of poses: maximum angle by which the body may miss one"
     )
-    tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
+    tolerance: Length | None = Field(None, description="path: maximum distance of a point that is accepted")
     budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
         None, description="time that the search of a function or of timed points may take; left out: a fixed effort"
     )
@@ -209,7 +209,7 @@ class GearedFiveBarSpec(DrivenSpec):
         description="at input angle 0: direction of the output link (path) or of the coupler (function)"
     )
     coupler_point: CouplerPoint | None = Field(None, description="path: the point M")
-    range: InputRange | None = Field(None, description="function: left out, one turn of the input")
+    range: InputRange | None = Field(None, description="function: left out, one revolution of the input")
     assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
     target: FiveBarTarget | None = None
     limits: LinkageLimits = LinkageLimits.model_construct()

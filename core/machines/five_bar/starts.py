@@ -23,7 +23,7 @@ _SHARES = (1.0, 0.5, 0.25, 0.0)
 
 
 def bounds(first: Reals) -> tuple[Reals, Reals]:
-    """Least and greatest unknowns of a search: lengths from e^-2.5 to e^2.5 times those of the start."""
+    """Minimum and maximum unknowns of a search: lengths from e^-2.5 to e^2.5 times those of the start."""
     reach = np.where(np.arange(UNKNOWNS) < 4, _WIDEST, math.inf)
     return first - reach, first + reach
 
@@ -37,7 +37,7 @@ def scattered_starts(
         family : FiveBarFamily
         first : (7,) array - unknowns of the given one
         targets : (N,) complex array
-        transmission_angle : float [rad] - the least that is allowed
+        transmission_angle : float [rad] - the minimum that is allowed
         number : int - of the round; each has places of its own
     Returns
         x : (K, 7) array - up to 600 rows, by the mean square of the targets' distances from their paths

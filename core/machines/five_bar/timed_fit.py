@@ -51,7 +51,7 @@ def fit_timed(
         offset : complex [mm] - u + i v to start with
         targets : (N,) complex array [mm] - N >= 3
         angles : (N,) array [rad] - theta_j, input angles from the first point's
-        transmission_angle : float [rad] - the least that is allowed
+        transmission_angle : float [rad] - the minimum that is allowed
         seconds : float or None - budget of time: rounds are begun until it is spent; without one there is one round,
             and the same points give the same fit
     Returns
@@ -77,7 +77,7 @@ def fit_timed(
             break
     if best is None:
         raise NoSolution(
-            ("none of the starts closes over a whole turn with the transmission angle that is asked for"),
+            ("none of the starts closes over a whole revolution with the transmission angle that is asked for"),
             fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return TimedFit(best.fit, best.first_angle, tuple(rounds))

@@ -16,7 +16,7 @@ from gearlink.core.numerics.extremes import maximum_over
 
 Name: TypeAlias = Literal["log", "exp", "power", "sine", "cosine", "tangent"]
 _LEVEL = 0.02
-"""Extremes that differ by no more than this share of the greatest count as of one size."""
+"""Extremes that differ by no more than this share of the maximum count as of one size."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class StructuralError:
     """How far a five-bar is from a function.
 
     Fields
-        greatest : float [rad] - largest magnitude, the output gear set on its shaft as is best
+        maximum : float [rad] - largest magnitude, the output gear set on its shaft as is best
         zero : float [rad] - psi0, output angle at which the function starts, so set
         places : tuple of float - shares of the input's swing at which the error is extreme, ends included
         errors : tuple of float [rad] - there
@@ -95,7 +95,7 @@ class StructuralError:
 
     @property
     def alternations(self) -> int:
-        """Extremes of the greatest size that follow each other with changing sign; 8 where nothing can be gained."""
+        """Extremes of the maximum size that follow each other with changing sign; 8 where nothing can be gained."""
         count, last = 0, 0.0
         for error in self.errors:
             if abs(error) >= (1.0 - _LEVEL) * self.greatest and error * last <= 0.0:
@@ -107,7 +107,7 @@ def outputs(bar: FunctionFiveBar, phi: Reals) -> Reals:
     """Output angles over ascending input angles, continuous; NaN where the five-bar opens [rad].
 
     Notes
-        The steps must be so small that the output turns by less than half a turn in each.
+        The steps must be so small that the output turns by less than half a revolution in each.
     """
     turn: Points = np.exp(1j * phi)
     joint = bar.input * turn + bar.coupler * np.exp(1j * (bar.phase + bar.coupler_ratio * phi))
@@ -124,7 +124,7 @@ def outputs(bar: FunctionFiveBar, phi: Reals) -> Reals:
 def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> StructuralError:
     """The structural error of a five-bar over the swing that starts at an input angle.
 
-    r(s) = psi(phi0 + dphi s) - psi_wanted(s) - psi0,   psi0 the middle of its greatest and least
+    r(s) = psi(phi0 + dphi s) - psi_wanted(s) - psi0,   psi0 the middle of its maximum and minimum
 
     Parameters
         bar : FunctionFiveBar
@@ -137,7 +137,7 @@ def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> Stru
     Example
         >>> bar = FunctionFiveBar(1.0, 0.110143, 1.18548, 0.320633, 0.503643, 2.0, 0.375818)
         >>> log = Wanted("log", (1.0, 2.0), math.radians(60.0), math.radians(90.0))
-        >>> round(math.degrees(structural_error(bar, 1.343624, log).greatest), 6)
+        >>> round(math.degrees(structural_error(bar, 1.343624, log).maximum), 6)
         0.005921
 
     Source

@@ -42,7 +42,7 @@ class CylinderChain:
         linkage : FourBar - GH, HM, MN, NG [mm]
         initial_angle : float [rad] - direction of GH from the line G-N at input angle 0
         radius : float [mm] - of the cylinder
-        gear_ratio : float - cylinder turns per turn of MN
+        gear_ratio : float - cylinder turns per revolution of MN
     Raises
         NoSolution - when the linkage is not a drag link
     Source
@@ -67,7 +67,7 @@ class CylinderChain:
         q(phi) = R i (theta_MN(phi_GH0) - theta_MN(phi_GH0 - phi))
 
         Parameters
-            input_angle : float or (N,) array [rad] - any angle; a whole turn adds one turn of MN
+            input_angle : float or (N,) array [rad] - any angle; a whole revolution adds one revolution of MN
             order : 0, 1 or 2
         Source
             TY-460 report 1.2; sense of rotation recovered from its numbers
@@ -93,7 +93,7 @@ class CylinderChain:
 
     @property
     def turn(self) -> float:
-        """Travel of a turn of the input [mm]."""
+        """Travel of a revolution of the input [mm]."""
         return 2.0 * math.pi * self.radius * self.gear_ratio
 
     def jerk(self, input_angle: Any) -> Any:
@@ -233,7 +233,7 @@ def difference(bed: BedChain, cylinder: CylinderChain, input_angle: Any, order: 
 
 
 def least_transmission_crank(linkage: FourBar) -> float:
-    """Crank angle at which the transmission angle of a full turn is least: 0 or pi [rad].
+    """Crank angle at which the transmission angle of a full revolution is smallest: 0 or pi [rad].
 
     Raises
         NoSolution - when the crank does not turn fully
@@ -249,7 +249,7 @@ def least_transmission_crank(linkage: FourBar) -> float:
 
 
 def least_transmission_input(chain: BedChain | CylinderChain) -> float:
-    """Input angle in [0, 2 pi) at which the transmission angle of a chain is least [rad].
+    """Input angle in [0, 2 pi) at which the transmission angle of a chain is smallest [rad].
 
     Source
         own derivation: the crank lies along the frame there

@@ -133,7 +133,7 @@ def _zone_length(design: FlatbedPress) -> Check:
 
 
 def register(design: FlatbedPress) -> Iterator[Check]:
-    """GL506: the cylinder makes whole turns per sheet, and of several prints in one alone."""
+    """GL506: the cylinder makes whole revolutions per sheet, and of several prints in one alone."""
     ratio = design.spec.cylinder.ratio
     off = abs(ratio - max(1, round(ratio)))
     shown = Shown(ratio, None, "per sheet")
@@ -170,7 +170,7 @@ def _larger(design: FlatbedPress, limit: float) -> str:
 
 
 def _with_base_radius(design: FlatbedPress, radius: float) -> str:
-    """In words, the least base radius [mm], where a press with such a cam can be built."""
+    """In words, the minimum base radius [mm], where a press with such a cam can be built."""
     if can_be_built(design.spec, (("cam.base_radius", radius),), greatest_length(design.spec)):
         return f"set cam.base_radius to at least {safely_above(radius)} mm"
     return f"allow a larger pressure angle (a cam.base_radius of {safely_above(radius)} mm is more than can be built)"
@@ -255,7 +255,7 @@ _STEEPEST = 1e-3
 _ROUNDS = 20
 """So often a rod is found from its crank, which grows less than the rod does."""
 _BEHIND = (15.0, 25.0, 40.0, 60.0)
-"""Cam angles behind the end of the zone at which the lift may be greatest [deg]."""
+"""Cam angles behind the end of the zone at which the lift may be maximum [deg]."""
 _LINKS = tuple(
     f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler", "crank", "rocker")
 )
@@ -367,7 +367,7 @@ def _without_turning(design: FlatbedPress) -> Iterator[Remedy]:
 
 
 def _later_transition(design: FlatbedPress) -> Iterator[Remedy]:
-    """The greatest lift farther behind the zone, with the base radius that its cams then need; none where one of them
+    """The maximum lift farther behind the zone, with the base radius that its cams then need; none where one of them
     needs no larger one, which a way finds."""
     end, given = math.degrees(design.motion.cam_sync_end), design.cams.section.base_radius
     found: list[tuple[float, Remedy]] = []
@@ -386,7 +386,7 @@ def _later_transition(design: FlatbedPress) -> Iterator[Remedy]:
 
 
 def _roller(design: FlatbedPress) -> Iterator[Remedy]:
-    """A roller well below the least curvature radius, or a cam large enough for the roller."""
+    """A roller well below the minimum curvature radius, or a cam large enough for the roller."""
     least = min(cam.min_curvature_radius.value for cam in design.cams.discs)
     yield (("cam.roller_radius", at_most(ROLLER_SHARE * least)),)
     yield (("cam.base_radius", at_least(design.cams.base_radius_for_roller(design.cams.base_radius))),)

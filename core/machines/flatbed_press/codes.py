@@ -9,7 +9,8 @@ SYNC_SPEED = Rule(
     "bed and cylinder differ in speed at the start of the zone",
     "At the start of the synchronous zone bed and cylinder do not run equally fast; or the file has no cam, and the "
     "travels differ over the zone.",
-    "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start. Without "
+    "The compensation cam compensates a difference of travel, but a difference of speed is a blow at its start. "
+    "Without "
     "a cam the difference of travel smears the print.",
     "Leave sync.start out: then the zone starts where the speeds are equal; or take the difference up before the zone "
     "by cam.lead_in. Give the section cam, whose follower takes the difference of travel back.",
@@ -34,7 +35,7 @@ SYNC_LENGTH = Rule(
 )
 REGISTER = Rule(
     "GL506",
-    "cylinder does not come home",
+    "cylinder makes no whole number of revolutions",
     "The cylinder does not make whole turns per sheet; or its print passes the forme again while the bed returns (a "
     "warning).",
     "The next sheet would meet another part of the cylinder; a cylinder that makes several turns must be lifted.",

@@ -71,7 +71,7 @@ class Joint(NamedTuple):
 
 @dataclass(frozen=True)
 class Compensation:
-    """Lift of the compensation follower over a turn of the cam.
+    """Lift of the compensation follower over a revolution of the cam.
 
     Parameters
         bed, cylinder : the two chains
@@ -83,7 +83,7 @@ class Compensation:
         return_law : Law - rest-to-rest law of the return
         end_given : bool - whether the file gives the end of the zone itself, not its length
     Raises
-        NoSolution - when the stretches do not follow each other within one turn
+        NoSolution - when the stretches do not follow each other within one revolution
     Source
         TY-460 report 3.3, with the end slope taken per cam angle, not per input angle
     """
@@ -240,7 +240,7 @@ class Compensation:
 
     @cached_property
     def segments(self) -> tuple[Segment, ...]:
-        """The stretches of one turn in their order; the dwell closes the turn.
+        """The stretches of one revolution in their order; the dwell closes the turn.
 
         Raises
             NoSolution - where the transition ends before the zone or the return runs into the next zone
@@ -282,7 +282,7 @@ class Compensation:
 
         Parameters
             phi : (N,) array [rad] - input angles
-            cam : Travel of (N,) arrays - `BedChain.cam_angle` there, or whole turns more
+            cam : Travel of (N,) arrays - `BedChain.cam_angle` there, or whole revolutions more
             order : 0, 1 or 2
         """
         return self._placed(cam.value, order, (phi, cam))[0]
@@ -370,7 +370,7 @@ class Compensation:
 
     @cached_property
     def lift_range(self) -> tuple[float, float]:
-        """Least and greatest lift of the turn [mm], refined inside each stretch."""
+        """Minimum and maximum lift of the turn [mm], refined inside each stretch."""
         low = high = 0.0
         for segment in self.segments[:-1]:
             least, most = _range(segment)
@@ -379,7 +379,7 @@ class Compensation:
 
 
 def _range(segment: Segment) -> tuple[float, float]:
-    """Least and greatest lift on a stretch: coarse scan, then the root of the slope, or golden section, round them."""
+    """Minimum and maximum lift on a stretch: coarse scan, then the root of the slope, or golden section, round them."""
     steps = 24
     grid = [segment.start + (segment.end - segment.start) * i / steps for i in range(steps)] + [segment.end]
     values = [float(segment.lift(theta, 0).value) for theta in grid]

@@ -185,7 +185,7 @@ class PressMotion:
 
     @cached_property
     def input_speed(self) -> float:
-        """Angular velocity of the input [rad/s]: one turn a sheet."""
+        """Angular velocity of the input [rad/s]: one revolution a sheet."""
         return self.spec.speed / 3600.0 * 2.0 * math.pi
 
     @property
@@ -215,17 +215,17 @@ class PressMotion:
 
     @cached_property
     def min_transmission_angle_bed(self) -> float:
-        """Least transmission angle of ABCD over the turn [rad]."""
+        """Minimum transmission angle of ABCD over the turn [rad]."""
         return self.bed.linkage.min_transmission_angle()
 
     @cached_property
     def min_transmission_angle_cylinder(self) -> float:
-        """Least transmission angle of GHMN over the turn [rad]."""
+        """Minimum transmission angle of GHMN over the turn [rad]."""
         return self.cylinder.linkage.min_transmission_angle()
 
     @cached_property
     def min_rod_angle(self) -> float:
-        """Least angle between the rod EF and the normal of the slide line over the turn [rad]."""
+        """Minimum angle between the rod EF and the normal of the slide line over the turn [rad]."""
         return math.acos((self.slider_crank.crank_length + abs(self.spec.bed.offset)) / self.spec.bed.rod)
 
     @cached_property
@@ -242,7 +242,7 @@ class PressMotion:
         return extremes(curves, 0.0, _TURN) | self._transmission_places()
 
     def _transmission_places(self) -> dict[str, float]:
-        """Input angles of the least transmission angles: the driving crank then lies in the line of the frame."""
+        """Input angles of the minimum transmission angles: the driving crank then lies in the line of the frame."""
         bed, cylinder = (_crank_of_least(chain.linkage) for chain in (self.bed, self.cylinder))
         return {
             "min_transmission_angle_bed_at": (bed - self.bed.initial_crank_angle) % _TURN,
@@ -304,7 +304,7 @@ class PressMotion:
 
 
 def _crank_of_least(linkage: FourBar) -> float:
-    """Crank angle of the least transmission angle [rad], 0 or pi."""
+    """Crank angle of the minimum transmission angle [rad], 0 or pi."""
     folded, stretched = map(acute, linkage.transmission_extremes())
     return 0.0 if folded <= stretched else math.pi
 
@@ -385,7 +385,7 @@ class PressCams(DiscCams):
 
     @property
     def transition_end(self) -> float:
-        """Cam angle at which the lift is greatest [rad]: given, or counted from the end of the zone."""
+        """Cam angle at which the lift is largest [rad]: given, or counted from the end of the zone."""
         cam = self.section
         if cam.transition_angle is not None:
             return self.motion.cam_sync_end + math.radians(cam.transition_angle)
@@ -393,7 +393,7 @@ class PressCams(DiscCams):
 
     @property
     def follower_stroke(self) -> float:
-        """Greatest less least lift [mm]."""
+        """Maximum less minimum lift [mm]."""
         low, high = self.follower.lift_range
         return high - low
 
@@ -406,7 +406,7 @@ class PressCams(DiscCams):
 
     @cached_property
     def base_radius(self) -> float:
-        """Cam axis to roller centre at zero lift [mm], given or the least with which both cams pass their checks."""
+        """Cam axis to roller centre at zero lift [mm], given or the minimum with which both cams pass their checks."""
         if self.section.base_radius is not None:
             return self.section.base_radius
         if self.spec.size is None:
@@ -415,14 +415,14 @@ class PressCams(DiscCams):
         return self.base_radius_for(math.radians(self.spec.size.pressure_angle))
 
     def base_radius_for(self, pressure_angle: float) -> float:
-        """Least base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
+        """Minimum base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
         from gearlink.core.parts.cams.checks import HUB
 
         hub = HUB * self.section.shaft_radius * (1.0 + _HAIR) + self.section.roller_radius - self.follower.lift_range[0]
         return self.base_radius_for_roller(max(self.base_radius_for_pressure(pressure_angle), hub))
 
     def base_radius_for_pressure(self, pressure_angle: float) -> float:
-        """Least base radius [mm] with which both cams keep a pressure angle [rad].
+        """Minimum base radius [mm] with which both cams keep a pressure angle [rad].
 
         r_b + s >= |s'|/tan(alpha)  and  r_b + s_max + s_min - s >= |s'|/tan(alpha)
         """
@@ -442,7 +442,7 @@ class PressCams(DiscCams):
         return maximum_over(needed, joints=joints, samples=512).value
 
     def base_radius_for_roller(self, least: float) -> float:
-        """Base radius [mm], from `least` on, whose pitch curves bend no sharper than the roller allows.
+        """Base radius [mm], from `minimum` on, whose pitch curves bend no sharper than the roller allows.
 
         rho_min(r_b) = r_g/0.8 of the sharper cam
 
@@ -490,7 +490,7 @@ class PressCams(DiscCams):
 
     @property
     def max_radius(self) -> float:
-        """Largest radius of either profile [mm]: where the lift is greatest, the normal is radial."""
+        """Largest radius of either profile [mm]: where the lift is largest, the normal is radial."""
         return self.base_radius - self.section.roller_radius + self.follower.lift_range[1]
 
     @property

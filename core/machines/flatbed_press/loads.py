@@ -73,7 +73,7 @@ def cylinder_place(design: PressLoads) -> Iterator[Check]:
 
 
 def _beside_bed(design: PressLoads, at: _Places, direction: float) -> Check:
-    """The bed runs along +y, the cylinder turns counter-clockwise: at the printing line, which lies at the greatest x
+    """The bed runs along +y, the cylinder turns counter-clockwise: at the printing line, which lies at the maximum x
     of the cylinder, both run the same way."""
     radius = design.spec.cylinder.radius
     room = at.pitch_line - at.cylinder.real - radius
@@ -141,7 +141,7 @@ class PressLoads(CamLoadsDesign):
 
     @property
     def given_speed(self) -> float:
-        """Sheets an hour, one turn of the input each."""
+        """Sheets an hour, one revolution of the input each."""
         return self.spec.speed
 
     @cached_property
@@ -157,7 +157,7 @@ class PressLoads(CamLoadsDesign):
 
     @property
     def transmission_angle(self) -> float:
-        """The least of both chains and the rod [rad]."""
+        """The minimum of both chains and the rod [rad]."""
         motion = self.design.motion
         return min(motion.min_transmission_angle_bed, motion.min_transmission_angle_cylinder, motion.min_rod_angle)
 
@@ -263,7 +263,7 @@ class PressLoads(CamLoadsDesign):
 
     @cached_property
     def preload_needed(self) -> float | None:
-        """Least preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
+        """Minimum preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
         if self.section.roller is None:
             return None
         return self.extreme_of("preload").value

@@ -265,7 +265,7 @@ class RackLift:
         return self.known(input_angle) & ~self.in_zone(input_angle)
 
     def slope(self, input_angle: Reals) -> Reals:
-        """What the cam takes back per turn of CD [mm/rad].
+        """What the cam takes back per revolution of CD [mm/rad].
 
         s' = (p' - q')/cam' in the zone, outside it the slope of the follower's own stretch
         """

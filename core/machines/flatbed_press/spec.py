@@ -62,14 +62,14 @@ class Cylinder(Spec):
     """The cylinder chain."""
 
     radius: Length = Field(description="radius of the printing cylinder")
-    gear_ratio: Ratio = Field(1.0, description="cylinder turns per turn of MN; with gears that of their teeth")
+    gear_ratio: Ratio = Field(1.0, description="cylinder turns per revolution of MN; with gears that of their teeth")
     gears: CylinderGears | None = Field(None, description="gears 3 and 4, for geometry, drawing and loads")
     double_crank: DoubleCrank
     initial_crank_angle: Angle = Field(description="angle of GH from the line G-N at the start")
 
     @property
     def ratio(self) -> float:
-        """Cylinder turns per turn of MN, by the teeth where they are given."""
+        """Cylinder turns per revolution of MN, by the teeth where they are given."""
         return self.gear_ratio if self.gears is None else self.gears.teeth[0] / self.gears.teeth[1]
 
     @model_validator(mode="after")
@@ -134,10 +134,10 @@ class PressCam(Spec):
     )
     lead_in: TurnAngle = Field(0.0, description="cam angle before the zone; 0: none")
     transition_end: PartOfTurn | None = Field(
-        None, description="cam angle at which the lift is greatest; this or `transition_angle`"
+        None, description="cam angle at which the lift is largest; this or `transition_angle`"
     )
     transition_angle: PartOfTurn | None = Field(
-        None, description="cam angle from the end of the zone to the greatest lift, in place of `transition_end`"
+        None, description="cam angle from the end of the zone to the maximum lift, in place of `transition_end`"
     )
     return_angle: PartOfTurn = Field(description="cam angle of the return")
     return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
@@ -166,8 +166,8 @@ class PressSize(Spec):
 class PressLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(30.0, description="least transmission angle of both chains")
-    pressure_angle: AcuteAngle = Field(30.0, description="greatest pressure angle of the cams")
+    transmission_angle: AcuteAngle = Field(30.0, description="minimum transmission angle of both chains")
+    pressure_angle: AcuteAngle = Field(30.0, description="maximum pressure angle of the cams")
 
 
 class FlatbedPressSpec(TolerancedSpec):

@@ -62,7 +62,7 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     """Input angle at which the cylinder has turned `length` [mm] beyond `start` [rad].
 
     Raises
-        NoSolution - when a whole turn is not enough
+        NoSolution - when a whole revolution is not enough
     Source
         TY-460 report 3.2
     """
@@ -153,7 +153,7 @@ def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str
 
 
 def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> NoSolution:
-    """The refusal, with the greatest radius of the cylinder and the least stroke of the bed for which they meet."""
+    """The refusal, with the maximum radius of the cylinder and the minimum stroke of the bed for which they meet."""
     fastest = _greatest(bed.speed, end)
     least = -_greatest(lambda phi: -cylinder.speed(phi), _TURN)
     text = (
@@ -168,7 +168,7 @@ def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> NoSo
 
 
 def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
-    """Least stroke of the bed with which it is as fast as the cylinder [mm]; None where the rod allows none."""
+    """Minimum stroke of the bed with which it is as fast as the cylinder [mm]; None where the rod allows none."""
 
     def lacks(crank: float) -> float:
         return _share(replace(bed, slider_crank_length=crank), cylinder) - 1.0
@@ -182,12 +182,12 @@ def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
 
 
 def _share(bed: BedChain, cylinder: CylinderChain) -> float:
-    """Greatest speed of the bed over that of the cylinder on the forward stroke."""
+    """Maximum speed of the bed over that of the cylinder on the forward stroke."""
     return _greatest(lambda phi: bed.speed(phi) / cylinder.speed(phi), forward_stroke_end(bed))
 
 
 def _greatest(f: Callable[[float], float], end: float) -> float:
-    """Greatest value of a smooth function over (0, end), of which one hump is the highest by far."""
+    """Maximum value of a smooth function over (0, end), of which one hump is the highest by far."""
     count = max(8, math.ceil(end / _STEP))
     grid = [end * i / count for i in range(count + 1)]
     at = max(range(count + 1), key=lambda i: f(grid[i]))

@@ -56,7 +56,7 @@ _DOMAIN = {
     "addendum": (1e-3, 3.0, 1.0),
     "clearance": (0.0, 1.0, 0.25),
 }
-"""Keys that may vary: least and greatest value computed here, and one that stands in for others."""
+"""Keys that may vary: minimum and maximum value computed here, and one that stands in for others."""
 
 _ABSENT = (
     *("tip_diameter", "tool", "cutter", "span_teeth", "allowances", "center_distance_allowance", "load"),

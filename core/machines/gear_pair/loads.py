@@ -50,7 +50,7 @@ class GearPairLoads(LoadsDesign):
     def turns(self) -> int:
         """Turns of gear 1 until both gears are back at their place."""
         turns = self.moving.input.turns
-        assert turns is not None, "both gears come home"
+        assert turns is not None, "both gears are back in their initial positions"
         return turns
 
     @property
@@ -61,12 +61,12 @@ class GearPairLoads(LoadsDesign):
 
     @property
     def axial_force_max(self) -> float | None:
-        """Greatest axial force of helical teeth [N]; None of spur gears."""
+        """Maximum axial force of helical teeth [N]; None of spur gears."""
         return self.axial_share * self.mesh("mesh_12").tooth_force_max if self.pair.helix_angle else None
 
     @property
     def tilting_moment_max(self) -> list[float] | None:
-        """Greatest moment F_a r_w that tilts gear 1 and gear 2 [N m]; None of spur gears."""
+        """Maximum moment F_a r_w that tilts gear 1 and gear 2 [N m]; None of spur gears."""
         from gearlink.core.mechanism.joints import NEWTON_METER
 
         force = self.axial_force_max

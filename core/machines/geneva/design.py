@@ -109,7 +109,7 @@ class GenevaDrive(RealSpeed, Design):
 
     @property
     def motion_share(self) -> float:
-        """Share of a turn of the crank in which one pin moves the wheel: 1/2 - s/n."""
+        """Share of a revolution of the crank in which one pin moves the wheel: 1/2 - s/n."""
         return self.motion_angle / TURN
 
     @property
@@ -119,13 +119,13 @@ class GenevaDrive(RealSpeed, Design):
 
     @property
     def speed_ratio_max(self) -> float:
-        """Greatest speed of the wheel over the crank's, on the line of centres: l/(1 - s l)."""
+        """Maximum speed of the wheel over the crank's, on the line of centres: l/(1 - s l)."""
         lam = self.drive.ratio
         return lam / (1.0 - self.drive.sign * lam)
 
     @property
     def acceleration_ratio_max(self) -> float:
-        """Greatest magnitude of the wheel's acceleration over the square of the crank's speed."""
+        """Maximum magnitude of the wheel's acceleration over the square of the crank's speed."""
         import numpy as np
 
         return float(self.drive.rates(np.array([self.drive.peak_place]), 2)[2][0])
@@ -194,7 +194,7 @@ class GenevaDrive(RealSpeed, Design):
     # Tables
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The wheel over a turn of the crank from a pin on the line of centres."""
+        """The wheel over a revolution of the crank from a pin on the line of centres."""
         import numpy as np
 
         from gearlink.core.numerics.arrays import turn_degrees
@@ -237,7 +237,7 @@ class GenevaDrive(RealSpeed, Design):
             turns = found.mean_ratio
         if abs(abs(turns) * self.spec.slots - 1.0) > _SAME:
             message = (
-                f"the linkage moves its output by {360.0 * turns:.6g} deg per turn, this wheel by "
+                f"the linkage moves its output by {360.0 * turns:.6g} deg per revolution, this wheel by "
                 f"{math.degrees(self.drive.step):.6g} deg"
             )
             raise NoSolution(message, key="compare.gears", fix=f"choose teeth with crank/output 1/{self.spec.slots}")

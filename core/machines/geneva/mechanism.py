@@ -119,7 +119,7 @@ class Geneva:
 
     @cached_property
     def peak_place(self) -> float:
-        """Crank angle of the greatest acceleration ratio, before the line of centres [rad].
+        """Crank angle of the maximum acceleration ratio, before the line of centres [rad].
 
         external: cos f* = -q + sqrt(q^2 + 2), q = (1 + l^2)/(4 l);  internal: the entry
         """

@@ -77,7 +77,7 @@ class GenevaDriveSpec(DrivenSpec):
         sign = 1.0 if self.type == "external" else -1.0
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:
-            message = "a step takes {step} deg of the crank: at most {most} pins have room in a turn"
+            message = "a step takes {step} deg of the crank: at most {most} pins have room in a revolution"
             words = {"key": "pins", "step": f"{step:.6g}", "most": str(int((360.0 + 1e-9) // step))}
             raise PydanticCustomError("GL111", message, words)
         if self.pin_radius >= (crank := self._crank(sign)):

@@ -45,7 +45,7 @@ MACHINE_SPEED = Rule(
     "The main shaft turns faster than the speed at which a member lifts off or vibrates more than allowed.",
     "The member that limits the machine is named: it loses its cam, or stands too little in its dwell.",
     "Run slower, or mend the member that is named: stiffer spring, less mass, a smoother law.",
-    "least over the members of their limit over |ratio|",
+    "minimum over the members of their limit over |ratio|",
     "own derivation",
     ("machine-speed",),
     ("speed",),

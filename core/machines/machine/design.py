@@ -283,7 +283,7 @@ class Machine(OfMembers):
 
     @cached_property
     def solution(self) -> Solution:
-        """The free phases, and the least margin of the relations between events."""
+        """The free phases, and the minimum margin of the relations between events."""
         from gearlink.core.machines.machine.phases import solve
 
         return solve(self.spec.free, self._ties, self.timing.dial)
@@ -313,7 +313,7 @@ class Machine(OfMembers):
 
     @property
     def least_margin(self) -> float | None:
-        """Least margin of the relations between events [rad]; None where there are none."""
+        """Minimum margin of the relations between events [rad]; None where there are none."""
         from gearlink.core.machines.machine.relations import Value
 
         found = [margin for relation, margin in self.margins if not isinstance(relation, Value)]
@@ -362,7 +362,7 @@ class Machine(OfMembers):
 
     @cached_property
     def servo_error(self) -> float | None:
-        """Greatest error of its position between them [mm or rad]."""
+        """Maximum error of its position between them [mm or rad]."""
         from gearlink.core.parts.cams.servo import greatest_error
 
         return None if self.servo_rows is None else greatest_error(self.follower_motion, self.servo_rows)

@@ -101,7 +101,7 @@ class Felt:
         return self.place.turns * (times // math.gcd(times, round(periods)) if periods else 1)
 
     def breaks(self, turns: int) -> list[float]:
-        """Machine angles over some turns at which a force jumps or bends [rad]."""
+        """Machine angles over some revolutions at which a force jumps or bends [rad]."""
         times, end = turns // self.place.turns, TURN * turns
         found = [each + k * TURN * self.place.turns for k in range(times) for each in self.place.joints]
         found += self.place.places([0.0, *self.machine.breaks], self.period, turns)
@@ -344,7 +344,7 @@ class MachineLoads(OfMembers, LoadsDesign):
 
     @cached_property
     def limits(self) -> list[Limited]:
-        """Speeds of the main shaft that members do not bear, the least first."""
+        """Speeds of the main shaft that members do not bear, the minimum first."""
         found: list[Limited] = []
         for name in self.spec.members:
             found += self._limits_of(name) if self.spec.members[name].input is None else self._limits_behind(name)
@@ -378,7 +378,7 @@ class MachineLoads(OfMembers, LoadsDesign):
 
     @property
     def machine_speed_limit(self) -> float | None:
-        """Least of those speeds [1/min]."""
+        """Minimum of those speeds [1/min]."""
         found: float | None = self._limit("speed")
         return found
 
@@ -439,7 +439,7 @@ class MachineLoads(OfMembers, LoadsDesign):
 
     @property
     def wind_up_max(self) -> float | None:
-        """Greatest wind-up of a disc against the first [rad], a magnitude."""
+        """Maximum wind-up of a disc against the first [rad], a magnitude."""
         found: float | None = self._of_shaft(lambda: abs(float(self.swing.twist[self._most_wound])))
         return found
 
@@ -476,7 +476,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         return Table.of("torque", columns)
 
     def table_speed_limits(self, _samples: int | None = None) -> Table:
-        """Speeds of the main shaft that members do not bear, the least first."""
+        """Speeds of the main shaft that members do not bear, the minimum first."""
         data = tuple(zip(*self.limits, strict=True)) or ((), (), ())
         return Table("speed_limits", ("member", "check", "speed"), ("1", "1", "1/min"), data)
 
@@ -495,7 +495,7 @@ class MachineLoads(OfMembers, LoadsDesign):
         """Wind-up at each member against the first disc, and what it costs at the member's own output.
 
         Notes
-            y'(theta) times the wind-up: greatest over the cycle, and where `register.at` stands at that angle.
+            y'(theta) times the wind-up: maximum over the cycle, and where `register.at` stands at that angle.
         """
         self.require_table("wind_up")
         rows = []

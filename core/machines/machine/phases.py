@@ -1,4 +1,4 @@
-"""Free phases with which the least margin of all relations is greatest, exact.
+"""Free phases with which the minimum margin of all relations is largest, exact.
 
 With the whole turns of each relation chosen its margins are differences of two phases, so the greatest least margin is
 the least mean slack of the circles of relations (R. M. Karp, Discrete Math. 23 (1978) 309); over the whole turns it is
@@ -24,7 +24,7 @@ class Tie(NamedTuple):
     Fields
         one, two : str - members on the main shaft whose phases are free, "" for all that stands fast
         offset : float [deg]
-        least : float [deg] - x - least is a margin
+        minimum : float [deg] - x - minimum is a margin
         most : float [deg] - most - x is a margin; infinite where there is none
         text : str - the relation
     """
@@ -52,7 +52,7 @@ class Solution:
     """Phases and what limits them.
 
     Fields
-        margin : float [deg] - the least of all margins, the greatest there is
+        margin : float [deg] - the minimum of all margins, the maximum there is
         phases, room : by member [deg] - phase, and how wide the interval was in which it was taken
         limiting : texts of the relations that leave no greater margin
     """
@@ -116,7 +116,7 @@ def _turns_of_still(tie: Tie, dial: float) -> int:
 
 
 def _edges(tie: Tie, number: dict[str, int], turns: int, dial: float) -> list[Edge]:
-    """What a tie asks with its whole turns: its margins, and x in (-dial/2, dial/2]."""
+    """What a tie asks with its whole revolutions: its margins, and x in (-dial/2, dial/2]."""
     one, two, offset = number[tie.one], number[tie.two], tie.offset + turns * dial
     found = [Edge(one, two, tie.least - offset, 1, tie.text)]
     if math.isfinite(tie.most):
@@ -128,7 +128,7 @@ def _edges(tie: Tie, number: dict[str, int], turns: int, dial: float) -> list[Ed
 def _branch(
     edges: list[Edge], closing: Sequence[Tie], number: dict[str, int], dial: float, most: float, best: _Best
 ) -> None:
-    """Choose the whole turns of what closes circles, one after the other, the most promising first."""
+    """Choose the whole revolutions of what closes circles, one after the other, the most promising first."""
     count = len(number)
     margin, circle = _greatest(edges, count, most)
     if not margin > best.margin + _NEAR:
@@ -159,7 +159,7 @@ def _possible(tie: Tie, edges: Sequence[Edge], number: dict[str, int], dial: flo
 
 
 def _greatest(edges: Sequence[Edge], count: int, most: float) -> tuple[float, tuple[Edge, ...]]:
-    """The greatest t at which phases exist, at most `most`, and the circle of edges that allows no more.
+    """The maximum t at which phases exist, at most `most`, and the circle of edges that allows no more.
 
     Notes
         A circle that does not close at t closes at -sum(weight)/sum(share), the next t; each is less than the one
@@ -224,7 +224,7 @@ def _longest(edges: Sequence[Edge], count: int, start: int, t: float = 0.0) -> l
 
 
 def _middles(names: Sequence[str], best: _Best, dial: float) -> tuple[dict[str, float], dict[str, float]]:
-    """Phases at the greatest margin: each the middle of what those before it in the file leave."""
+    """Phases at the maximum margin: each the middle of what those before it in the file leave."""
     edges, count = list(best.edges), len(names) + 1
     t = best.margin if math.isfinite(best.margin) else 0.0
     phases, room = {}, {}

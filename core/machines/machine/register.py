@@ -119,7 +119,7 @@ class RegisterOfMachine(Design):
 
     @property
     def worst(self) -> float:
-        """Greatest error where all sources of all members add up [mm]."""
+        """Maximum error where all sources of all members add up [mm]."""
         return sum(abs(each.gain) * float(each.budget.worst.max()) for each in self.shares.values())
 
     @property
@@ -177,7 +177,7 @@ class RegisterOfMachine(Design):
         return (each.gain * float(each.budget.rss.max())) ** 2 / whole if whole > 0.0 else 0.0
 
     def table_budget(self, _samples: int | None = None) -> Table:
-        """Every source of every member, the greatest first; gains and shares are those of the whole."""
+        """Every source of every member, the maximum first; gains and shares are those of the whole."""
         rows = sorted(
             (
                 (name, row.source, abs(each.gain) * row.gain, row.limit, abs(each.gain) * row.worst,

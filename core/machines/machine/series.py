@@ -155,7 +155,7 @@ class OnShaft:
         return float(round(self._step * gained / self.period))
 
     def _whole(self, share: float) -> int:
-        """Turns that make a share of periods a turn a whole number."""
+        """Turns that make a share of periods a revolution a whole number."""
         found = Fraction(share).limit_denominator(_LARGEST)
         if abs(float(found) - share) > _WHOLE * max(1.0, share):
             message = f"at ratio {self.ratio:.12g} its input never repeats with the machine within {_LARGEST} turns"
@@ -261,7 +261,7 @@ class OnShaft:
         return tuple(sorted({0.0, *(each for each in found if 0.0 <= each < end)}))
 
     def _of_driver(self, turns: int) -> list[float]:
-        """The joints of its driver over some turns of the main shaft."""
+        """The joints of its driver over some revolutions of the main shaft."""
         if self.driver is None:
             return []
         times = turns // self.driver.turns
@@ -328,7 +328,7 @@ class OverMachine:
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Machine angles within a turn at which a rate may jump [rad]."""
+        """Machine angles within a revolution at which a rate may jump [rad]."""
         return tuple(sorted((each + self.phase) % TURN for each in self.member.joints))
 
     def evaluate(self, phi: Reals, order: int = 3, *, side: int = 1) -> list[Reals]:

@@ -36,7 +36,7 @@ class Chain:
 
     @classmethod
     def of(cls, shaft: MainShaft) -> Chain:
-        """That of a design file: J i^2, c i^2 of discs that turn i times a turn, c at the first of both discs."""
+        """That of a design file: J i^2, c i^2 of discs that turn i times a revolution, c at the first of both discs."""
         ratios = np.ones(len(shaft.inertias)) if shaft.ratios is None else np.array(shaft.ratios)
         square = ratios**2
         return cls(
@@ -138,14 +138,14 @@ class Swing:
 
     @cached_property
     def amplitudes(self) -> Points:
-        """(n, orders) array [N m] - complex amplitudes of the torques, order k/turns a turn, from 0."""
+        """(n, orders) array [N m] - complex amplitudes of the torques, order k/turns a revolution, from 0."""
         found: Points = np.fft.rfft(self.torques, axis=1) * (2.0 / self.torques.shape[1])
         found[:, 0] *= 0.5
         return found
 
     @cached_property
     def orders(self) -> Reals:
-        """Cycles a turn of the main shaft."""
+        """Cycles a revolution of the main shaft."""
         return np.arange(self.amplitudes.shape[1]) / self.turns
 
     @cached_property

@@ -83,8 +83,11 @@ class Member(Spec):
     phase: Annotated[float, Field(json_schema_extra={"unit": "deg"})] | Literal["free"] = Field(
         0.0, description="machine angle at which its input angle is 0, in the driver's unit where it has one; or free"
     )
-    ratio: Turns = Field(1.0, description="turns of its input per turn of the main shaft, below 0 the other way round; "
-                         "of the driver with input; of a driver that slides in deg/mm")  # fmt: skip
+    ratio: Turns = Field(
+        1.0,
+        description="revolutions of its input per revolution of the main shaft, negative: reversed; of the driver with "
+        "input; of a driver that slides in deg/mm",
+    )
     input: str | None = Field(None, description="output of another member that drives it, such as feed.output")
 
     @model_validator(mode="before")
@@ -162,7 +165,7 @@ class MainShaft(Spec):
         None, description="names of the discs, of a disc with several members a list; other members act on the first"
     )
     ratios: Annotated[list[Turns], Field(max_length=200)] | None = Field(
-        None, description="turns of each disc per turn of the main shaft; default 1"
+        None, description="turns of each disc per revolution of the main shaft; default 1"
     )
     fixed: bool = Field(False, description="the first disc does not swing")
     damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
@@ -204,7 +207,7 @@ class MainShaft(Spec):
 class MachineLimits(Spec):
     """Limits of the checks."""
 
-    timing_margin: Share = Field(0.0, description="least margin of the relations, deg; below it a warning")
+    timing_margin: Share = Field(0.0, description="minimum margin of the relations, deg; below it a warning")
     torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
 
 
@@ -227,7 +230,7 @@ class MachineServo(Spec):
         None, description="rows of the table, both ends"
     )
     tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="greatest position error between rows, mm or deg, in place of rows"
+        None, description="maximum position error between rows, mm or deg, in place of rows"
     )
 
     @model_validator(mode="after")
@@ -245,7 +248,7 @@ class MachineRegister(Spec):
     chain: Annotated[dict[str, Annotated[float, Field(json_schema_extra={"unit": "1"})]], Field(min_length=1)] = Field(
         description="what an error of each member costs at the print: its share, with its sign"
     )
-    tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
+    tolerance: Length | None = Field(None, description="maximum error that is allowed, to either side")
 
 
 class MachineSpec(TolerancedSpec):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 _KEYS = ("speed", "input_speed", "loads.speed")
 _SHEETS = 60.0
-"""Sheets per hour of one turn a minute."""
+"""Sheets per hour of one revolution a minute."""
 
 
 class Given(NamedTuple):

@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from gearlink.core.machines.machine.spec import Event, MachineSpec
     from gearlink.core.numerics.arrays import Reals
 
-_NOTHING = 1e-12  # of the greatest rate: below it is rounding
+_NOTHING = 1e-12  # of the maximum rate: below it is rounding
 _SAMPLES, _FEWEST = 720, 33
-_ROUND = 1e-9  # deg: events that are nearer to a whole turn stand upon it
+_ROUND = 1e-9  # deg: events that are nearer to a whole revolution stand upon it
 _WORDS = {1: "rise", -1: "return", 0: "dwell"}
 _FULL = 360.0
 
@@ -294,7 +294,7 @@ class Timing:
             return [self.run(wanted)]
 
     def _extreme(self, moment: Named) -> float:
-        """Where an output or a rate of it is greatest or least, the first of equal places."""
+        """Where an output or a rate of it is largest or minimum, the first of equal places."""
         from gearlink.core.numerics.extremes import extremes_over
 
         member, course = self.place(moment.of)

@@ -102,7 +102,7 @@ class MeasuredCamDesign(Design):
 
     @property
     def fit_max(self) -> float:
-        """Greatest of it [mm]."""
+        """Maximum of it [mm]."""
         return float(abs(self.residuals).max())
 
     @property
@@ -112,7 +112,7 @@ class MeasuredCamDesign(Design):
 
     @cached_property
     def _range(self) -> tuple[float, float]:
-        """Least and greatest coordinate of the follower [rad or mm]."""
+        """Minimum and maximum coordinate of the follower [rad or mm]."""
         from gearlink.core.numerics.extremes import maximum_over, minimum_over
 
         self.require_runs()
@@ -158,7 +158,7 @@ class MeasuredCamDesign(Design):
 
     @property
     def min_curvature_radius(self) -> float | None:
-        """Least convex radius of the pitch curve [mm]; None where it is convex nowhere."""
+        """Minimum convex radius of the pitch curve [mm]; None where it is convex nowhere."""
         return self._sharpest.value if math.isfinite(self._sharpest.value) else None
 
     @property
@@ -168,7 +168,7 @@ class MeasuredCamDesign(Design):
 
     @property
     def max_pressure_angle(self) -> float:
-        """Greatest pressure angle [rad]."""
+        """Maximum pressure angle [rad]."""
         return self._steepest.value
 
     @property
@@ -187,12 +187,12 @@ class MeasuredCamDesign(Design):
 
     @property
     def follower_velocity_max(self) -> float | None:
-        """Greatest velocity of a translating follower [mm/s]."""
+        """Maximum velocity of a translating follower [mm/s]."""
         return None if self._speed is None else self._speed * self._greatest(1)
 
     @property
     def follower_acceleration_max(self) -> float | None:
-        """Greatest acceleration of it [mm/s^2]."""
+        """Maximum acceleration of it [mm/s^2]."""
         return None if self._speed is None else self._speed**2 * self._greatest(2)
 
     def _greatest(self, order: int) -> float:

@@ -13,7 +13,7 @@ from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
 TURN = 2.0 * math.pi
 ROWS = 1440
-"""Places in a turn at which the motion is looked at."""
+"""Places in a revolution at which the motion is looked at."""
 _SHORTEST_DWELL = math.radians(10.0)
 _SHORTEST_STROKE = math.radians(3.0)
 _STEPS = 30
@@ -23,10 +23,10 @@ class MeasuredPhase(NamedTuple):
     """A stretch of the cam angle [rad]; of a stroke the law that comes nearest, and by how much it misses.
 
     Fields
-        start, end : float [rad] - the last phase may end beyond a turn
+        start, end : float [rad] - the last phase may end beyond a revolution
         motion : str - dwell, rise, fall
         law : str or None - None of a dwell
-        deviation : float [rad or mm] - greatest; of a dwell half of its range
+        deviation : float [rad or mm] - maximum; of a dwell half of its range
     """
 
     start: float
@@ -37,7 +37,7 @@ class MeasuredPhase(NamedTuple):
 
 
 def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
-    """Dwells and strokes of a motion over a turn.
+    """Dwells and strokes of a motion over a revolution.
 
     Parameters
         value : (ROWS,) array [rad or mm] - the follower at equal steps of the cam angle
@@ -109,7 +109,7 @@ def _dwells(value: Reals, tolerance: float) -> list[tuple[int, int]]:
 
 
 def _turning(value: Reals, first: int, last: int) -> list[int]:
-    """Places between two others, or in a turn, at which the motion turns round."""
+    """Places between two others, or in a revolution, at which the motion turns round."""
     count, found = value.size, []
     size = float(value.max() - value.min())
     for k in range(first + 1, last):
@@ -137,7 +137,7 @@ def _stroke(value: Reals, first: int, last: int, low: float, high: float) -> Mea
 
 
 def _fitted(name: str, phi: Reals, share: Reals) -> tuple[float, float, float]:
-    """Ends of a law that bring it nearest to a stroke, by Gauss's and Newton's steps, and its greatest deviation."""
+    """Ends of a law that bring it nearest to a stroke, by Gauss's and Newton's steps, and its maximum deviation."""
     named = law(name)
 
     def off(ends: Reals) -> tuple[Reals, Reals]:

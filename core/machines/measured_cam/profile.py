@@ -124,7 +124,7 @@ class MeasuredCam:
         at = self.contact(t)
         value, place, way = self._placed(at)
         there, here = _turned(*place), _turned(at.center, at.first, at.second)
-        # Both are continuous over a turn: the roller stays on one side of the cam, its centre near t in the cam.
+        # Both are continuous over a revolution: the roller stays on one side of the cam, its centre near t in the cam.
         direction = np.angle(place[0] / self._reference) + cmath.phase(self._reference)
         lead = np.angle(at.center * np.exp(-1j * t))
         cam = self.sense * (direction - t - lead), self.sense * (there[0] - here[0]), self.sense * (there[1] - here[1])
@@ -185,7 +185,7 @@ class MeasuredCam:
 
     @cached_property
     def _grid(self) -> tuple[Reals, Reals]:
-        """Close places on the profile in the order of the cam angle, and that angle over a turn."""
+        """Close places on the profile in the order of the cam angle, and that angle over a revolution."""
         count = 16 * self.series.cosines.size + 720
         t = -self.sense * np.linspace(0.0, TURN, count + 1)
         found = self.follower(t)

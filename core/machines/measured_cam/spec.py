@@ -43,7 +43,7 @@ class Profile(Spec):
     """Points of the cam's profile, polar, in the cam at cam angle 0."""
 
     points: Annotated[list[ProfilePoint], Field(min_length=_FEWEST, max_length=100_000)] | None = Field(
-        None, description="[angle, radius] in deg and mm, angles ascending over less than a turn"
+        None, description="[angle, radius] in deg and mm, angles ascending over less than a revolution"
     )
     file: str | None = Field(None, description="CSV file with these columns, in place of points")
 
@@ -60,7 +60,7 @@ class Profile(Spec):
                 raise _refused(f"points[{k}]", f"angles of a profile ascend: {after:.9g} deg follows {before:.9g} deg")
         if angles[-1] - angles[0] >= 360.0:
             message = f"angles of a profile: over {angles[-1] - angles[0]:.9g} deg (below 360 deg)"
-            raise _refused("points", message, "leave out the points that come again after a turn")
+            raise _refused("points", message, "leave out the points that come again after a revolution")
         for k, (_, radius) in enumerate(self.points):
             if radius <= 0.0:
                 raise _refused(f"points[{k}]", f"radius of a profile: {radius:.9g} mm (above 0)")

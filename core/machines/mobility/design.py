@@ -26,7 +26,7 @@ _MOST = 60
 
 
 def candidates_table(design: GearTrainMobility, check: str) -> Iterator[Remedy]:
-    """Remedies of a check, the least change first."""
+    """Remedies of a check, the minimum change first."""
     if check == "mobility":
         yield from islice(_freed_or_fixed(design), _MOST)
         return

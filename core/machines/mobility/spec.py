@@ -43,7 +43,7 @@ class GearTrainMobilitySpec(DesignSpec):
     )
     trains: Annotated[list[Train], Field(max_length=20)] = Field(default_factory=list, description="the gear trains")
     mobility: Annotated[int, Field(ge=0, le=20, json_schema_extra={"unit": "1"})] = Field(
-        1, description="degrees of freedom that are wanted"
+        1, description="required degrees of freedom"
     )
 
     def commands(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""A motion law as a design: peaks, natural periods, residual vibration, and how far it is from the least."""
+"""A motion law as a design: peaks, natural periods, residual vibration, and how far it is from the minimum."""
 
 from __future__ import annotations
 
@@ -132,12 +132,12 @@ class MotionLawDesign(WithShapedLaws, Design):
 
     @property
     def follower_velocity_max(self) -> float | None:
-        """Greatest velocity over stroke and time [mm/s]."""
+        """Maximum velocity over stroke and time [mm/s]."""
         return self._real(self.law.peak_velocity, 1)
 
     @property
     def follower_acceleration_max(self) -> float | None:
-        """Greatest acceleration [mm/s^2]."""
+        """Maximum acceleration [mm/s^2]."""
         return self._real(self.law.peak_acceleration, 2)
 
     # Vibration
@@ -171,7 +171,7 @@ class MotionLawDesign(WithShapedLaws, Design):
 
     @property
     def residual(self) -> float | None:
-        """Greatest vibration left over the band, over the rise, from above."""
+        """Maximum vibration left over the band, over the rise, from above."""
         return None if self.asked_band is None or self.optimum is None else self.optimum.value
 
     def residuals(self, periods: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -214,7 +214,7 @@ class MotionLawDesign(WithShapedLaws, Design):
         return Table("law", found.columns, found.units, found.data)
 
     def table_residual(self, samples: int | None = None) -> Table:
-        """Vibration left over the speed; without a design speed that of the least periods of the band is 1."""
+        """Vibration left over the speed; without a design speed that of the minimum periods of the band is 1."""
         import numpy as np
 
         if self.band is None:

@@ -33,7 +33,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 
 _TURN = 2.0 * math.pi
 _ROUNDS = 60
-_FINE = 1e-10  # of a turn or of size, after a step so short another one would be some 1e-20
+_FINE = 1e-10  # of a revolution or of size, after a step so short another one would be some 1e-20
 _SINGULAR = 1e-12
 _HOME = 1e-7, 1e-6  # rad, and shares of size
 _MOST = 4_000_000  # numbers of the matrices that are looked at together
@@ -118,7 +118,7 @@ class _Refusals:
     def never_home(self) -> NoSolution:
         key = "drive.with" if self.course.structure.spec.drive.others else "meshes"
         return NoSolution(
-            f"the mechanism does not come home within {MOST_TURNS} turns of the input",
+            f"the mechanism does not return to its start position within {MOST_TURNS} turns of the input",
             key=key,
             fix="take ratios and teeth with common factors, or give range: {start, end}",
         )
@@ -212,7 +212,7 @@ class Course:
 
     @cached_property
     def gains(self) -> Reals:
-        """What the directions gain in a period [rad]; (bodies,), whole turns."""
+        """What the directions gain in a period [rad]; (bodies,), whole revolutions."""
         rows, count = self.walk.rows, self.system.unknowns
         _, t = split(rows[[0, -1], 1 : 1 + count])
         return np.asarray(_TURN * np.round((t[1] - t[0]) / _TURN))

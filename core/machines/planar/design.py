@@ -136,7 +136,7 @@ def _shafts_of(design: PlanarMechanism, body: str, axes: dict[tuple[str, complex
 
 
 def greatest_gap(course: Course) -> float:
-    """Greatest gap of a pin, a line or a mesh [mm], directions taken at the unit of length."""
+    """Maximum gap of a pin, a line or a mesh [mm], directions taken at the unit of length."""
     q = course.grid[:-1] if course.turns is not None else course.grid
     scaled, jets = course.walked(q), course.jets(q, 0)
     gaps = np.abs(course.system.values(jets, 0, scaled))
@@ -190,7 +190,7 @@ def length(course: Course, x_of: Moved, y_of: Moved) -> float:
     """Length of the path over the period or range [mm]: the integral of |P'|.
 
     Notes
-        Panels end where |P'| is least, at a kink where the point turns back.
+        Panels end where |P'| is smallest, at a kink where the point turns back.
     """
     point, arm = x_of, x_of.place / x_of.size
 
@@ -311,7 +311,7 @@ def words_of(name: str) -> str:
 
     Example
         >>> words_of("rocker.speed_ratio_max_at")
-        'input of the greatest speed per input speed of rocker'
+        'input of the maximum speed per input speed of rocker'
     """
     output, _, rest = name.partition(".")
     if rest in _WHOLE:
@@ -497,7 +497,7 @@ class PlanarMechanism(Design):
 
     @cached_property
     def closure_error(self) -> float:
-        """Greatest gap of a joint over the rows [mm]."""
+        """Maximum gap of a joint over the rows [mm]."""
 
         return greatest_gap(self.course)
 
@@ -577,7 +577,7 @@ class PlanarMechanism(Design):
 
     @cached_property
     def _transmission(self) -> tuple[float, float] | None:
-        """Least transmission angle of the dyads and its input."""
+        """Minimum transmission angle of the dyads and its input."""
         found = self.extremes(*self._dyads)
         angles = [(_folded(each.value), each.place) for pair in found for each in pair]
         if not angles:
@@ -587,7 +587,7 @@ class PlanarMechanism(Design):
 
     @property
     def min_transmission_angle(self) -> float | None:
-        """Least transmission angle of all dyads over the period or range [rad]."""
+        """Minimum transmission angle of all dyads over the period or range [rad]."""
         return None if self._transmission is None else self._transmission[0]
 
     @property
@@ -623,7 +623,7 @@ class PlanarMechanism(Design):
             yield ASSEMBLY.check("warn", what, off, _FAR_OFF, "deg", side="<=", aside=aside, fix=fix)
 
     def check_transmission_angle(self) -> Iterator[Check]:
-        """GL303: the least of all dyads."""
+        """GL303: the minimum of all dyads."""
         if self.min_transmission_angle is not None:
             remedy = "bring the two links that close a dyad nearer to a right angle"
             limit = self.spec.limits.transmission_angle

@@ -1,4 +1,4 @@
-"""Greatest and least values of what a planar mechanism moves, and of its derivatives, over its period or range.
+"""Maximum and minimum values of what a planar mechanism moves, and of its derivatives, over its period or range.
 
 Rows of a grid bracket the zeros of the next derivative; Newton's steps with that and the one after it find them, all
 places of all courses together.
@@ -31,7 +31,7 @@ class Extreme(NamedTuple):
 
 
 class Pair(NamedTuple):
-    """The greatest and the least value."""
+    """The maximum and the minimum value."""
 
     max: Extreme
     min: Extreme
@@ -80,7 +80,7 @@ def extremes(course: Course, wanted: Mapping[str, Wanted]) -> dict[tuple[str, in
 
 
 def turning_points(course: Course, of: Coefficient, *, ahead: int) -> Reals:
-    """Where a number is least next to its neighbours.
+    """Where a number is smallest next to its neighbours.
 
     Parameters
         of : its Taylor coefficients; coefficient k needs those of the motion up to k + ahead
@@ -97,7 +97,7 @@ def _size(rows: Sequence[Reals], order: int) -> float:
 
 
 def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals], noise: float) -> list[_Sought]:
-    """Steps of the grid in which the next derivative changes its sign next to the greatest and the least values."""
+    """Steps of the grid in which the next derivative changes its sign next to the maximum and the minimum values."""
     value, slope = rows[order], rows[order + 1]
     size = _size(rows, order)
     if float(np.ptp(value)) <= noise:

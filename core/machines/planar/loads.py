@@ -150,12 +150,12 @@ class PlanarLoads(LoadsDesign):
 
     @property
     def input_torque_max_at(self) -> float:
-        """Input angle of the greatest torque [rad]."""
+        """Input angle of the maximum torque [rad]."""
         return self._place(self.torque_range[1].place)
 
     @property
     def input_torque_min_at(self) -> float:
-        """Input angle of the least [rad]."""
+        """Input angle of the minimum [rad]."""
         return self._place(self.torque_range[0].place)
 
     def _place(self, found: float) -> float:

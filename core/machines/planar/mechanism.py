@@ -138,7 +138,7 @@ class _Places:
 
 
 def transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
-    """The least transmission angle of all dyads."""
+    """The minimum transmission angle of all dyads."""
 
     def of(links: Mechanism) -> Sequence[Reals]:
         jets = jets_of(links, structure.names, structure.size)

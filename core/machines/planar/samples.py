@@ -1,4 +1,4 @@
-"""Designs as made of a planar mechanism: the play of its pins; all other sizes are keys of its file."""
+"""Designs as manufactured of a planar mechanism: the play of its pins; all other sizes are keys of its file."""
 
 from __future__ import annotations
 

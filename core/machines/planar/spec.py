@@ -159,10 +159,10 @@ class Range(Spec):
 class PlanarLimits(LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle of a dyad")
-    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh")
+    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle of a dyad")
+    gear_gap: SignedLength = Field(0.0, description="minimum gap between gears that do not mesh")
     least_shaft: Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})] | None = Field(
-        None, description="least radius for a shaft where none is given; left out: one module"
+        None, description="minimum radius for a shaft where none is given; left out: one module"
     )
 
 

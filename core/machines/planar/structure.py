@@ -115,7 +115,7 @@ class Structure:
 
     @cached_property
     def size(self) -> float:
-        """L, the greatest distance of a point of a link from its origin, or of two points of the frame [mm]."""
+        """L, the maximum distance of a point of a link from its origin, or of two points of the frame [mm]."""
         links = [abs(place) for name, body in self.bodies.items() if name != FRAME for place in body.values()]
         frame = [abs(one - other) for one in self.bodies[FRAME].values() for other in self.bodies[FRAME].values()]
         return max(links) or max(frame) or 1.0

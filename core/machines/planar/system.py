@@ -314,7 +314,7 @@ def scaled(line: Line, size: float) -> Line:
 
 
 def joint_rows(structure: Structure, turns: Mapping[str, float]) -> list[Row]:
-    """Rows of slides and slots; `turns` are whole turns [rad] that the direction of a slide's link is apart."""
+    """Rows of slides and slots; `turns` are whole revolutions [rad] that the direction of a slide's link is apart."""
     found = []
     for slide in structure.slides.values():
         line = scaled(slide.line, structure.size)

@@ -53,7 +53,7 @@ def _made(design: PlanarMechanism, name: str, shown: Iterable[Shown], samples: i
 
 
 def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
-    """Every output with speed and acceleration, and the least transmission angle."""
+    """Every output with speed and acceleration, and the minimum transmission angle."""
     from gearlink.core.machines.planar.mechanism import transmission
     from gearlink.core.machines.planar.outputs import moved
     from gearlink.core.mechanism.courses import Shown

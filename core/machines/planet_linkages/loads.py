@@ -55,11 +55,11 @@ class TwoGearLoads(PlanetLinkageLoads):
         if not is_directed(self.section, "output"):
             return 1
         mean = Fraction(self.design.mean_ratio).limit_denominator(_MOST_TEETH)
-        return homecoming(mean.denominator, "the output comes home", "gears")
+        return homecoming(mean.denominator, "the output is back in its initial position", "gears")
 
     @property
     def motion_turns(self) -> int:
-        """The links are home after every turn."""
+        """The links are home after every revolution."""
         return 1
 
     @property

@@ -58,7 +58,7 @@ class PlanetLinkage:
         return solve(self.linkage, 0.0)
 
     def angle(self, crank_angle: float) -> float:
-        """Angle of the output gear, 0 at the crank angle 0, continuous over any number of turns.
+        """Angle of the output gear, 0 at the crank angle 0, continuous over any number of revolutions.
 
         phi5 = (1 - i) carrier + i coupler, less its value at the crank angle 0
 
@@ -119,7 +119,7 @@ class PlanetLinkage:
         Crank carries: 1 - i in a crank-rocker, 1 in a drag link. Rocker carries: 0 in a crank-rocker, 1 in a drag link.
 
         Source
-            own derivation: what winds up in a turn
+            own derivation: what winds up in a revolution
         """
         if self.linkage.kind() == "drag-link":
             return 1.0

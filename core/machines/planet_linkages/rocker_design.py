@@ -371,7 +371,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property
@@ -380,7 +380,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         return rocker_layout(self)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
+        """Rocker and output over a revolution of the crank; the output angle counts from its place at crank angle 0."""
         from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
         from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
@@ -394,7 +394,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         return motion_table("motion", self, shown, samples)
 
     def table_links(self, samples: int | None = None) -> Table:
-        """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
+        """Angle, speed, acceleration and jerk of every link over a revolution of the crank."""
         from gearlink.core.mechanism.courses import all_rates, motion_table, turned
 
         shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})

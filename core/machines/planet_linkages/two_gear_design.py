@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 def _motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
-    """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
+    """Output angle, speed and acceleration, coupler speed and transmission angle over a revolution of the crank."""
     from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
     from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
@@ -57,7 +57,7 @@ def _motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
 
 
 def _links_table(design: TwoGearFourBar, samples: int | None = None) -> Table:
-    """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
+    """Angle, speed, acceleration and jerk of every link over a revolution of the crank."""
     from gearlink.core.mechanism.courses import all_rates, motion_table, turned
 
     shown = all_rates({name: turned(name) for name in ("coupler", "rocker", "output")})
@@ -288,12 +288,12 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     @property
     def coupler_ratio_max(self) -> float:
-        """Greatest coupler speed per crank speed."""
+        """Maximum coupler speed per crank speed."""
         return max(t.value for t in self.coupler_turnings)
 
     @property
     def coupler_ratio_min(self) -> float:
-        """Least coupler speed per crank speed."""
+        """Minimum coupler speed per crank speed."""
         return min(t.value for t in self.coupler_turnings)
 
     @cached_property
@@ -320,7 +320,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     @property
     def dwell_teeth_ratio(self) -> float | None:
-        """Greatest z5/z2 with which these links stop the output; none where no teeth do."""
+        """Maximum z5/z2 with which these links stop the output; none where no teeth do."""
         reach = 1.0 - self.coupler_ratio_min if self.internal else self.coupler_ratio_max - 1.0
         return reach if reach > (1.0 if self.internal else 0.0) else None
 
@@ -361,7 +361,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         """The longest dwell within the tolerance; None without one.
 
         Raises
-            NoSolution - for a tolerance so wide that the whole turn lies within it
+            NoSolution - for a tolerance so wide that the whole revolution lies within it
         """
         from gearlink.core.machines.planet_linkages.two_gear_family import tolerance_dwell
 
@@ -374,7 +374,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property

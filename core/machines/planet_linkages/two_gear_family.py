@@ -76,7 +76,7 @@ def back_step(drive: PlanetLinkage) -> BackStep | None:
 
 
 def _strip(drive: PlanetLinkage) -> float:
-    """How far from the real crank angles the speed is analytic [rad]: to a dead point, and to where B meets D."""
+    """How far from the real crank angles the speed is analytic [rad]: to a dead centre, and to where B meets D."""
     links = drive.linkage
     return min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank)))
 
@@ -92,7 +92,7 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
 
     Raises
-        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+        NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
         See `gearlink.core.parts.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
@@ -100,7 +100,7 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
 
 
 def valley(drive: PlanetLinkage) -> Valley:
-    """The part of the turn around the least speed."""
+    """The part of the turn around the minimum speed."""
     extremes, step = turnings(drive), back_step(drive)
     at = min(range(len(extremes)), key=lambda i: extremes[i].value)
     least = extremes[at].place
@@ -214,7 +214,7 @@ def flattest(family: Family, window: float, what: str, *, beyond: bool = False) 
         beyond : bool - whether to seek windows too that no back-step fills
     Returns
         frame, tolerance : float [mm], float [rad] - of equal ripple; where a shorter back-step serves better (see
-            `longest`) the frame of the least tolerance
+            `longest`) the frame of the minimum tolerance
     Raises
         NoSolution - for a window that neither gives
     """

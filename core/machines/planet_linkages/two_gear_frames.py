@@ -131,7 +131,7 @@ def _places(cubic: float, square: float, constant: float) -> list[float]:
 
 
 def momentary_frame(family: Family) -> float:
-    """Frame with which the output stops once a turn without stepping back.
+    """Frame with which the output stops once a revolution without stepping back.
 
     Returns
         frame : float [mm] - d*

@@ -121,7 +121,7 @@ class BackStepSynthesis(TwoGearFourBar):
             limit = safely_above(math.degrees(least))
             raise NoSolution(
                 (
-                    f"{words} is less than the least of crank-rockers with these gears and links, {limit} "
+                    f"{words} is less than the minimum of crank-rockers with these gears and links, {limit} "
                     "deg: their output steps back with every frame"
                 ),
                 fix="ask for more, or take more teeth on the ring gear",
@@ -268,7 +268,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and band >= math.pi * self._mean:
             raise NoSolution(
-                f"a band of +-{math.degrees(band):.6g} deg holds the output over the whole turn: the tolerance must be "
+                f"a band of +-{math.degrees(band):.6g} deg holds the output over the whole revolution: the "
+                f"tolerance must be "
                 f"below {safely_below(180.0 * self._mean)} deg, half of what the output gains in a turn of the crank",
                 key="dwell.tolerance",
             )

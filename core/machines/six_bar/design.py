@@ -121,7 +121,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @property
     def cost(self) -> float:
-        """A motion of many turns, or near its dead centres, is followed over many places, and then searched."""
+        """A motion of many revolutions, or near its dead centres, is followed over many places, and then searched."""
         if "course" not in self.__dict__:
             return 0.5
         searched = ("layouts" in self.__dict__) + 2 * ("acceleration_turnings" in self.__dict__)
@@ -303,7 +303,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
 
     @property
     def gear_gap(self) -> float | None:
-        """Least gap of gears of one plane that do not mesh [mm]; None where there are none."""
+        """Minimum gap of gears of one plane that do not mesh [mm]; None where there are none."""
         return min((gap for layout in self.layouts if (gap := layout.gear_gap) is not None), default=None)
 
     # Tables
@@ -435,7 +435,7 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
 
 
 def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
-    """Least and greatest distances of the pins with gears, and of A and F, over the course."""
+    """Minimum and maximum distances of the pins with gears, and of A and F, over the course."""
     axes = sorted({gear.axis for gear in gears} | {"A", "F"})
     found: dict[str, Reach] = {}
     moving: list[str] = []
@@ -516,7 +516,7 @@ def turnings(f: Function, slope: Function, grid: Reals, ends: bool) -> list[Turn
 _ROUNDS = 60
 _FINE = 1e-10  # rad, after a step so short another one would be some 1e-20
 _SINGULAR = 1e-15
-_HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a turn
+_HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a revolution
 
 
 @dataclass(frozen=True)
@@ -642,7 +642,7 @@ class _Refusals:
 
     def never_home(self) -> NoSolution:
         return NoSolution(
-            f"the six-bar does not come home within {MOST_TURNS} turns of the input",
+            f"the six-bar does not return to its start position within {MOST_TURNS} turns of the input",
             key="trains",
             fix="take teeth with common factors, or give range: {start, end}",
         )
@@ -654,7 +654,7 @@ class Course:
 
     Parameters
         bar : SixBar
-        range : (start, end) [rad] or None - a range that holds 0, or as many turns as bring the linkage home
+        range : (start, end) [rad] or None - a range that holds 0, or as many revolutions as bring the linkage home
     Raises
         NoSolution - where a dead centre is met: with the range of the input that is free of them
     Example

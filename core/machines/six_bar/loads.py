@@ -57,7 +57,7 @@ class SixBarLoads(LoadsDesign):
         """Input turns until the links are home, and the free gears that are loaded in a direction of their own."""
         homes = [self._gear_turns[name].denominator for name in self.own_links[5:] if is_directed(self.section, name)]
         turns = self._period_turns * math.lcm(*homes)
-        return homecoming(turns, "the gears inside the trains come home", "trains")
+        return homecoming(turns, "the gears inside the trains are back in their initial positions", "trains")
 
     @cached_property
     def _gear_turns(self) -> dict[str, Fraction]:

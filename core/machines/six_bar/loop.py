@@ -78,13 +78,13 @@ class SixBar:
 
     @cached_property
     def slopes(self) -> tuple[Fraction, ...]:
-        """p_j: turns of links 2 to 5 per turn of the input while the free directions rest."""
+        """p_j: turns of links 2 to 5 per revolution of the input while the free directions rest."""
         rows, pivots = self.tied
         return tuple(-rows[pivots.index(j)][1] if j in pivots else Fraction(0) for j in FREE)
 
     @cached_property
     def shares(self) -> tuple[tuple[Fraction, ...], ...]:
-        """N_j: turns of links 2 to 5 per turn of each free direction."""
+        """N_j: turns of links 2 to 5 per revolution of each free direction."""
         (rows, pivots), free = self.tied, self.free
         return tuple(
             tuple(-rows[pivots.index(j)][f] for f in free)

@@ -22,7 +22,7 @@ def train_relation(first_pin: int, teeth: Sequence[int]) -> Row:
         first_pin : int - of the first gear, 0 to 5; link j leads from pin j - 1 to pin j, link 0 is the frame
         teeth : two to five int - of the gears on this pin and those after it, negative for a ring
     Returns
-        r : six Fraction - their sum is 0, since a turn of the whole changes nothing
+        r : six Fraction - their sum is 0, since a revolution of the whole changes nothing
     Notes
         The first gear is fixed to the link before its pin, the last one to the link after it, so that each train takes
         one degree of freedom away.

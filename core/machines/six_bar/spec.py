@@ -21,7 +21,7 @@ TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"un
 
 
 class SixLinks(Spec):
-    """The links; one that carries a mesh is its centre distance and may be left out."""
+    """The links; one that carries a mesh is its centre distance: optional."""
 
     input: Length | None = Field(None, description="input link AB")
     coupler_1: Length | None = Field(None, description="coupler BC")

@@ -37,7 +37,7 @@ _DOMAIN = {
     "input_speed": (1e-6, 1e6, 1.0),
     "limits.transmission_angle": (0.0, 90.0, 40.0),
 }
-"""Keys that may vary: least and greatest value computed here, and one that stands in for others."""
+"""Keys that may vary: minimum and maximum value computed here, and one that stands in for others."""
 _CHECKS: dict[str, set[str]] = {"crank": set(), "analyze": {TRANSMISSION_ANGLE.name}}
 """Commands that are served, with the checks that are judged here."""
 _NEAR = 1e-9
@@ -157,7 +157,7 @@ class SliderCrankDesigns(SliderCrankDesign):
 
     @cached_property
     def exist(self) -> Mask:
-        """Where the crank makes a full turn."""
+        """Where the crank makes a full revolution."""
         if self.spec.crank is not None:
             return np.asarray(self._room >= 0.0)
         return np.asarray(self._spread(self.spec.stroke < self.max_stroke))
@@ -204,7 +204,7 @@ class SliderCrankDesigns(SliderCrankDesign):
         return [self._extreme(rows, places, speeds, sign) for sign in (1.0, -1.0)]
 
     def _extreme(self, rows: Any, places: Reals, speeds: Reals, sign: float) -> Turning:
-        """The greatest (sign 1) or least of each design's turnings; of equal ones the last, or the first."""
+        """The maximum (sign 1) or minimum of each design's turnings; of equal ones the last, or the first."""
         ranked = np.lexsort((sign * places, sign * speeds, rows))
         last = ranked[np.flatnonzero(np.append(rows[ranked][1:] != rows[ranked][:-1], rows.size > 0))]
         best, place = np.full(self.count, np.nan), np.full(self.count, np.nan)

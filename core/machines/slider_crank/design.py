@@ -208,7 +208,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     @cached_property
     def fastest(self) -> list[Turning]:
-        """Extremes of the slider's velocity per input angle away from D, greatest first, then least."""
+        """Extremes of the slider's velocity per input angle away from D, maximum first, then minimum."""
         return self._turnings(1)
 
     @cached_property
@@ -236,12 +236,12 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
 
     @property
     def min_transmission_angle(self) -> float:
-        """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
+        """Minimum angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
         part = self.slider_crank
         return part.fn.acos((self.crank_length + abs(part.offset)) / part.rod)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""
+        """The slider over a revolution of the crank; displacement counts from the dead centre nearest to D."""
         from gearlink.core.machines.slider_crank.mechanism import displacement
         from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 

@@ -39,7 +39,7 @@ class SliderCrankLoads(LoadsDesign):
 
     @property
     def transmission_angle(self) -> float:
-        """Least angle between the rod and the normal to the guide [rad]: cos mu = (r + |e|)/L."""
+        """Minimum angle between the rod and the normal to the guide [rad]: cos mu = (r + |e|)/L."""
         return self.design.min_transmission_angle
 
     def counterweights(self) -> dict[str, complex]:

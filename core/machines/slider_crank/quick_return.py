@@ -60,7 +60,7 @@ def quick_return(stroke: float, ratio: float, rod: float | None = None, crank: f
 
 
 def _best(half: float, p: float, ratio: float) -> QuickReturn:
-    """The least (r + e)/L, which is the cosine of the least transmission angle.
+    """The minimum (r + e)/L, which is the cosine of the minimum transmission angle.
 
     (S/(2 L))^2 = g = (r/L)^2 cos^2 p + sin^2 p,   g^2 - g sin^2 p - sin^2 p = 0
 

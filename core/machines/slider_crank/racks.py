@@ -106,12 +106,12 @@ class RackDrive:
 
     @property
     def fixed_rack_length(self) -> float:
-        """Least length of the fixed rack [mm]: travel and path of contact."""
+        """Minimum length of the fixed rack [mm]: travel and path of contact."""
         return self.fixed_rack_travel + self._contact("fixed_rack")
 
     @property
     def moving_rack_length(self) -> float:
-        """Least length of the moving rack [mm], likewise."""
+        """Minimum length of the moving rack [mm], likewise."""
         return self.moving_rack_travel + self._contact("moving_rack")
 
     def _contact(self, name: str) -> float:

@@ -25,7 +25,7 @@ from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
 class SliderLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, 90 deg less the rod's lean")
+    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle, 90 deg less the rod's lean")
 
 
 def _given_or_found(rod: float | None, keys: ValidationInfo) -> float | None:

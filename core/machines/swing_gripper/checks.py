@@ -53,7 +53,7 @@ def transmission_angle(design: SwingGripper) -> Iterator[Check]:
 
 
 def conditioning(design: SwingGripper) -> Check:
-    """GL312: digits that the loop keeps near a dead point, and the agreement of the two ways."""
+    """GL312: digits that the loop keeps near a dead centre, and the agreement of the two ways."""
     number, limit = design.motion.condition_number, design.spec.limits.condition_number
     agreement = design.motion.newton_agreement
     status: Status = "warn" if number > limit else "pass"
@@ -465,7 +465,7 @@ def _balanced(design: SwingGripper) -> Iterator[Remedy]:
 
 
 def _rollers(design: SwingGripper) -> Iterator[Remedy]:
-    """Rollers well below the least curvature radius of their cams."""
+    """Rollers well below the minimum curvature radius of their cams."""
     most = [at_most(ROLLER_SHARE * cam.min_curvature_radius.value) for cam in design.cams.discs]
     for key, radius in zip(("cam.roller.radius", "cam.return_roller.radius"), most, strict=False):
         yield ((key, radius),)
@@ -646,7 +646,7 @@ def spring(design: SwingGripper) -> Iterator[Check]:
 
 
 def room_beside_arm(design: SwingGripper, place: complex) -> float:
-    """Least distance of a point from the line E-F over the swing; of one that it passes over, the tip's lead on it.
+    """Minimum distance of a point from the line E-F over the swing; of one that it passes over, the tip's lead on it.
 
     Parameters
         design : SwingGripper

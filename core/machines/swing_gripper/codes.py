@@ -8,8 +8,8 @@ FARTHER = "set cam.center farther from the roller"
 """What enlarges the base circle of a gripper's cam."""
 CONDITIONING = Rule(
     "GL312",
-    "linkage near a dead point",
-    "Over the swing the loop comes so near to a dead point that the closed form and Newton-Raphson lose digits, or "
+    "linkage near a dead centre",
+    "Over the swing the loop comes so near to a dead centre that the closed form and Newton-Raphson lose digits, or "
     "the assembly is not determined in line with the frame (a warning).",
     "A little play then turns the driven link far.",
     "Change pivots or links so that the swing centres on a right angle between coupler and driven link.",

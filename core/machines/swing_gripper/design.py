@@ -281,12 +281,12 @@ class GripperCams(DiscCams):
 
     @property
     def max_pressure_angle(self) -> tuple[float, ...]:
-        """Greatest pressure angle of each cam [rad]."""
+        """Maximum pressure angle of each cam [rad]."""
         return tuple(cam.max_pressure_angle.value for cam in self.discs)
 
     @property
     def min_curvature_radius(self) -> tuple[float, ...]:
-        """Least convex radius of each pitch curve [mm]."""
+        """Minimum convex radius of each pitch curve [mm]."""
         return tuple(cam.min_curvature_radius.value for cam in self.discs)
 
     @property
@@ -296,7 +296,7 @@ class GripperCams(DiscCams):
 
     @property
     def min_curvature_radius_at(self) -> tuple[float, ...]:
-        """Cam angles of the least convex radii of curvature [rad]."""
+        """Cam angles of the minimum convex radii of curvature [rad]."""
         return tuple(cam.min_curvature_radius.place for cam in self.discs)
 
     @property
@@ -327,7 +327,7 @@ class GripperCams(DiscCams):
 
     @cached_property
     def _least_limit(self) -> float:
-        """Least pressure angle [deg] that some cam centre keeps for every roller, to a tenth."""
+        """Minimum pressure angle [deg] that some cam centre keeps for every roller, to a tenth."""
         low, high = 0.0, 89.9
         while high - low > 0.1:
             middle = 0.5 * (low + high)
@@ -478,7 +478,7 @@ class Closure:
 
     @cached_property
     def spring_torque(self) -> float:
-        """Least spring torque that keeps both rollers on their cams at the design speed [N m]."""
+        """Minimum spring torque that keeps both rollers on their cams at the design speed [N m]."""
         reserve = self.spec.spring.reserve if self.spec.spring else 0.0
         return max(0.0, *(extreme.value for extreme in self.worst_unloading)) + reserve
 

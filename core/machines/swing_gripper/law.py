@@ -1,6 +1,6 @@
 """The six-phase law of a swing gripper: accelerate, run with the cylinder, decelerate, dwell, return, dwell.
 
-beta is the swing angle of the gripper arm, theta the angle of the cylinder shaft, one turn a sheet; both in
+beta is the swing angle of the gripper arm, theta the angle of the cylinder shaft, one revolution a sheet; both in
 radians. The phases accelerate and decelerate join the constant speed w = R/l_EF of the handover; the total swing
 follows from w and the phase lengths.
 """
@@ -25,7 +25,7 @@ _NEAR_DWELL = 5
 
 
 class SixPhases(NamedTuple):
-    """A value for each phase of a turn, in their order."""
+    """A value for each phase of a revolution, in their order."""
 
     accelerate: float
     constant: float
@@ -130,7 +130,7 @@ class SixPhaseLaw:
         """Swing and its derivatives by theta.
 
         Parameters
-            degrees : (N,) array [deg] - cylinder angle, not negative; reduced to one turn exactly, in degrees
+            degrees : (N,) array [deg] - cylinder angle, not negative; reduced to one revolution exactly, in degrees
             order : 0..3
         Returns
             beta[, beta'[, beta''[, beta''']]] : (N,) arrays [rad], per radian of theta

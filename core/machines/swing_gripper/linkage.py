@@ -171,7 +171,7 @@ class GripperLinkage:
 
     @cached_property
     def least_transmission(self) -> tuple[Extreme, Extreme]:
-        """Least angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
+        """Minimum angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
 
         Notes
             Sought over the swing, not over the turn: every row of the motion lies within it, its very ends among them.

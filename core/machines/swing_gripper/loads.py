@@ -50,12 +50,12 @@ class GripperLoads(CamLoadsDesign):
 
     @property
     def given_speed(self) -> float:
-        """Sheets an hour, one turn of the input each."""
+        """Sheets an hour, one revolution of the input each."""
         return self.spec.speed
 
     @cached_property
     def speed(self) -> float:
-        """Speed of the cylinder shaft [rad/s], one turn a sheet, in the sense of the cams."""
+        """Speed of the cylinder shaft [rad/s], one revolution a sheet, in the sense of the cams."""
         return self.design.shaft_speed
 
     @cached_property

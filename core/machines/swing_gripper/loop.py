@@ -41,7 +41,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     Raises
         NoSolution - where Newton-Raphson finds no position of the assembly
     Notes
-        Both lose 8 eps/mu_C near a dead point, mu_C the angle of cam rocker and coupler; `closed_form_error` tells how
+        Both lose 8 eps/mu_C near a dead centre, mu_C the angle of cam rocker and coupler; `closed_form_error` tells how
         much of it is the closed form's.
     Source
         swing-gripper paper (4), there called Newton-Simpson; loop in the inverse reading: own derivation

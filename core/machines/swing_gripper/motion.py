@@ -39,12 +39,12 @@ class Motion:
 
     @cached_property
     def shaft_speed(self) -> float:
-        """Angular velocity of the cylinder shaft [rad/s]: one turn a sheet."""
+        """Angular velocity of the cylinder shaft [rad/s]: one revolution a sheet."""
         return self.spec.speed / 3600.0 * 2.0 * math.pi
 
     @property
     def turn_time(self) -> float:
-        """Time of a turn of the cylinder shaft [ms]."""
+        """Time of a revolution of the cylinder shaft [ms]."""
         return 2e3 * math.pi / self.shaft_speed
 
     @cached_property
@@ -147,7 +147,7 @@ class Motion:
             return
         raise NoSolution(
             (
-                f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} "
+                f"the arm swings {swing:.6g} deg, a revolution or more: the tip's speed R/l_EF = {law.speed:.6g} "
                 "is too high for these phases"
             ),
             key="arm.length",
@@ -238,7 +238,7 @@ class Motion:
 
     @cached_property
     def min_transmission_angle(self) -> tuple[float, float]:
-        """Least transmission angles at D and at C over the swing [rad]."""
+        """Minimum transmission angles at D and at C over the swing [rad]."""
         at_d, at_c = self.linkage.least_transmission
         return at_d.value, at_c.value
 

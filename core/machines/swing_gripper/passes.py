@@ -1,7 +1,7 @@
 """GL302 of links and rollers: how near each comes to the axes of the frame that it does not turn about.
 
 All positions of the linkage are those of the swing from 0 to its total, run through forth and back in a turn. The cam
-rocker turns one way meanwhile, since it may not come to a dead point.
+rocker turns one way meanwhile, since it may not come to a dead centre.
 """
 
 from __future__ import annotations

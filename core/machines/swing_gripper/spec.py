@@ -62,7 +62,7 @@ class Pivots(Spec):
 
 
 class Phases(Spec):
-    """The six phases of a turn: they add up to 360 deg, and one may be left to them; or three are sized by balance."""
+    """The six phases of a revolution: they add up to 360 deg; one may be omitted; or three are sized by balance."""
 
     accelerate: Phase | None = Field(None, description="from the bite to the constant speed")
     constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
@@ -222,7 +222,7 @@ class ClosingSpring(Spec):
     )
     length: Length | None = Field(None, description="length at which the spring pulls with `preload`")
     reserve: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N m"})] = Field(
-        0.0, description="least torque that must remain"
+        0.0, description="minimum torque that must remain"
     )
 
     @model_validator(mode="after")
@@ -249,18 +249,18 @@ class ArmStop(Spec):
         0.5, description="speed after an impact on the stop over that before it"
     )
     stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
-        None, description="stiffness of the stop: gives the greatest force of the impact"
+        None, description="stiffness of the stop: gives the maximum force of the impact"
     )
 
 
 class GripperLimits(LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, at D and at C")
-    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle of the cams")
+    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle, at D and at C")
+    pressure_angle: AcuteAngle = Field(45.0, description="maximum pressure angle of the cams")
     accelerate_pressure_angle: AcuteAngle = Field(30.0, description="the same in the phase accelerate; only warns")
     condition_number: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
-        100.0, description="greatest condition number of the loop, 1/sin(mu); only warns"
+        100.0, description="maximum condition number of the loop, 1/sin(mu); only warns"
     )
     handover_place: Length = Field(
         0.01,
@@ -268,7 +268,7 @@ class GripperLimits(LoadLimits):
         json_schema_extra={"unit": "mm", **also("handover_position")},
     )
     least_shaft: Length | None = Field(
-        None, description="radius of the thinnest shaft that would be built; left out: that of the roller"
+        None, description="minimum radius of a shaft that would be built; default: that of the roller"
     )
     return_acceleration: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="peak acceleration of the return over that of the phase accelerate; none: no limit"

@@ -28,7 +28,7 @@ class Stop:
         motion, cams, closure : parts of the design
     Notes
         Roller and stop never share the load, which could not be told apart. Rebounds run under the spring's force; the
-        stop itself and the frame are rigid but for its stiffness in the greatest force.
+        stop itself and the frame are rigid but for its stiffness in the maximum force.
     Source
         swing-gripper paper 2 names the stop; forces and settling: own derivation
     """
@@ -54,7 +54,8 @@ class Stop:
         first = self._ratios[0]
         if self.closure.lift_sense * self.spec.swing_sense * first < 0.0:
             raise NoSolution(
-                "the spring turns the arm away from a stop in the near dwell: the cam lifts its roller on the way back",
+                "the spring turns the arm away from a stop in the near dwell: the cam lifts its roller on the "
+                "return stroke",
                 key="stop",
                 fix="leave out stop, or put the main roller on the other side of its cam",
             )
@@ -153,7 +154,7 @@ class Stop:
 
     @property
     def force_max(self) -> float | None:
-        """Greatest force of the impact, F_s + sqrt(F_s^2 + k m_s v^2) [N]; None without a stiffness."""
+        """Maximum force of the impact, F_s + sqrt(F_s^2 + k m_s v^2) [N]; None without a stiffness."""
         stiffness = self.section.stiffness
         if stiffness is None:
             return None

@@ -20,7 +20,7 @@ _JOINTS = (("D", "coupler", "output"), ("C", "input", "coupler"))
 
 
 def require_swing(linkage: GripperLinkage, limit: float) -> None:
-    """Refuse a linkage that cannot make its swing: open somewhere, or within 1e-3 rad of a dead point.
+    """Refuse a linkage that cannot make its swing: open somewhere, or within 1e-3 rad of a dead centre.
 
     |AC - CD| <= |AD| <= AC + CD,   mu_C >= 1e-3,   mu_D >= 1e-3 for every swing angle
 
@@ -60,7 +60,7 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
 
 
 def turn_remedy(linkage: GripperLinkage, limit: float, *, tells: bool = True) -> str:
-    """Words for what brings the whole swing to a transmission angle [rad]: a turn of ED, or a lesser swing.
+    """Words for what brings the whole swing to a transmission angle [rad]: a revolution of ED, or a lesser swing.
 
     Parameters
         tells : bool - by how much ED is to be turned; not where cams stand that the turn may make impossible
@@ -85,7 +85,7 @@ def clear_turn(linkage: GripperLinkage, limit: float) -> tuple[float | None, flo
 
     Parameters
         linkage : GripperLinkage - the swing need not close
-        limit : float [rad] - least angle between CD and ED and between AC and CD
+        limit : float [rad] - minimum angle between CD and ED and between AC and CD
     Returns
         turn : float [rad] or None - what to add to the output direction, the smallest; None where no direction
             serves the swing

@@ -1,4 +1,4 @@
-"""Three-gear four-bars whose parts are as made, not as designed: one at a time, and many near one at once.
+"""Three-gear four-bars whose parts are as manufactured, not as designed: one at a time, and many near one at once.
 
 The teeth keep the ratio of the gears, so coupler and rocker may differ a little from the centre distances; standstills
 of one drive are those of `gearlink.core.machines.three_gear.dwell.ByRoots`, of many those of `sweep`. What comes to
@@ -69,7 +69,7 @@ class TolerancedDrive(ThreeGearFourBar):
 
     @cached_property
     def meshes(self) -> dict[str, GearPair]:
-        """The teeth as they were cut, at the centre distances as made."""
+        """The teeth as they were cut, at the centre distances as manufactured."""
         if self.own_teeth:
             return dict(self._own_pairs)
         return {
@@ -88,7 +88,7 @@ class TolerancedDrive(ThreeGearFourBar):
 
     @cached_property
     def output(self) -> ByRoots:
-        """Standstills as roots: the links as made are in no proportion to the teeth."""
+        """Standstills as roots: the links as manufactured are in no proportion to the teeth."""
         return ByRoots(self.linkage, self.train)
 
     @cached_property
@@ -178,12 +178,12 @@ class DriveSamples:
 
     @property
     def speed_ratio_min(self) -> Reals:
-        """Least speed ratio."""
+        """Minimum speed ratio."""
         return self._least[0] if self.counted > 0 else -self._greatest[0]
 
     @property
     def speed_ratio_max(self) -> Reals:
-        """Greatest speed ratio."""
+        """Maximum speed ratio."""
         return self._greatest[0] if self.counted > 0 else -self._least[0]
 
     def _acceleration_extreme(self, place: float) -> Reals:
@@ -206,12 +206,12 @@ class DriveSamples:
 
     @cached_property
     def acceleration_ratio_max(self) -> Reals:
-        """Greatest acceleration ratio [1/rad]."""
+        """Maximum acceleration ratio [1/rad]."""
         return self._acceleration_extreme(self.nominal.acceleration_extremes.greatest_angle)
 
     @cached_property
     def acceleration_ratio_min(self) -> Reals:
-        """Least acceleration ratio [1/rad]."""
+        """Minimum acceleration ratio [1/rad]."""
         return self._acceleration_extreme(self.nominal.acceleration_extremes.least_angle)
 
     @cached_property
@@ -229,7 +229,7 @@ class DriveSamples:
 
     @cached_property
     def standstills(self) -> tuple[Reals, Reals]:
-        """Start and end of the back-step [rad], against the line A-D; without one the least speed's place twice."""
+        """Start and end of the back-step [rad], against the line A-D; without one the minimum speed's place twice."""
         least, some = self._least[1], np.flatnonzero(self.turns_back)
         first, second = least.copy(), least.copy()
         first[some], second[some] = sweep.around(least[some], self._greatest[1][some], self.drives.part(some))
@@ -290,19 +290,19 @@ class DriveSamples:
 
     @cached_property
     def min_transmission_angle(self) -> Reals:
-        """Least transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the turn [rad]."""
         return least_transmission_angle(*self.lengths)
 
     @cached_property
     def gear_gap(self) -> Reals:
-        """Least gap of the tips of gears 1 and 5 [mm]; NaN where they are not judged."""
+        """Minimum gap of the tips of gears 1 and 5 [mm]; NaN where they are not judged."""
         nominal, links, (crank, *_, frame) = self.nominal.gear_gap, self.nominal.linkage, self.lengths
         if nominal is None:
             return np.full(self.count, np.nan)
         return np.abs(frame - crank) + (nominal - abs(links.frame - links.crank))
 
     def distances(self) -> dict[str, tuple[Reals, Reals]]:
-        """Least and greatest distance of the axes over the turn [mm], by their ends."""
+        """Minimum and maximum distance of the axes over the turn [mm], by their ends."""
         crank, coupler, rocker, frame = self.lengths
         # Of the triangle A-B-C or A-D-C the one whose angle at the middle joint turns fully.
         one, other = (coupler, crank) if self.nominal.linkage.kind() == "crank-rocker" else (rocker, frame)

@@ -61,13 +61,13 @@ _CHECKS_OF = {
     "synth momentary-dwell": (),
     "analyze": ("dwell-window",),
 }
-"""Those of a task besides."""
+"""Those of a task in addition."""
 _DOMAIN = {path: (1.0, float(MOST_TEETH), 20.0) for path in TEETH} | {
     "gears.module": (1e-6, 1e6, 1.0),
     "dwell_tolerance": (1e-6, 360.0, 1.0),
     "dwell_window": (1e-6, 360.0, 1.0),
 }
-"""Least and greatest value that is computed here, not by the class, and one between that stands in for others."""
+"""Minimum and maximum value that is computed here, not by the class, and one between that stands in for others."""
 _PLACED = ("crank", "frame", "balanced")
 _OTHERS = {
     "dwell": (*_PLACED, "window", "tolerance", "margin"),
@@ -231,7 +231,7 @@ def smallest_idlers(trial: Trial, count: int, *, rising: bool, shafts: bool) -> 
 
 
 def _halved(trial: Trial, count: int, doubtful: Mask) -> Reals:
-    """Bisection: the least of an upper range."""
+    """Bisection: the minimum of an upper range."""
     low, high = np.full(count, LEAST_IDLER - 1.0), np.full(count, float(GREATEST_IDLER))
     every = np.arange(count)
     at_most = trial(high, every)

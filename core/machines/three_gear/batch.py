@@ -130,12 +130,12 @@ class Batch:
 
     @property
     def speeds(self) -> tuple[Reals, Reals]:
-        """Greatest and least speed ratio."""
+        """Maximum and minimum speed ratio."""
         raise NotImplementedError
 
     @property
     def places_of_speeds(self) -> tuple[Reals, Reals]:
-        """Crank angles of the greatest and the least speed."""
+        """Crank angles of the maximum and the minimum speed."""
         raise NotImplementedError
 
     @property
@@ -217,7 +217,7 @@ class Batch:
 
     @cached_property
     def mu(self) -> Reals:
-        """Least transmission angle: of the folded and the stretched place."""
+        """Minimum transmission angle: of the folded and the stretched place."""
         crank, frame = self.links
         return least_transmission_angle(crank, self.coupler, self.rocker, frame)
 
@@ -299,7 +299,7 @@ class Batch:
 
     @cached_property
     def _endless(self) -> Reals:
-        """Half of what the output gains in a turn of the crank [rad]."""
+        """Half of what the output gains in a revolution of the crank [rad]."""
         return math.pi * self.mean_ratio
 
     @cached_property
@@ -661,7 +661,7 @@ class Symmetric(Batch):
 
     @cached_property
     def standstills(self) -> tuple[Reals, Reals]:
-        """phi12/2 on either side of the least speed."""
+        """phi12/2 on either side of the minimum speed."""
         middle = 1.5 * math.pi if self.spec.assembly == 1 else 0.5 * math.pi
         first = np.where(np.isfinite(self.h), middle - self.h, np.nan)
         return first, np.where(self._steps_back, middle + self.h, np.nan)

@@ -36,7 +36,7 @@ BACK_STEP = Rule(
 DWELL_TOLERANCE = Rule(
     "GL317",
     "tolerance in which a dwell has no end",
-    "The band of the tolerance, or of the play, is as wide as what the output gains in a turn of the crank.",
+    "The band of the tolerance, or of the play, is as wide as what the output gains in a revolution of the crank.",
     "The output would never leave its place: what is asked for is no dwell.",
     "Give a smaller dwell_tolerance, dwell.tolerance or dwell_backlash.",
     "tol < pi mean_ratio; of a play j at the output gear tol = j/(2 r5)",
@@ -78,7 +78,7 @@ LAY_SPEED = Rule(
     "Over the last way before the front lay the sheet is faster than feed.lay.speed.",
     "It strikes the lay and springs back: the register is lost.",
     "Run slower, take a smaller feed radius, or let the sheet arrive where the output is slow (feed.lay.angle).",
-    "greatest speed over the last feed.lay.distance <= feed.lay.speed",
+    "maximum speed over the last feed.lay.distance <= feed.lay.speed",
     "thesis 3.3.2; own derivation",
     ("lay-speed",),
     ("feed.lay.speed", "feed.lay", "input_speed", "feed"),

@@ -381,7 +381,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @cached_property
     def min_transmission_angle(self) -> float:
-        """Least transmission angle over the turn [rad]."""
+        """Minimum transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
     @cached_property
@@ -399,7 +399,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
+        """Output angle, speed and acceleration, transmission angle over a revolution of the crank."""
         from gearlink.core.machines.three_gear.mechanism import OUTPUT
         from gearlink.core.mechanism.courses import Shown, between, motion_table
 
@@ -428,7 +428,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         return _pole(self, self.moving.at(phi, 1))
 
     def table_poles(self, samples: int | None = None) -> Table:
-        """The instant centres over a turn."""
+        """The instant centres over a revolution."""
         from gearlink.core.machines.three_gear.poles import columns
         from gearlink.core.numerics.arrays import turn_degrees
 
@@ -492,7 +492,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         with at_key("feed.lay.distance"):
             if turned >= 2.0 * math.pi * abs(self.mean_ratio):
                 step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
-                raise NoSolution(f"{given.distance:g} mm is the feed of a turn, {step:.6g} mm, or more: give less")
+                raise NoSolution(f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more: give less")
             if given.angle is None:
                 return gentlest(self._forwards, self._turned, self._speed_turnings, turned)
             at = math.radians(given.angle)
@@ -500,7 +500,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @property
     def lay_speed(self) -> float | None:
-        """Greatest speed of the sheet on the last way before the lay [mm/s]."""
+        """Maximum speed of the sheet on the last way before the lay [mm/s]."""
         return None if self.lay is None else self._of_sheet(self.lay.greatest)
 
     def _of_sheet(self, ratio: float) -> float | None:
@@ -539,7 +539,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     # Checks
 
     def check_gear_collision(self) -> Iterator[Check]:
-        """GL301: gears 1 and 5, over the whole turn."""
+        """GL301: gears 1 and 5, over the whole revolution."""
         if self.train.internal:
             yield ring_planes(self.layout, self.train, self.spec.limits.gear_gap)
             return
@@ -623,9 +623,9 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         """GL304 where the file gives i3, or a step of a chain without its sprocket: whole teeth may change either."""
         feed, fed = self.spec.feed, self.feed_per_turn
         if feed is not None and self.feed_teeth is not None and fed is not None:
-            text = f"a sprocket of {self.feed_teeth} teeth feeds {abs(fed):.6g} mm per turn, {feed.step:g} mm asked for"
-            judged = ratio_judged(abs(fed), feed.step)
-            yield judged.check(text, ": change feed.ratio or pitch, or accept it", name="rounded-ratio")
+            judged = ratio_judged(abs(fed), feed.step)._replace(unit="mm")
+            aside = f"sprocket of {self.feed_teeth} teeth"
+            yield judged.check("feed per revolution", "change feed.ratio or pitch", name="rounded-ratio", aside=aside)
         asked = self.spec.gears.i3
         if asked is None:
             return
@@ -758,7 +758,7 @@ def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
     Parameters
         layout : Layout - gears 1, idler and 5
         train : GearTrain
-        limit : float [mm] - least gap
+        limit : float [mm] - minimum gap
     """
     crank, _, output = layout.gears
     gap = least_gap(crank, output, layout.reaches["BD"]).gap

@@ -52,7 +52,7 @@ UNIDIRECTIONAL = "unidirectional"
 MOMENTARY_DWELL = "momentary-dwell"
 BACK_STEP = "back-step"
 
-# A frame that is off by 1e-9 of its length moves the least speed ratio by about as much. No workshop can tell such
+# A frame that is off by 1e-9 of its length moves the minimum speed ratio by about as much. No workshop can tell such
 # frames apart, so nearer to zero than this the output has one standstill, not two or none.
 STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
@@ -166,7 +166,7 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
     Returns
         phi13 : float [rad] - phi12 < phi13 < 2 pi
     Notes
-        Bracketed root between phi(2) and one turn after phi(1): the output rises there all the way.
+        Bracketed root between phi(2) and one revolution after phi(1): the output rises there all the way.
     Example
         >>> linkage, train = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
         >>> round(math.degrees(dwell_angle(linkage, train, back_step(linkage, train))), 9)
@@ -184,7 +184,7 @@ def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> flo
     """Output angle gained over a crank interval, without cancellation where the interval is short.
 
     The speed is analytic in a strip around the real crank angles: gamma reaches 0 or pi, or B reaches D, no nearer to
-    the axis than the least transmission angle and |ln(d/a)| (ad < bc in a linkage that turns).
+    the axis than the minimum transmission angle and |ln(d/a)| (ad < bc in a linkage that turns).
     """
     strip = min(linkage.min_transmission_angle(), abs(math.log(linkage.frame / linkage.crank)))
     if length < 0.5 * strip:
@@ -220,7 +220,7 @@ def _momentary(linkage: FourBar, train: GearTrain, limit: Tangency, r1: float, r
     )
     if abs(output_speed(linkage, train, phi)) > STANDSTILL_TOLERANCE * terms:
         return []
-    # One Newton step from the double root of the limit to the least speed of this very linkage.
+    # One Newton step from the double root of the limit to the minimum speed of this very linkage.
     return [wrap(phi - output_acceleration(linkage, train, phi) / output_jerk(linkage, train, phi))]
 
 
@@ -298,7 +298,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
     Returns
         dwell : ToleranceDwell [rad]
     Raises
-        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+        NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
         See `gearlink.core.parts.linkages.band_dwell`.
     Example
@@ -317,7 +317,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
 
 
 def valley(linkage: FourBar, train: GearTrain) -> Valley:
-    """The part of the turn around the least speed, of a train whose output gains angle over a turn."""
+    """The part of the turn around the minimum speed, of a train whose output gains angle over a revolution."""
     from gearlink.core.parts.linkages.band_dwell import Valley
 
     extremes = speed_extremes(linkage, train)
@@ -338,7 +338,7 @@ def valley(linkage: FourBar, train: GearTrain) -> Valley:
 
 
 class Output:
-    """How the output of a drive goes over a turn of the crank: extremes, standstills, back-step and dwells.
+    """How the output of a drive goes over a revolution of the crank: extremes, standstills, back-step and dwells.
 
     Parameters
         linkage : FourBar [mm] - coupler and rocker in proportion to z1 + z3 and z3 + z5
@@ -357,12 +357,12 @@ class Output:
 
     @cached_property
     def speed_extremes(self) -> Extremes:
-        """Greatest and least speed ratio and their places."""
+        """Maximum and minimum speed ratio and their places."""
         return speed_extremes(self.linkage, self.train)
 
     @cached_property
     def acceleration_extremes(self) -> Extremes:
-        """Greatest and least acceleration ratio and their places."""
+        """Maximum and minimum acceleration ratio and their places."""
         return acceleration_extremes(self.linkage, self.train)
 
     @cached_property

@@ -257,7 +257,7 @@ class DwellTask(FamilyTask):
         if longest < window * (1.0 - _ROUNDING):
             most = safely_below(math.degrees(longest))
             fix = f"set dwell.window to at most {most} deg"
-            if self.spec.gears.idler is None:  # the least one: the limits are not looked at yet
+            if self.spec.gears.idler is None:  # the smallest one: the limits are not looked at yet
                 fix += f", with an idler of {train.idler:g} teeth where the limits allow it"
             raise NoSolution(f"{self._asked(band)} is not possible with these gears: max. {most} deg", fix=fix)
 
@@ -268,7 +268,7 @@ class DwellTask(FamilyTask):
         from gearlink.core.machines.three_gear.families import filling, ripple
 
         filled = filling(family, train, band)
-        assert filled is not None  # a back-step of twice the least is wider than the band
+        assert filled is not None  # a back-step of twice the minimum is wider than the band
         longest = ripple(filled, train).crank_angle
         raise NoSolution(
             (

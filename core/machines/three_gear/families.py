@@ -57,8 +57,8 @@ class Family:
     """Linkages in one unknown length.
 
     linkage : of the unknown [mm]
-    least, high : the range of the unknown [mm]
-    low : the value [mm] at which the output just stops, or `least`; None where it never stops
+    minimum, high : the range of the unknown [mm]
+    low : the value [mm] at which the output just stops, or `minimum`; None where it never stops
     why : str - the reason for that
     """
 
@@ -221,7 +221,7 @@ def solved(
         raise NoSolution(
             (
                 f"{what} is less than that of any crank-rocker with this crank: its output steps back "
-                f"with every frame, and the least is {safely_above(math.degrees(share * least), 9)} deg"
+                f"with every frame, and the minimum is {safely_above(math.degrees(share * least), 9)} deg"
             ),
             fix="take a shorter crank",
         )
@@ -244,7 +244,7 @@ def filling(family: Family, train: GearTrain, band: float) -> FourBar | None:
 
 
 def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> FourBar:
-    """The linkage of a family whose least output speed is a given part of the greatest.
+    """The linkage of a family whose minimum output speed is a given part of the greatest.
 
     W_min/W_max = quotient
 
@@ -424,7 +424,7 @@ def rooms(design: ThreeGearFourBar, window: float, band: float) -> tuple[Room, .
 
 
 def words(found: tuple[Room, ...]) -> str:
-    """What the length that changes least may be, in words."""
+    """What the length that changes minimum may be, in words."""
     return f"set {found[0].key} to {within(found[0].low, found[0].high, 'mm')}" if found else ""
 
 

@@ -47,16 +47,16 @@ class ThreeGearLoads(LoadsDesign):
             "output": Fraction(int(train.crank), int(train.output)),
         }
         turns = math.lcm(*(turn.denominator for name, turn in gears.items() if is_directed(self.section, name)))
-        return homecoming(turns, "idler and output gear come home", "gears.idler")
+        return homecoming(turns, "idler and output gear are back in their initial positions", "gears.idler")
 
     @property
     def motion_turns(self) -> int:
-        """The links are home after every turn."""
+        """The links are home after every revolution."""
         return 1
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
-        """The dwell: within the tolerance where the file gives one, else the back-step and the way back."""
+        """The dwell: within the tolerance where the file gives one, else the back-step and the return stroke."""
         zone = self._dwell_of(self.design)
         if zone is not None and self.design.tolerance_dwell is None and self.speed < 0.0:
             # Backwards the back-step begins where it ends forwards, and the way back follows there: as in the mirror.

@@ -224,7 +224,7 @@ def touching(r1: Any, r3: Any, r5: Any, e: Any, e_t: Any, fn: Elementary = SCALA
 
 
 def momentary_frame_length(r1: float, r3: float, r5: float, eccentricity: float) -> float:
-    """Frame length of the crank-rocker whose output stops just once a turn, without stepping back.
+    """Frame length of the crank-rocker whose output stops just once a revolution, without stepping back.
 
     d*^2 = r5^2 + (r1^2 - e^2) {[(sqrt(r3 c) + sqrt(b (b + r5)))/r1]^2 - 1},   b = r1 + r3, c = r3 + r5
 
@@ -399,7 +399,7 @@ def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float |
 
 
 def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
-    """Crank length of the momentary dwell with the greatest least transmission angle: e^2 + d*^2 = b^2 + c^2.
+    """Crank length of the momentary dwell with the maximum minimum transmission angle: e^2 + d*^2 = b^2 + c^2.
 
     e_bal^2 = (r5^2 + kappa r1^2 - b^2 - c^2)/(kappa - 1)
 

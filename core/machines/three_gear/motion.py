@@ -73,17 +73,17 @@ class GearTrain:
 
     @property
     def coupler_share(self) -> float:
-        """What a turn of the coupler adds to the output, (1 - i2) i3 = -(z1 + z3)/z5."""
+        """What a revolution of the coupler adds to the output, (1 - i2) i3 = -(z1 + z3)/z5."""
         return -self.sense * (self.crank + self.idler) / self.output
 
     @property
     def rocker_share(self) -> float:
-        """What a turn of the rocker adds to the output, 1 - i3 = (z3 + z5)/z5."""
+        """What a revolution of the rocker adds to the output, 1 - i3 = (z3 + z5)/z5."""
         return self.sense * (self.idler + self.output) / self.output
 
 
 class Extremes(NamedTuple):
-    """Greatest and least value of a ratio over the turn and the crank angles [rad] in [0, 2 pi) of both."""
+    """Maximum and minimum value of a ratio over the turn and the crank angles [rad] in [0, 2 pi) of both."""
 
     greatest: float
     greatest_angle: float
@@ -92,7 +92,7 @@ class Extremes(NamedTuple):
 
 
 def output_angle(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
-    """Angle of the output gear, 0 at the crank angle 0 and continuous over any number of turns.
+    """Angle of the output gear, 0 at the crank angle 0 and continuous over any number of revolutions.
 
     phi5 = I phi + (1 - i2) i3 [t2(phi) - t2(0)] + (1 - i3) [t3(phi) - t3(0)]
 
@@ -141,7 +141,7 @@ def output_speed(linkage: FourBar, train: GearTrain, crank_angle: float) -> floa
     W = w5/w1 = I + (1 - i2) i3 w2/w1 + (1 - i3) w3/w1
 
     Raises
-        NoSolution - when the linkage does not close there or stands in a dead point
+        NoSolution - when the linkage does not close there or stands in a dead centre
     Example
         >>> train, linkage = GearTrain(20, 20, 60), FourBar(18.0, 50.0, 100.0, 121.4)
         >>> round(output_speed(linkage, train, 0.0), 12)
@@ -222,7 +222,7 @@ def forward(linkage: FourBar, train: GearTrain) -> GearTrain:
 
 
 def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
-    """Greatest and least speed ratio over the turn, and where they are reached.
+    """Maximum and minimum speed ratio over the turn, and where they are reached.
 
     e5 = 0
 
@@ -235,7 +235,7 @@ def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
         thousand random crank-rockers and drag links had one maximum and one minimum each.
     Example
         >>> found = speed_extremes(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60))
-        >>> round(found.greatest, 9), round(math.degrees(found.least_angle), 6)
+        >>> round(found.maximum, 9), round(math.degrees(found.least_angle), 6)
         (0.758734009, 276.311226)
 
     Source
@@ -248,7 +248,7 @@ def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
 
 
 def acceleration_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
-    """Greatest and least acceleration ratio over the turn, and where they are reached.
+    """Maximum and minimum acceleration ratio over the turn, and where they are reached.
 
     Returns
         extremes : Extremes [1/rad] - the places to full precision: roots of the jerk ratio
@@ -257,7 +257,7 @@ def acceleration_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
     Example
         >>> d = 3.951703805053557
         >>> b = math.sqrt((1 + d * d) / 2)
-        >>> round(acceleration_extremes(FourBar(1.0, b, b, d), GearTrain(40, 72, 40)).greatest, 12)
+        >>> round(acceleration_extremes(FourBar(1.0, b, b, d), GearTrain(40, 72, 40)).maximum, 12)
         1.51406659722
 
     Source

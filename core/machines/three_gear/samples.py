@@ -1,4 +1,4 @@
-"""Samples of a three-gear four-bar for the command tolerance: links, centre distances and pins as made."""
+"""Samples of a three-gear four-bar for the command tolerance: links, centre distances and pins as manufactured."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _ARRAYS = (
 _LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_length": 3}
 _SWING = "dwell_swing"
 _OF_LINKS = {"gear-collision", "shaft-clearance", "transmission-angle", "dwell-window"}
-"""Checks that the links as made decide; those of the meshes hang on the centre distances."""
+"""Checks that the links as manufactured decide; those of the meshes hang on the centre distances."""
 _NO_MESH = "no mesh"
 State = frozenset[str]
 """Codes that fail at a centre distance; `_NO_MESH` where the teeth cannot mesh."""
@@ -92,7 +92,7 @@ class ThreeGearSamples:
         return known.issuperset(keys) and {*_ARRAYS, *_LENGTHS, _SWING}.issuperset(names)
 
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
-        """The drives as made; one without a turning crank is refused."""
+        """The drives as manufactured; one without a turning crank is refused."""
         samples = self._samples(columns)
         exists, other = samples.turning()
         with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
@@ -161,7 +161,7 @@ class ThreeGearSamples:
         return key in _KEYS or key.startswith(("pins.", "bearings."))
 
     def design(self, values: Mapping[str, float | complex], cut: Any = None) -> TolerancedDrive:
-        """One drive as made."""
+        """One drive as manufactured."""
         cut = self.nominal if cut is None else cut
         crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
         samples = self._samples({key: np.array([value]) for key, value in (crank | dict(values)).items()})
@@ -257,7 +257,7 @@ def findings_of_meshes(
         nominal : ThreeGearFourBar
         lengths : 4 float [mm] - crank, coupler, rocker, frame of it
         names : of the checks
-        made : two (N,) arrays [mm] - coupler and rocker as made, the centre distances of the meshes
+        made : two (N,) arrays [mm] - coupler and rocker as manufactured, the centre distances of the meshes
         exists : (N,) array - becomes False where the teeth cannot mesh
     Yields
         findings : Findings - one of every code and mesh, without values

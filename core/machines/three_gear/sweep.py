@@ -130,7 +130,7 @@ def _angle(phi: Reals, links: Drives, found: Any) -> Reals:
 
 
 def extreme(links: Drives, start: Reals, sign: float) -> tuple[Reals, Reals, Mask]:
-    """Greatest (sign 1) or least (-1) speed ratio, its crank angle, and where the search came to rest on one.
+    """Maximum (sign 1) or minimum (-1) speed ratio, its crank angle, and where the search came to rest on one.
 
     Notes
         Newton's method on the acceleration from the start, steps of 0.6 rad at most.
@@ -178,7 +178,7 @@ def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals
 
 
 def around(least: Reals, greatest: Reals, links: Drives) -> tuple[Reals, Reals]:
-    """Standstills before and after the least speed, of outputs that turn back there; of any links."""
+    """Standstills before and after the minimum speed, of outputs that turn back there; of any links."""
     value, _, bend = speed(least, links)
     after = least + np.mod(greatest - least, _TURN)
     spread = np.sqrt(-2.0 * value / bend)  # of the parabola
@@ -221,7 +221,7 @@ def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
 
 
 class Valleys(NamedTuple):
-    """Where outputs are slow, (N,) arrays [rad]: `Valley` of `linkages.band_dwell`, and where the speed is least."""
+    """Where outputs are slow, (N,) arrays [rad]: `Valley` of `linkages.band_dwell`, and where the speed is smallest."""
 
     drives: Drives
     first: Reals
@@ -248,7 +248,7 @@ def longest_in_band(valleys: Valleys) -> Dwells:
     """The longest crank interval over which each output stays within +- tol of a place that is free to choose.
 
     Parameters
-        valleys : Valleys - tolerances below half of what the output gains in a turn
+        valleys : Valleys - tolerances below half of what the output gains in a revolution
     """
     band = 2.0 * valleys.tolerance
     drop = _drop(valleys)
@@ -286,7 +286,7 @@ def _around_both(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
 
 
 def _of_one_speed(valleys: Valleys) -> tuple[Reals, Reals, Mask]:
-    """phi5(R) - phi5(L) = 2 tol, W(L) = W(R), from the cubic about the least speed."""
+    """phi5(R) - phi5(L) = 2 tol, W(L) = W(R), from the cubic about the minimum speed."""
     drives, tolerance = valleys.drives, valleys.tolerance
     least, _, bend = speed(valleys.least, drives)
     reach = np.sqrt(np.maximum(-6.0 * least / bend, 0.0)) + np.cbrt(6.0 * tolerance / bend)

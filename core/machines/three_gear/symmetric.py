@@ -53,11 +53,11 @@ _ROUNDING = 1e-9  # [rad]; at the limits 6e-13 of the wrong sign were seen, at i
 _PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
 _NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 _INSIDE = 1e-9
-_NEAREST, _FARTHEST = 0.1, 1e3  # -i3 between which the greatest idler is sought
+_NEAREST, _FARTHEST = 0.1, 1e3  # -i3 between which the maximum idler is sought
 
 
 class SpeedLimits(NamedTuple):
-    """Greatest and least output speed per input speed."""
+    """Maximum and minimum output speed per input speed."""
 
     greatest: Any
     least: Any
@@ -132,7 +132,7 @@ def frame_ratio_between(i3: Any, low: Any, high: Any, fn: Elementary = SCALARS) 
 
 
 def speed_ratio_limits(i3: Any, frame_ratio: Any) -> SpeedLimits:
-    """Greatest and least speed ratio of the output, taken at the crank angles 90 and 270 deg.
+    """Maximum and minimum speed ratio of the output, taken at the crank angles 90 and 270 deg.
 
     W_max, W_min = 1 +- 2 (1 - i3) d/(d^2 + 1)
 
@@ -152,7 +152,7 @@ def speed_ratio_limits(i3: Any, frame_ratio: Any) -> SpeedLimits:
 
 
 def peak_acceleration_ratio(i3: float, frame_ratio: float) -> float:
-    """Greatest acceleration ratio of the output, taken at the crank angles 0 and 180 deg.
+    """Maximum acceleration ratio of the output, taken at the crank angles 0 and 180 deg.
 
     |e5|max/w1^2 = 2 (1 - i3) d/(d^2 - 1)
 
@@ -597,7 +597,7 @@ def check_tolerance(i3: float, tolerance: float) -> None:
 
 
 def least_tolerance(i3: float, window: float) -> float:
-    """Least tolerance within which the output of given gears can stay over a window.
+    """Minimum tolerance within which the output of given gears can stay over a window.
 
     Parameters
         i3 : float - negative
@@ -672,7 +672,7 @@ def check_reach(i3: float, window: float, tolerance: float) -> None:
     """Refuse a window that no frame of given gears reaches within a tolerance.
 
     Raises
-        NoSolution - naming the longest window, the least tolerance and the nearest idler ratio
+        NoSolution - naming the longest window, the minimum tolerance and the nearest idler ratio
     """
     longest = reach(i3, tolerance)
     if window < longest or (window == longest and fills(i3, tolerance)):
@@ -699,7 +699,7 @@ def _other_idler(i3: float, window: float, tolerance: float) -> str:
 
 @lru_cache
 def reaching_ratios(window: float, tolerance: float) -> tuple[float, float] | None:
-    """Least and greatest -i3 with which the output can stay within +- tolerance over a window.
+    """Minimum and maximum -i3 with which the output can stay within +- tolerance over a window.
 
     Parameters
         window, tolerance : float [rad]
@@ -779,18 +779,18 @@ class SymmetricOutput(Output):
 
     @property
     def middle(self) -> float:
-        """Crank angle of the least speed [rad]: 270 deg, mirrored with the assembly."""
+        """Crank angle of the minimum speed [rad]: 270 deg, mirrored with the assembly."""
         return 1.5 * math.pi if self.linkage.assembly == 1 else 0.5 * math.pi
 
     @cached_property
     def speed_extremes(self) -> Extremes:
-        """Half a turn apart (thesis (4-13))."""
+        """Half a revolution apart (thesis (4-13))."""
         limits = speed_ratio_limits(self.train.i3, self.frame_ratio)
         return Extremes(limits.greatest, (self.middle + math.pi) % math.tau, limits.least, self.middle)
 
     @cached_property
     def acceleration_extremes(self) -> Extremes:
-        """A quarter turn after and before the least speed."""
+        """A quarter turn after and before the minimum speed."""
         peak = peak_acceleration_ratio(self.train.i3, self.frame_ratio)
         after, before = (self.middle + 0.5 * math.pi) % math.tau, (self.middle - 0.5 * math.pi) % math.tau
         return Extremes(peak, after, -peak, before)

@@ -262,7 +262,7 @@ def dwell_angle(n: Reals, h: Reals) -> Reals:
     """phi13 [rad] of a back-step over 2 h: the equation solved for y, as `symmetric.dwell_angle`."""
     limit = 2.0 * math.pi * n / (n + 1.0)
     high = np.minimum(3.0 * h, limit - h)
-    # At y = h the value is least: beyond it it rises, and the root lies at about 2 h.
+    # At y = h the value is smallest: beyond it it rises, and the root lies at about 2 h.
     return h + newton_roots(lambda *given: _above(*given)[:2], h, high, np.minimum(2.0 * h, high), n, h)
 
 

@@ -500,7 +500,7 @@ class BackStepSynthesis(ThreeGearFourBar):
 
 
 class SpeedTask(FamilyTask):
-    """The least and the greatest speed of the output."""
+    """The minimum and the maximum speed of the output."""
 
     section = "speed"
 
@@ -523,7 +523,7 @@ class SpeedTask(FamilyTask):
             return with_speed_quotient(family, train, speed.min / speed.max)
 
     def frame_ratio_for(self, i3: float) -> float:
-        """Thesis (4-20); for an even stretch the least frame that has it."""
+        """Thesis (4-20); for an even stretch the minimum frame that has it."""
         speed = self.request
         if speed.uniform_angle is not None:
             from gearlink.core.machines.three_gear.uniform import frame_ratio_for_window
@@ -535,7 +535,7 @@ class SpeedTask(FamilyTask):
             return symmetric.frame_ratio_for_speed_band(i3, speed.min, speed.max)
 
     def crank_angle_for(self, i3: float) -> float | None:  # noqa: ARG002 - whatever the gears
-        """The output just stops where the least speed is zero."""
+        """The output just stops where the minimum speed is zero."""
         if self.request.uniform_angle is not None:
             return None
         return 0.0 if self.request.min == 0.0 else None
@@ -590,12 +590,12 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
 
     @property
     def asked_ratio_min(self) -> float | None:
-        """The least output speed that is asked for, per input speed; None of an even stretch."""
+        """The minimum output speed that is asked for, per input speed; None of an even stretch."""
         return self._asked(self.task.request.min)
 
     @property
     def asked_ratio_max(self) -> float | None:
-        """The greatest output speed that is asked for, per input speed; None of an even stretch."""
+        """The maximum output speed that is asked for, per input speed; None of an even stretch."""
         return self._asked(self.task.request.max)
 
     def _asked(self, speed: float | None) -> float | None:
@@ -626,7 +626,7 @@ _STEPS = (
 
 
 class MomentaryTask(Task):
-    """An output that stops just once a turn: any three gears and one length are given, the other is sought."""
+    """An output that stops just once a revolution: any three gears and one length are given, the other is sought."""
 
     @property
     def request(self) -> Any:

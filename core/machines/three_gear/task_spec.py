@@ -33,10 +33,10 @@ class Speed(Placing):
     """Asked of `synth variable-speed`; the input turns at the mean of the two."""
 
     min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="least output speed"
+        None, description="minimum output speed"
     )
     max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="greatest output speed"
+        None, description="maximum output speed"
     )
     uniform_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="in place of min and max: crank angle in which the output runs at a nearly even speed"
@@ -64,7 +64,7 @@ class FrontLay(Spec):
 
     distance: Length = Field(description="last way before the lay")
     speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] = Field(
-        description="greatest speed of the sheet on that way"
+        description="maximum speed of the sheet on that way"
     )
     angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle of the arrival; left out: where the sheet arrives most gently"

@@ -1,4 +1,4 @@
-"""Stretches of a turn in which the output runs at a nearly even speed, and the speed with which a sheet arrives.
+"""Stretches of a revolution in which the output runs at a nearly even speed, and the speed with which a sheet arrives.
 
 Both are windows of the crank angle whose ends stand on one level of the speed ratio W, an extreme of W between them.
 """
@@ -34,7 +34,7 @@ def uniform(speed: Speed, extremes: Sequence[Turning], share: float) -> Uniform 
 
     Parameters
         speed : function of the crank angle [rad] - W
-        extremes : all turnings of W over a turn
+        extremes : all turnings of W over a revolution
         share : float - p
     Returns
         uniform : Uniform - None where the output never runs forwards
@@ -76,7 +76,7 @@ def _leaves(speed: Speed, place: float, way: float, bottom: float, ceiling: floa
 
 
 def window_of_family(d: float, n: float, share: float) -> float:
-    """Window about the greatest speed of equal gears [rad].
+    """Window about the maximum speed of equal gears [rad].
 
     W = 1 + n G,  G up to k = 2 d/(1 + d^2):  sin phi_1 = (d^2 - 1) G/(2 d sqrt(1 - G^2)) at G = ((1 + n k)/rho - 1)/n,
     window 180 deg - 2 phi_1
@@ -95,12 +95,12 @@ def window_of_family(d: float, n: float, share: float) -> float:
 
 
 def frame_ratio_for_window(angle: float, share: float, n: float, transmission: float) -> float:
-    """Least frame over crank of equal gears without back-step that has a window [rad] about its greatest speed.
+    """Minimum frame over crank of equal gears without back-step that has a window [rad] about its maximum speed.
 
     d >= max(tan(45 deg + mu/2), n + sqrt(n^2 - 1))
 
     Parameters
-        transmission : float [rad] - mu, least transmission angle
+        transmission : float [rad] - mu, minimum transmission angle
     Raises
         NoSolution - where no frame that could be built has it
     """
@@ -120,7 +120,7 @@ def frame_ratio_for_window(angle: float, share: float, n: float, transmission: f
 
 
 class Lay(NamedTuple):
-    """The way to the front lay: crank angles of its start and of the arrival [rad], greatest speed ratio on it, and
+    """The way to the front lay: crank angles of its start and of the arrival [rad], maximum speed ratio on it, and
     that at the arrival."""
 
     start: float
@@ -146,13 +146,13 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
             start = bracketed_root(lambda x: angle(x) - goal, there, here)
             return _judged(speed, extremes, start, end)
         here = there
-    raise NoSolution("the way before the lay is longer than the feed of two turns: give less")
+    raise NoSolution("the way before the lay is longer than the feed of two revolutions: give less")
 
 
 def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float) -> Lay:
-    """The stretch of the least greatest speed, wherever in the turn the sheet may arrive.
+    """The stretch of the minimum maximum speed, wherever in the turn the sheet may arrive.
 
-    About a minimum of W, with equal speeds at both ends; where none has such ends, up to the greatest speed.
+    About a minimum of W, with equal speeds at both ends; where none has such ends, up to the maximum speed.
 
     Raises
         NoSolution - where the output turns back within it

@@ -61,7 +61,7 @@ def beside(link: str, axis: Axis, distance: float, remedy: str, end: str = _ENDS
     Parameters
         link : str - "the device"
         axis : Axis
-        distance : float [mm] - least over the motion
+        distance : float [mm] - minimum over the motion
         remedy : str - what would clear it
         end : str - which shaft must end where
     """
@@ -125,7 +125,7 @@ def _drive(design: WideSwingDesign, cam: Axis) -> Iterator[Check]:
 
 
 def _disc_radius(design: WideSwingDesign) -> float:
-    """Greatest radius of the oscillating cam [mm]."""
+    """Maximum radius of the oscillating cam [mm]."""
     cam = design.cam
     if not design.has_profile:
         return cam.end_radius - cam.roller_radius
@@ -163,7 +163,7 @@ def placed_clearance(loads: WideSwingLoads) -> Iterator[Check]:
 
 
 def _drive_rooms(loads: WideSwingLoads) -> dict[str, float]:
-    """Least distances of crank and coupler from the rocker's axis over a turn [mm]."""
+    """Minimum distances of crank and coupler from the rocker's axis over a revolution [mm]."""
     lengths = {"crank": loads.design.motion.drive.linkage.crank, "coupler": loads.design.motion.drive.linkage.coupler}
 
     def distance(name: str, phi: Reals) -> Reals:
@@ -182,7 +182,7 @@ def _least(distance: Callable[[Reals], Reals], start: float, end: float) -> floa
 
 
 def device_room(ratio: float, swing: float) -> float:
-    """Least distance of the device from the rocker's axis over the swing, in arms.
+    """Minimum distance of the device from the rocker's axis over the swing, in arms.
 
     1 while cos(phi) > 1/lambda, then lambda sin(phi)/l, which falls
 
@@ -197,12 +197,12 @@ def device_room(ratio: float, swing: float) -> float:
 
 
 def _device_from(ratio: float, swing: float, place: complex) -> float:
-    """Least distance of the device from a place, in arms from D, the base pin on the real axis."""
+    """Minimum distance of the device from a place, in arms from D, the base pin on the real axis."""
     return _least(lambda phi: beside_line(place, np.exp(1j * phi), complex(ratio)), -0.5 * swing, 0.5 * swing)
 
 
 def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
-    """Least distance of a slider's rod from a place over the swing [mm].
+    """Minimum distance of a slider's rod from a place over the swing [mm].
 
     Parameters
         drive : SliderDrive
@@ -224,7 +224,7 @@ def rod_room(drive: SliderDrive, swing: float, place: complex) -> float:
 
 
 def swept_room(length: float, aside: float, swing: float, reach: float) -> float:
-    """Least distance of a lever of the rocker from a point, 0 where it passes over it [mm].
+    """Minimum distance of a lever of the rocker from a point, 0 where it passes over it [mm].
 
     Parameters
         length : float [mm] - of the lever
@@ -239,7 +239,7 @@ def swept_room(length: float, aside: float, swing: float, reach: float) -> float
 
 
 def coupler_room(bar: FourBar) -> float:
-    """Least distance of a crank-rocker's coupler from the pivot of its rocker: where the crank points to that [mm].
+    """Minimum distance of a crank-rocker's coupler from the pivot of its rocker: where the crank points to that [mm].
 
     l4 sin(mu_min), mu_min there the angle of coupler and rocker; l4 where that is blunt, l1 - l2 beyond the crank's pin
 

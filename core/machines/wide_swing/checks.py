@@ -125,7 +125,7 @@ def force_closure(design: WideSwingDesign) -> Iterator[Check]:
 
 
 def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
-    """GL510: both strokes find room in one turn of the cam."""
+    """GL510: both strokes find room in one revolution of the cam."""
     if design.spec.drive is not None:
         return
     if design.spec.cycle is not None:

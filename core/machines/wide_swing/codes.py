@@ -68,8 +68,8 @@ FORCE_CLOSURE = Rule(
 )
 CYCLE_ANGLES = Rule(
     "GL510",
-    "two strokes take more than a turn",
-    "Working and return stroke together take more cam angle than a turn has; of a cycle, a rest has no length (a "
+    "two strokes take more than a revolution",
+    "Working and return stroke together take more cam angle than a revolution has; of a cycle, a rest has no length (a "
     "warning).",
     "The two profiles would overlap; without a rest between them the hollows of both strokes meet in an edge.",
     "Reduce cycle_angle to 180 deg or less; give both rests of a cycle some degrees.",
@@ -89,7 +89,7 @@ FORCE_RESERVE = Rule(
     "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
     "the reserve.",
     "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
-    "swings home the greatest acceleration of the rocker over that of the stroke at the same place; in the stroke "
+    "swings home the maximum acceleration of the rocker over that of the stroke at the same place; in the stroke "
     "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
     "own derivation",
     ("force-reserve",),
@@ -98,11 +98,12 @@ FORCE_RESERVE = Rule(
 CLOSED_CONTOUR = Rule(
     "GL512",
     "roller cuts into the closed contour",
-    "On its way round the whole turn a roller would cut into its own cam: beside a joint, in the sector where the "
+    "On its way round the whole revolution a roller would cut into its own cam: beside a joint, in the sector "
+    "where the "
     "other cam guides, or where two hollows come near each other.",
     "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
     "Take a smaller cam.roller_radius or cam.free_clearance, longer rests, or a larger cam.center_distance.",
-    "least distance of contour and path of the roller's centre >= r_p",
+    "minimum distance of contour and path of the roller's centre >= r_p",
     "own derivation",
     ("closed-contour",),
     ("cam.roller_radius", "cam.free_clearance", "cycle", "cam"),
@@ -126,7 +127,8 @@ SIDE_CHANGE = Rule(
     "Between the two the device pushes the roller away from the profile, whatever its reserve, and nothing guides the "
     "rocker.",
     "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing: the reduced "
-    "inertia is stationary there, and so is the rocker's speed. Where that is its least, since the slider's mass slows "
+    "inertia is stationary there, and so is the rocker's speed. Where that is its minimum, since the slider's "
+    "mass slows "
     "it, take a lighter slider or more inertia of the rocker.",
     "k_mid within the slot; c(k_mid) = 0 where d2s/dphi2 = 0 at mid-swing",
     "own derivation",

@@ -21,7 +21,7 @@ PHASES = ("working", "far-dwell", "return", "near-dwell")
 
 
 class WholeCycle:
-    """Both closed contours over one turn, from the design; every result is computed when it is read."""
+    """Both closed contours over one revolution, from the design; every result is computed when it is read."""
 
     def __init__(self, design: WideSwingDesign) -> None:
         self.design = design

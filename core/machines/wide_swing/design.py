@@ -146,7 +146,7 @@ def of_motion(design: WideSwingDesign) -> Places:
 
 
 def of_pressure(design: WideSwingDesign) -> float:
-    """Cam angle [rad] of the greatest pressure angle on the profile."""
+    """Cam angle [rad] of the maximum pressure angle on the profile."""
     import numpy as np
 
     # Next to a standstill of a cam that swings itself the ratio of both rates has no digits.
@@ -159,13 +159,13 @@ def of_pressure(design: WideSwingDesign) -> float:
 
 
 def of_curvature(design: WideSwingDesign) -> float | None:
-    """Cam angle [rad] of the least radius of a bulging pitch curve on the profile; None where it bulges nowhere."""
+    """Cam angle [rad] of the minimum radius of a bulging pitch curve on the profile; None where it bulges nowhere."""
     found = _greatest(design, design.cam.bulge)
     return found.place * design.motion.cycle_angle if found.value > 0.0 else None
 
 
 def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extreme:
-    """The greatest value over the parts of the stroke in which the roller touches the profile."""
+    """The maximum value over the parts of the stroke in which the roller touches the profile."""
     from gearlink.core.numerics.extremes import maximum_over
 
     stop = 1e-3 if design.spec.drive is not None else 0.0
@@ -284,7 +284,7 @@ def history_table(design: WideSwingDesign, _samples: int | None = None) -> Table
 
 
 def contour_table(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """Both cams as closed contours over one turn."""
+    """Both cams as closed contours over one revolution."""
     return design.cycle.table(samples)
 
 
@@ -547,7 +547,7 @@ class Unloading:
         return force
 
     def dwell_force(self, cams: Iterable[AnyCam]) -> float:
-        """Greatest force of a roller on its cam during the rests, when the cam bears the whole device [N].
+        """Maximum force of a roller on its cam during the rests, when the cam bears the whole device [N].
 
         F = (1 + rho) J gamma c(0)/(T0^2 r cos delta0)
 
@@ -693,7 +693,7 @@ class WideSwingDesign(Design):
 
     @cached_property
     def cycle(self) -> WholeCycle:
-        """Both cams as closed contours over a whole turn."""
+        """Both cams as closed contours over a whole revolution."""
         from gearlink.core.machines.wide_swing.cycle import WholeCycle
 
         return WholeCycle(self)
@@ -805,7 +805,7 @@ class WideSwingDesign(Design):
 
     @cached_property
     def contact_force(self) -> float:
-        """Greatest force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
+        """Maximum force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
         from gearlink.core.numerics.extremes import maximum_over
 
         found = [
@@ -852,17 +852,17 @@ class WideSwingDesign(Design):
 
     @cached_property
     def pressure_place(self) -> float:
-        """Cam angle of the greatest pressure angle where the roller touches the profile [rad]."""
+        """Cam angle of the maximum pressure angle where the roller touches the profile [rad]."""
         return of_pressure(self)
 
     @cached_property
     def curvature_place(self) -> float | None:
-        """Cam angle of the least radius of a bulging pitch curve where the roller touches it [rad]."""
+        """Cam angle of the minimum radius of a bulging pitch curve where the roller touches it [rad]."""
         return of_curvature(self)
 
     @cached_property
     def dwell_force(self) -> float:
-        """Greatest force of a roller on its cam during the rests [N]."""
+        """Maximum force of a roller on its cam during the rests [N]."""
         return self.unloading.dwell_force(self.cams.values())
 
     @property

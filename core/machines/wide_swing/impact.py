@@ -23,7 +23,7 @@ FARTHEST = 0.15
 def crossing_time(free: float, clearance: float, growth: float) -> float:
     """Time from mid-swing to the blow on the other flank.
 
-    (tau - 2 tau_e)(tau + tau_e)^2 = 6 s/kappa, the least tau >= 2 tau_e
+    (tau - 2 tau_e)(tau + tau_e)^2 = 6 s/kappa, the minimum tau >= 2 tau_e
 
     Parameters
         free : float [s] - tau_e, before mid-swing, since the wall ended

@@ -35,7 +35,7 @@ SLIDER_DIRECTION, DRIVE_DIRECTION = -90.0, -60.0
 
 
 def motion(design: WideSwingDesign) -> Motion:
-    """Links and joints over the input angle: over a turn where the file tells all of it, else over the stroke.
+    """Links and joints over the input angle: over a revolution where the file tells all of it, else over the stroke.
 
     Without `cam` there are the rocker and its slider alone, about D at 0.
     """

@@ -73,14 +73,14 @@ class Motion:
 
     @property
     def usual_pivot_ratio(self) -> float:
-        """Least pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
+        """Minimum pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
         from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_pneumatic
 
         return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
 
     @cached_property
     def min_pivot_ratio(self) -> float | None:
-        """Least pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
+        """Minimum pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
         from gearlink.core.machines.wide_swing.law import device
 
         unloader = self.spec.unloader
@@ -99,7 +99,7 @@ class Motion:
 
     @property
     def least_ratio_of_steel(self) -> float:
-        """Least pivot ratio between whose pins a spring of steel finds room, whatever its length."""
+        """Minimum pivot ratio between whose pins a spring of steel finds room, whatever its length."""
         from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_spring_material
 
         unloader = self.spec.unloader
@@ -256,7 +256,7 @@ class Motion:
 
     @property
     def transmission_angles(self) -> dict[str, float]:
-        """Least transmission angles [rad] by the key of the part that they are of: `drive`, `slider.rod`."""
+        """Minimum transmission angles [rad] by the key of the part that they are of: `drive`, `slider.rod`."""
         found = {}
         if self.spec.drive is not None:
             found["drive"] = self.drive.linkage.min_transmission_angle()

@@ -50,7 +50,7 @@ def candidates(design: WideSwingDesign, check: str) -> Iterable[Remedy]:
 def reserve(residual: float, margin: float, need: float = 1.0) -> float:
     """Reserve of the device with which the roller lifts off a share of the speed above the design speed.
 
-    rho = (1 + margin)^2 k_b - 1 + f, k_b the need of the way back
+    rho = (1 + margin)^2 k_b - 1 + f, k_b the need of the return stroke
     """
     return max(0.0, margin * (2.0 + margin) * need + (need - 1.0) + residual)
 
@@ -142,7 +142,7 @@ def drive_crank(design: WideSwingDesign) -> float | None:
 
 
 def _pressure(design: WideSwingDesign) -> Iterator[Change]:
-    """What brings the pressure angle of every cam within the limit: keys by turns, the least change of each first."""
+    """What brings the pressure angle of every cam within the limit: keys by turns, the minimum change of each first."""
     if design.section.rocker_radius is not None:
         yield "cam.rocker_radius", None
     if design.spec.slider is not None:  # a third of a second each: the few trials of the ways must do

@@ -130,7 +130,7 @@ class DeviceSize:
 
     @cached_property
     def force_max(self) -> float:
-        """Greatest pull of the device: P, c (S0 + S), or the weight of a pendulum [N]."""
+        """Maximum pull of the device: P, c (S0 + S), or the weight of a pendulum [N]."""
         unloader = self.spec.unloader
         if unloader.type == "gravity":
             return self.mass * unloader.gravity

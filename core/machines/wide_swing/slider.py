@@ -96,7 +96,7 @@ class SliderDrive:
         return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
 
     def least_transmission(self, swing: float) -> float:
-        """Least angle between the rod and the normal of the slide line over a swing [rad].
+        """Minimum angle between the rod and the normal of the slide line over a swing [rad].
 
         mu = 90 deg - max |asin((R sin psi + e)/l)|, psi the arm's angle, middle_angle +- swing/2
 
@@ -113,7 +113,7 @@ class SliderDrive:
         return math.acos(max(abs(self.crank * math.sin(psi) + self.offset) for psi in places) / self.rod)
 
     def dead_centers(self) -> tuple[float, float]:
-        """Rocker angles from mid-swing, within one turn, where arm and rod are in line [rad]."""
+        """Rocker angles from mid-swing, within one revolution, where arm and rod are in line [rad]."""
         extended = -math.asin(self.offset / (self.rod + self.crank))
         folded = math.pi - math.asin(self.offset / (self.rod - self.crank))
         return extended - self.middle_angle, folded - self.middle_angle

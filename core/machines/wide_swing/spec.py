@@ -264,15 +264,15 @@ class SwingDrive(Spec):
 class SwingLimits(LoadLimits):
     """Limits of the checks."""
 
-    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle outside the transition zone")
+    pressure_angle: AcuteAngle = Field(45.0, description="maximum pressure angle outside the transition zone")
     transmission_angle: AcuteAngle = Field(
-        40.0, description="least transmission angle of `drive` and of a slider's rod"
+        40.0, description="minimum transmission angle of `drive` and of a slider's rod"
     )
     transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )
     impact_speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] | None = Field(
-        None, description="greatest speed of the roller's blow where it changes flanks; left out: not judged"
+        None, description="maximum speed of the roller's blow where it changes flanks; left out: not judged"
     )
 
 
@@ -302,7 +302,7 @@ class WideSwingSpec(TolerancedSpec):
         None, description="radius on the rocker at which its end positions count; then their gain"
     )
     operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
-        None, description="least speed at which the machine works; then the device is checked for harm there"
+        None, description="minimum speed at which the machine works; then the device is checked for harm there"
     )
     method: Literal["exact", "iteration"] = Field(
         "exact", description="iteration: show the source's own iteration and its error beside the exact law"
@@ -324,7 +324,9 @@ class WideSwingSpec(TolerancedSpec):
         """With the other fields, so that a missing key is reported together with every other error of the file."""
         drive, cycle = (info.data.get(name, ...) for name in ("drive", "cycle"))
         if value is None and drive is None and cycle is None:
-            words = "cycle_angle: cam angle of one stroke, run-up and run-out; or the section cycle of a whole turn"
+            words = (
+                "cycle_angle: cam angle of one stroke, run-up and run-out; or the section cycle of a whole revolution"
+            )
             _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)
         return value
 

@@ -108,7 +108,7 @@ class WayHome(Stroke):
     @property
     def words(self) -> str:
         """What it is called."""
-        return "way home"
+        return "return stroke"
 
     @property
     def cam_words(self) -> str:
@@ -158,7 +158,7 @@ class WayHome(Stroke):
 
 
 def strokes_of(design: WideSwingDesign) -> tuple[Stroke, ...]:
-    """The working stroke, and what brings the rocker back where the whole turn is known."""
+    """The working stroke, and what brings the rocker back where the whole revolution is known."""
     main = Stroke("main", design.cam, 0.0, design)
     if design.spec.drive is not None:
         return main, WayHome("return", design.cam, design.cam.cycle_angle, design)

@@ -39,7 +39,7 @@ def home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
 
     Parameters
         cam : OscillatingCam
-        turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole turn
+        turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole revolution
         order : 2 or 3 - of the derivatives
     Notes
         C is the end of the rocker that carries the cam, seen from the crank's pivot: the crank pins of both ways are
@@ -68,7 +68,7 @@ def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
         cam : OscillatingCam
         k : (N,) array - fractions of the stroke
     Returns
-        turned : (N,) array [rad] - from a whole turn at k = 0 down to the stroke's at k = 1
+        turned : (N,) array [rad] - from a whole revolution at k = 0 down to the stroke's at k = 1
     """
     bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
     forth = k * span
@@ -87,7 +87,7 @@ def _within(angle: Reals, low: float, high: float) -> Reals:
 
 
 def need(cam: OscillatingCam) -> Extreme:
-    """Greatest acceleration of the rocker on the way home over that of the stroke at the same place, and the place k.
+    """Maximum acceleration of the rocker on the way home over that of the stroke at the same place, and the place k.
 
     Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way home
     only with a force above that ratio of it.

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
 
-# A hub of 1.5 times the shaft is the usual least, a roller of 0.8 of the least curvature radius the usual most.
+# A hub of 1.5 times the shaft is the usual minimum, a roller of 0.8 of the minimum curvature radius the usual most.
 HUB = 1.5
 ROLLER_SHARE = 0.8
 AS_THICK_AS_ROLLER = "a shaft as thick as the roller"
@@ -53,7 +53,7 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
 def undercut_checks(
     cams: Sequence[DiscCam], larger: Callable[[], str] | None = None, *, plainly: str = LARGER
 ) -> Iterator[Check]:
-    """GL402 for each cam: roller against the least convex curvature, and the profile against itself.
+    """GL402 for each cam: roller against the minimum convex curvature, and the profile against itself.
 
     Parameters
         cams : the cams
@@ -80,7 +80,7 @@ def undercut_checks(
 
 
 def against_curvature(roller: float, least: float, status: Status) -> Shown:
-    """What a message compares with a roller radius: the least curvature radius, or its usual share."""
+    """What a message compares with a roller radius: the minimum curvature radius, or its usual share."""
     if not math.isfinite(least):
         return Shown(roller, None, "mm")
     usual = status == "warn"

@@ -24,11 +24,11 @@ PRESSURE_ANGLE = Rule(
 CAM_UNDERCUT = Rule(
     "GL402",
     "roller undercuts the cam",
-    "The roller is as large as the least convex curvature radius of the pitch curve, or cuts into the profile "
+    "The roller is as large as the minimum convex curvature radius of the pitch curve, or cuts into the profile "
     "elsewhere.",
     "The cutter removes part of the profile: the follower does not make the motion that was asked for. The tables show "
     "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
-    "Take a roller below 0.8 of the least curvature radius, or enlarge the base circle.",
+    "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle.",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
@@ -101,7 +101,7 @@ LIFT_OFF = Rule(
 )
 LAW_GAP = Rule(
     "GL517",
-    "an optimal law may not be the least",
+    "an optimal law may not be the minimum",
     "The gap between the law that was found and the bound below which no law of its degree lies is wide.",
     "The proof says how much a better law could gain; a wide gap says that the programme was solved badly.",
     "Lower the degree, or loosen a limit that hardly can be kept.",
@@ -115,9 +115,9 @@ LAW_RIPPLE = Rule(
     "GL422",
     "a table law turns back",
     "The curve through the points of a table from rest to rest runs backwards somewhere (a warning).",
-    "Measured or rounded points ripple; each turn back is a blow in the drive's play.",
+    "Measured or rounded points ripple; each revolution back is a blow in the drive's play.",
     "Give more digits, smooth the points, or leave some out: the spline passes through every one.",
-    "least velocity of the law >= 0",
+    "minimum velocity of the law >= 0",
     "own derivation",
     ("law-ripple",),
     ("laws", "law", "motion", "cam.return_law"),

@@ -73,7 +73,7 @@ def _kept(path: Callable[[Reals, int], RollerPath], order: int = 2) -> Callable[
 
 @dataclass(frozen=True)
 class DiscCam:
-    """A cam over one turn; nothing is computed before it is asked for.
+    """A cam over one revolution; nothing is computed before it is asked for.
 
     Parameters
         name : str - what messages call it
@@ -135,18 +135,18 @@ class DiscCam:
         Notes
             Where the pitch curve is farthest from the axis or nearest to it, its normal passes through the axis:
             the extremes of |P| - r_g are those of the profile. Where the profile loops, the body that the roller
-            leaves has the same least radius and stays within the greatest; the loop does not.
+            leaves has the same minimum radius and stays within the maximum; the loop does not.
         """
         return np.abs(profile.pitch_points(cam_angle, self.path(cam_angle, 1), sense=self.sense)) - self.roller_radius
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
-        """Greatest magnitude of the pressure angle [rad] and its place."""
+        """Maximum magnitude of the pressure angle [rad] and its place."""
         return maximum_over(self.size_of_pressure_angle, joints=self.bounds, samples=SAMPLES)
 
     @cached_property
     def min_curvature_radius(self) -> Extreme:
-        """Least convex radius of the pitch curve [mm] and its place."""
+        """Minimum convex radius of the pitch curve [mm] and its place."""
         return least_convex_radius(self.curvature, joints=self.bounds, samples=SAMPLES)
 
     @cached_property

@@ -97,7 +97,7 @@ def rocking_face(
 
 @dataclass(frozen=True)
 class FlatCam:
-    """A cam under a flat face over one turn; nothing is computed before it is asked for.
+    """A cam under a flat face over one revolution; nothing is computed before it is asked for.
 
     Parameters
         name : str - what messages call it
@@ -128,12 +128,12 @@ class FlatCam:
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
-        """Greatest magnitude [rad] and its place."""
+        """Maximum magnitude [rad] and its place."""
         return self._most(lambda phi: np.abs(self.touch(phi).pressure_angle))
 
     @cached_property
     def min_curvature_radius(self) -> Extreme:
-        """Least radius of the profile [mm] and its place; not positive where it is undercut."""
+        """Minimum radius of the profile [mm] and its place; not positive where it is undercut."""
         return self._least(lambda phi: self.touch(phi).radius)
 
     @cached_property
@@ -148,7 +148,7 @@ class FlatCam:
 
     @cached_property
     def contact_places(self) -> tuple[float, float]:
-        """Least and greatest place of the contact along the face [mm]."""
+        """Minimum and maximum place of the contact along the face [mm]."""
         return self._least(lambda phi: self.touch(phi).place).value, self._most(lambda phi: self.touch(phi).place).value
 
     def table(self, name: str, samples: int | None = None) -> Table:

@@ -100,22 +100,22 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     @property
     def follower_velocity_max(self) -> float | None:
-        """Greatest velocity of the follower [mm/s or rad/s]."""
+        """Maximum velocity of the follower [mm/s or rad/s]."""
         return self._in_time("velocity_max", 1)
 
     @property
     def follower_velocity_min(self) -> float | None:
-        """Least velocity of the follower."""
+        """Minimum velocity of the follower."""
         return self._in_time("velocity_min", 1)
 
     @property
     def follower_acceleration_max(self) -> float | None:
-        """Greatest acceleration of the follower [mm/s^2 or rad/s^2]."""
+        """Maximum acceleration of the follower [mm/s^2 or rad/s^2]."""
         return self._in_time("acceleration_max", 2)
 
     @property
     def follower_acceleration_min(self) -> float | None:
-        """Least acceleration of the follower."""
+        """Minimum acceleration of the follower."""
         return self._in_time("acceleration_min", 2)
 
     def table_follower(self, samples: int | None = None) -> Table:

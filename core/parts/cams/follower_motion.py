@@ -1,4 +1,4 @@
-"""The motion of a cam follower over one turn: segments with their laws, polynomials joined between them, splines.
+"""The motion of a cam follower over one revolution: segments with their laws, polynomials joined between them, splines.
 
 Angles in rad, lifts in mm or rad. A joint belongs to the segment that starts there.
 """
@@ -111,7 +111,7 @@ class Stroke(NamedTuple):
 
 
 class FollowerMotion:
-    """The lift over a turn of the cam.
+    """The lift over a revolution of the cam.
 
     Parameters
         pieces : Pieces that follow each other from 0 to 2 pi
@@ -131,7 +131,7 @@ class FollowerMotion:
         """Lift and its derivatives.
 
         Parameters
-            phi : (N,) array [rad] - cam angle, reduced to one turn
+            phi : (N,) array [rad] - cam angle, reduced to one revolution
             order : int - 0 to 3
             side : +1 or -1 - at a joint, the piece that starts there or the one that ends there
         Returns
@@ -190,7 +190,7 @@ def motion_of(
     Parameters
         unit : float - of its lifts: 1 for mm, pi/180 for deg
         spec : the design file, of whose speed and vibration laws may be shaped; None: they know of none
-        whole : float - of what turns round: the lift of a turn, by whole multiples of which it may end higher
+        whole : float - of what turns round: the lift of a revolution, by whole multiples of which it may end higher
     Raises
         NoSolution - at `motion`, for a law that cannot be or a lift that does not return
     """
@@ -224,7 +224,7 @@ def spline(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
         angles : floats [rad] - from 0 to 2 pi
         lifts : floats - the last the same as the first
     Source
-        least integral of s'''^2: jerk and fourth derivative are continuous at every point
+        minimum integral of s'''^2: jerk and fourth derivative are continuous at every point
     """
     pieces = [
         Piece(k + 1, angles[k], angles[k + 1], lifts[k], lifts[k + 1], POLYNOMIAL, coefficients=(0.0,) * 6)
@@ -479,7 +479,7 @@ def _joined(
 ) -> list[Piece]:
     """The polynomials with what their neighbours impose, what is given, and what makes the rest smooth.
 
-    Free accelerations make the jerk continuous, free velocities the fourth derivative: least integral of s'''^2.
+    Free accelerations make the jerk continuous, free velocities the fourth derivative: minimum integral of s'''^2.
     """
     if not any(piece.coefficients for piece in pieces):
         return list(pieces)

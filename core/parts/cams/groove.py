@@ -108,27 +108,27 @@ class Groove:
 
     @property
     def steepest(self) -> Extreme:
-        """Greatest pressure angle [rad] and its place."""
+        """Maximum pressure angle [rad] and its place."""
         return self._extremes[0]
 
     @property
     def max_radius(self) -> float:
-        """Greatest distance of the roller's centre from the axis [mm]."""
+        """Maximum distance of the roller's centre from the axis [mm]."""
         return self._extremes[1].value
 
     @property
     def min_radius(self) -> float:
-        """Least distance [mm]."""
+        """Minimum distance [mm]."""
         return self._extremes[2].value
 
     @cached_property
     def sharpest(self) -> Extreme:
-        """Least convex radius of the path [mm] and its place."""
+        """Minimum convex radius of the path [mm] and its place."""
         return least_convex_radius(self.curvature, joints=self.joints, samples=_SAMPLES)
 
     @cached_property
     def hollow(self) -> Extreme:
-        """Least hollow radius of the path [mm] and its place."""
+        """Minimum hollow radius of the path [mm] and its place."""
         return least_convex_radius(lambda theta: -self.curvature(theta), joints=self.joints, samples=_SAMPLES)
 
     def table(self, samples: int | None = None) -> Table:
@@ -158,7 +158,7 @@ class Groove:
         return PRESSURE_ANGLE.check(status, what, value, limit, "deg", at=at, fix=remedy)
 
     def check_undercut(self, remedy: str) -> Iterator[Check]:
-        """GL402 of both walls: the roller against the least radius of the path, and what it cuts elsewhere."""
+        """GL402 of both walls: the roller against the minimum radius of the path, and what it cuts elsewhere."""
         for name, found, side in (("inner", self.sharpest, 0), ("outer", self.hollow, 1)):
             share = self.roller_radius / found.value
             status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"

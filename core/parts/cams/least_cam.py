@@ -1,4 +1,4 @@
-"""Least cams that keep a pressure angle and a curvature radius, for a given motion of the follower: closed forms.
+"""Minimum cams that keep a pressure angle and a curvature radius, for a given motion of the follower: closed forms.
 
 Angles in rad, lengths in mm; eps is the sense of the cam, ' is by the cam angle.
 """
@@ -32,7 +32,7 @@ class Line(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """A least cam of a translating roller: offset and start height [mm]."""
+    """A minimum cam of a translating roller: offset and start height [mm]."""
 
     offset: float
     height: float
@@ -44,7 +44,7 @@ class Placed(NamedTuple):
 
 
 def most_in_strokes(motion: FollowerMotion, course: Callable[[Reals], Reals], sense: int) -> float | None:
-    """Greatest value of a course over the strokes of one sense; None where there are none."""
+    """Maximum value of a course over the strokes of one sense; None where there are none."""
     found = []
     for stroke in motion.strokes:
         if stroke.sense == sense:
@@ -96,7 +96,7 @@ def nearest(lines: Sequence[Line]) -> Placed:
 
 
 def height_at(lines: Sequence[Line], offset: float) -> float:
-    """Least start height at an offset [mm]."""
+    """Minimum start height at an offset [mm]."""
     return max(line.height + line.slope * offset for line in lines)
 
 
@@ -162,7 +162,7 @@ class Rocking(NamedTuple):
     side: int
 
     def start_angles(self, limits: Sequence[float]) -> tuple[float, float]:
-        """Least and greatest angle Psi_0 that keep a pressure angle [rad].
+        """Minimum and maximum angle Psi_0 that keep a pressure angle [rad].
 
         f cos(Psi + alpha) <= c cos alpha <= f cos(Psi - alpha),  c = l (1 + side eps s'),  Psi = Psi_0 + s:
         |arccos(c cos alpha/f) - alpha| <= Psi <= arccos(c cos alpha/f) + alpha
@@ -225,7 +225,7 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
 
 
 def flat_base_radius(motion: FollowerMotion, radius: float) -> float:
-    """Base radius of a sliding flat face whose profile has a least curvature radius [mm]: R - min(s + s'')."""
+    """Base radius of a sliding flat face whose profile has a minimum curvature radius [mm]: R - min(s + s'')."""
 
     def course(phi: Reals) -> Reals:
         s, _, s2 = motion.evaluate(phi, 2)

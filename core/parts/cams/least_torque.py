@@ -1,7 +1,7 @@
-"""Motion laws of least inertia torque, |s' s''|: found step by step, and bounded by the kinetic energy.
+"""Motion laws of minimum inertia torque, |s' s''|: found step by step, and bounded by the kinetic energy.
 
 The product is not convex in the coefficients of s'': each step solves the programme of the product's linear part
-within a trust region, and what is found is least of its neighbours alone.
+within a trust region, and what is found is smallest of its neighbours alone.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def least_torque(wish: Wish) -> Optimum:
     Raises
         NoSolution - as `optimum`
     Notes
-        `lower_bound` holds for every law with the same greatest acceleration, whatever its form and jerk.
+        `lower_bound` holds for every law with the same maximum acceleration, whatever its form and jerk.
     """
     optimal.require_possible(wish)
     search = _Search(wish)
@@ -72,7 +72,7 @@ class _Search(Programme):
         )
 
     def _begin(self) -> None:
-        """From the law of least acceleration that keeps the other limits."""
+        """From the law of minimum acceleration that keeps the other limits."""
         wish = self.wish
         start = optimal.optimum(wish._replace(minimize="acceleration", acceleration=None))
         if wish.acceleration is not None and start.value > wish.acceleration:

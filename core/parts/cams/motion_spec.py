@@ -1,4 +1,4 @@
-"""The motion of a cam follower over a turn, as a key of design files."""
+"""The motion of a cam follower over a revolution, as a key of design files."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class OfFollowerKeys(Spec):
 
 
 def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> None:
-    """Refuse a motion that does not run over one turn and come back.
+    """Refuse a motion that does not run over one revolution and come back.
 
     Raises
         PydanticCustomError - at the key `motion`
@@ -87,7 +87,7 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
         if after <= before:
             raise _refused(f"the segments must ascend: one ends at {after:.9g} deg, after {before:.9g} deg")
     if ends[-1] != 360.0:
-        raise _refused(f"the last segment ends at {ends[-1]:.9g} deg: the motion takes a whole turn, to: 360")
+        raise _refused(f"the last segment ends at {ends[-1]:.9g} deg: the motion takes a whole revolution, to: 360")
     if motion[-1].return_ is None:
         last = next((each.lift for each in reversed(motion) if each.lift is not None), initial_lift)
         if any(each.return_ for each in motion):

@@ -1,4 +1,4 @@
-"""Motion laws that are least in something among all polynomials of a degree: found by linear programmes, and proved.
+"""Motion laws that minimize something among all polynomials of a degree: found by linear programmes, and proved.
 
 s'' is a polynomial of degree n on [0, 1] that vanishes at both ends. A programme that knows its limits at finitely
 many places has fewer limits than the true one, so its dual bounds every law of the class from below; the law itself
@@ -31,12 +31,12 @@ _DIGITS = 12
 
 
 class Wish(NamedTuple):
-    """What a law is to be least in, and what it keeps; phase units.
+    """What a law is to be minimum in, and what it keeps; phase units.
 
     Fields
         minimize : str - velocity, acceleration, jerk, residual or torque
         degree : int - of s''
-        velocity, acceleration, jerk : float or None - greatest magnitudes
+        velocity, acceleration, jerk : float or None - maximum magnitudes
         band : (from, to) or None - natural periods per phase, of `residual`
         damping : float - of the oscillator
         symmetric : bool - s(1 - x) = 1 - s(x), or v(1 - x) = 1 - v(x) from rest to speed
@@ -55,7 +55,7 @@ class Wish(NamedTuple):
 
 
 class Optimum(NamedTuple):
-    """A law that is least in something, with what is proved of it.
+    """A law that minimizes something, with what is proved of it.
 
     Fields
         coefficients : (n + 1,) tuple - of s'' by Bernstein polynomials
@@ -77,7 +77,7 @@ class Optimum(NamedTuple):
 
 @lru_cache(maxsize=64)
 def optimum(wish: Wish) -> Optimum:
-    """The law of a wish, but for that of least torque.
+    """The law of a wish, but for that of minimum torque.
 
     Raises
         NoSolution - where no law, or none of the degree, keeps the limits; at the key within the law
@@ -127,7 +127,7 @@ def bound_of_all_laws(wish: Wish) -> float | None:
 
 
 def _ramp(slope: float | None) -> float:
-    """Least height of a trapezoid of area 1 over [0, 1] whose sides are no steeper."""
+    """Minimum height of a trapezoid of area 1 over [0, 1] whose sides are no steeper."""
     return 1.0 if slope is None else 0.5 * slope * (1.0 - math.sqrt(1.0 - 4.0 / slope))
 
 

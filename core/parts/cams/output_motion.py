@@ -38,7 +38,7 @@ class OutputSegment(Spec):
 
 
 def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegment] | MotionTable:
-    """Refuse a motion that does not take a turn of the input, or leaves the output between whole turns."""
+    """Refuse a motion that does not take a revolution of the input, or leaves the output between whole revolutions."""
     if isinstance(motion, MotionTable):
         ends, gained = [row[0] for row in motion.table], motion.table[-1][1] - motion.table[0][1]
         first = ends[0]
@@ -48,9 +48,9 @@ def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegmen
     if any(after <= before for before, after in pairwise(ends)):
         raise _refused("the input angles of the motion must ascend")
     if first != 0.0 or ends[-1] != 360.0:
-        raise _refused(f"the motion takes a whole turn of the input, up to 360 deg, not to {ends[-1]:.9g}")
+        raise _refused(f"the motion takes a whole revolution of the input, up to 360 deg, not to {ends[-1]:.9g}")
     if abs(gained - 360.0 * round(gained / 360.0)) > _FIT:
-        raise _refused(f"the output ends at {gained:.9g} deg: it must end with whole turns, such as 0 or 360")
+        raise _refused(f"the output ends at {gained:.9g} deg: it must end with whole revolutions, such as 0 or 360")
     return motion
 
 

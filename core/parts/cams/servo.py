@@ -16,7 +16,7 @@ from gearlink.core.parts.cams.follower_motion import HERMITE, TURN
 
 
 class FollowerMotion(Protocol):
-    """What is made by the drive over a turn of its master: the lift of a cam, or the output of any member."""
+    """What is made by the drive over a revolution of its master: the lift of a cam, or the output of any member."""
 
     @property
     def joints(self) -> Sequence[float]:
@@ -63,7 +63,7 @@ def deviation(motion: FollowerMotion, rows: int, phi: Reals) -> Reals:
 
 
 def greatest_error(motion: FollowerMotion, rows: int) -> float:
-    """Greatest error of the position between the rows [mm or rad], refined."""
+    """Maximum error of the position between the rows [mm or rad], refined."""
     places = [TURN * k / (rows - 1) for k in range(1, rows - 1)]
     apart = sorted({*places, *motion.joints})
     joints = [b for a, b in zip([-1.0, *apart], apart, strict=False) if b - a > 1e-9]

@@ -95,7 +95,7 @@ class Shaping(NamedTuple):
         periods : float or None - natural periods per phase for which it is shaped
         damping : float - of the oscillator
         wish, optimum : of an optimal law
-        least_speed : of a table from rest to rest the least velocity and its x
+        least_speed : of a table from rest to rest the minimum velocity and its x
     """
 
     type: str

@@ -123,7 +123,7 @@ class WithShapedLaws:
             if law.shaping is None or law.shaping.least_speed is None:
                 continue
             speed, place = law.shaping.least_speed
-            what, fix = f"{path}: least velocity of the table law", "smooth the points, or leave some out"
+            what, fix = f"{path}: minimum velocity of the table law", "smooth the points, or leave some out"
             back = speed < -_ROUNDING * law.peak_velocity
             yield LAW_RIPPLE.check(
                 _status(back), what, speed if back else max(speed, 0.0), 0.0, at=f"x = {short(place)}", fix=fix

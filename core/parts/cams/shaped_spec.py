@@ -50,7 +50,7 @@ class _WithEnds(Spec):
 
 
 class PolynomialEnds(_WithEnds):
-    """The polynomial of least degree with given end values: quintic, with the jerk septic."""
+    """The polynomial of minimum degree with given end values: quintic, with the jerk septic."""
 
     type: Literal["polynomial"] = Field(description="how the law is shaped")
 
@@ -96,24 +96,24 @@ class Polydyne(Spec):
 class LawLimits(Spec):
     """Limits of a law in the units of the file, at the design's speed: mm (deg of what turns) and s."""
 
-    velocity: Bound | None = Field(None, description="greatest velocity")
-    acceleration: Bound | None = Field(None, description="greatest acceleration")
-    jerk: Bound | None = Field(None, description="greatest jerk")
+    velocity: Bound | None = Field(None, description="maximum velocity")
+    acceleration: Bound | None = Field(None, description="maximum acceleration")
+    jerk: Bound | None = Field(None, description="maximum jerk")
 
 
 class OptimalLaw(Spec):
-    """The polynomial law that is least in something and keeps limits."""
+    """The polynomial law that minimizes something and keeps limits."""
 
     type: Literal["optimal"] = Field(description="how the law is shaped")
-    minimize: Literal["acceleration", "velocity", "jerk", "residual", "torque"] = Field(description="what is least")
+    minimize: Literal["acceleration", "velocity", "jerk", "residual", "torque"] = Field(description="what is minimized")
     degree: Annotated[int, Field(ge=9, le=31, json_schema_extra=PLAIN)] = Field(15, description="of the acceleration")
     symmetric: bool = Field(True, description="the second half mirrors the first")
-    velocity: Bound | None = Field(None, description="greatest |ds/dx|, rise 1 over x from 0 to 1")
-    acceleration: Bound | None = Field(None, description="greatest second derivative by x; bernstein: its coefficients")
-    jerk: Bound | None = Field(None, description="greatest third derivative by x")
+    velocity: Bound | None = Field(None, description="maximum |ds/dx|, rise 1 over x from 0 to 1")
+    acceleration: Bound | None = Field(None, description="maximum second derivative by x; bernstein: its coefficients")
+    jerk: Bound | None = Field(None, description="maximum third derivative by x")
     limit: LawLimits | None = Field(None, description="the same in the units of the file, at the design's speed")
     band: Annotated[list[Bound], Field(min_length=2, max_length=2), Entries("[from, to]", "[8000, 12000]")] | None = (
-        Field(None, description="speeds (design's unit) or natural periods per phase of least residual")
+        Field(None, description="speeds (design's unit) or natural periods per phase of minimum residual")
     )
     unit: Literal["periods"] | None = Field(None, description="periods: the band is in natural periods per phase")
     frequency: Hertz | None = Field(None, description="natural frequency; default: loads.vibration")

@@ -160,7 +160,7 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     feasible = points[missing <= 1e-13 * scale]
     if feasible.size == 0:
         raise NoSolution(
-            "no cam centre keeps the pressure angle within its limit for the whole turn",
+            "no cam centre keeps the pressure angle within its limit for the whole revolution",
             fix="raise the limit, lengthen the phases or reduce the swing",
         )
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])

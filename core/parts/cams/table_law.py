@@ -30,7 +30,7 @@ class TableSpline:
         s : (n,) array
         end_speed : float - v at the last point; at the first it is 0, and so is a at both
     Notes
-        It is the curve with the least integral of s'''^2 through the points; v and a at the inner ones solve a
+        It is the curve with the minimum integral of s'''^2 through the points; v and a at the inner ones solve a
         system of 2 x 2 blocks, three to a row, which is positive definite and needs no pivoting.
     Source
         own derivation; Schoenberg, natural splines
@@ -100,14 +100,14 @@ class TableSpline:
         return tuple(float(value) for value in found) if isinstance(x, float) else tuple(found)
 
     def peaks(self) -> tuple[float, float, float, float]:
-        """Greatest |v|, |a|, |j| and |v a|, proved by the coefficients of Bernstein polynomials."""
+        """Maximum |v|, |a|, |j| and |v a|, proved by the coefficients of Bernstein polynomials."""
         orders = [self._bernstein(order) for order in (1, 2, 3)]
         power = np.array([bernstein.product(v, a) for v, a in zip(orders[0], orders[1], strict=True)])
         v, a, j, p = (bernstein.peak(each) for each in (*orders, power))
         return v, a, j, p
 
     def least_speed(self) -> tuple[float, float]:
-        """The least velocity and its x."""
+        """The minimum velocity and its x."""
         a = np.array([np.polynomial.polynomial.polyder(c, 2) for c in self.coefficients])
         places = [*self.x.tolist()]
         for k, c in enumerate(a):

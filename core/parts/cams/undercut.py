@@ -45,7 +45,7 @@ def undercut(
     Parameters
         points : function of cam angles [rad] - returns pitch points P and profile points C [mm], complex
         roller_radius : float [mm] - r_g
-        start, end : float [rad] - range of cam angles; a whole turn by default
+        start, end : float [rad] - range of cam angles; a whole revolution by default
         closed : bool - the profile closes from end to start
         samples : int - cam angles tried before the deepest place is refined
     Returns
@@ -120,7 +120,7 @@ def _deepest(
     limits: tuple[float, float],
     closed: bool,
 ) -> tuple[float, float, float]:
-    """Least |C(phi) - P(t)| around a first guess, on grids that shrink by half."""
+    """Minimum |C(phi) - P(t)| around a first guess, on grids that shrink by half."""
     least = math.inf
     while reach > 1e-10:
         phi, t = (_within(centre + reach * np.linspace(-1.0, 1.0, _GRID), limits, closed) for centre in (at, by))

@@ -56,9 +56,9 @@ GEAR_CHECKS = tuple(
     rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM, SLIDING)
 )
 _USUAL_TIP = 0.15
-"""So many modules above the least tip thickness a tip is no longer called thin."""
+"""So many modules above the minimum tip thickness a tip is no longer called thin."""
 _MORE_CONTACT = 0.1
-"""So much above the least contact ratio it is no longer called little."""
+"""So much above the minimum contact ratio it is no longer called little."""
 _UNUSUAL_SLIDING = 8.0
 FILLET_NOISE = 1e-4
 """So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""

@@ -54,11 +54,14 @@ CONTACT_RATIO = Rule(
 )
 INTERFERENCE = Rule(
     "GL204",
-    "tip beyond the involute of the mate",
-    "A tip circle passes the point where the line of action touches the mate's base circle, or that of the pinion "
+    "tip beyond the involute of the mating gear",
+    "A tip circle passes the point where the line of action touches the mating gear's base circle, or that of "
+    "the pinion "
     "cutter that shapes a ring.",
-    "There the mate has no involute: the tip digs into its root or jams; and the cutter leaves none to the ring's tip.",
-    "Raise the mate's profile shift, lower the addendum of the gear whose tip is too high, or take a cutter of more "
+    "There the mating gear has no involute: the tip digs into its root or jams; and the cutter leaves none to "
+    "the ring's tip.",
+    "Raise the mating gear's profile shift, lower the addendum of the gear whose tip is too high, or take a "
+    "cutter of more "
     "teeth.",
     "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
     "ISO 21771; own derivation of the margin",
@@ -68,9 +71,9 @@ INTERFERENCE = Rule(
 ROOT_CLEARANCE = Rule(
     "GL205",
     "root clearance too small",
-    "The tip of a gear comes too near to the root of its mate.",
+    "The tip of a gear comes too near to the root of its mating gear.",
     "Dirt, wear or a bent shaft then make tip and root touch.",
-    "Raise the clearance coefficient, or shorten the mate's tips.",
+    "Raise the clearance coefficient, or shorten the mating gear's tips.",
     "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 with the gears as deep in mesh as "
     "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
     "ISO 21771; the limits are usual practice",
@@ -82,7 +85,7 @@ SLIDING = Rule(
     "flanks slide much",
     "The sliding speed at the root end of an active flank is many times the rolling speed there (a warning).",
     "Such flanks wear and score: contact comes near to the base circle, where rolling ends.",
-    "Raise the gear's profile shift, take more teeth, or lower the mate's addendum.",
+    "Raise the gear's profile shift, take more teeth, or lower the mating gear's addendum.",
     "|zeta| = |1 - (w_mate rho_mate)/(w rho)| <= limits.sliding; without that key only |zeta| > 8 is reported",
     "ISO 21771; the limit is usual practice",
     ("sliding",),
@@ -111,20 +114,23 @@ TIP_FOULING = Rule(
     "the tips.",
     "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha_wt >= 0, delta the angles from "
     "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
-    "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of least room",
+    "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of minimum room",
     "own derivation",
     ("tip-fouling", "radial-assembly", AT_LIMITS[3]),
     ("gears", "teeth"),
 )
 FILLET = Rule(
     "GL207",
-    "the mate's tip meets the root fillet",
-    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mate's tip cuts "
+    "the mating gear's tip meets the root fillet",
+    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mating "
+    "gear's tip cuts "
     "into the fillet outside the path of contact.",
-    "The tip of the mate runs on the fillet, which is no involute: noise, scoring, jamming.",
-    "Raise the profile shift, shorten the mate's tips (tip_shortening), or take a tool with a smaller rounding or a "
+    "The tip of the mating gear runs on the fillet, which is no involute: noise, scoring, jamming.",
+    "Raise the profile shift, shorten the mating gear's tips (tip_shortening), or take a tool with a smaller "
+    "rounding or a "
     "larger addendum. Tips of a ring of full height always reach into the fillet of a standard tool.",
-    "r_Nf >= r_Ff - 1e-4 m, and the corner's least gap along its circle >= -1e-4 m; fails where the file names a tool "
+    "r_Nf >= r_Ff - 1e-4 m, and the corner's minimum gap along its circle >= -1e-4 m; fails where the file names "
+    "a tool "
     "or cutter, for rings and helical gears, else warns, as for rings of machines whose file says nothing of the teeth",
     "ISO 21771; form radius: own derivation, compared with a rolled tool",
     ("fillet-interference", "ring-tips"),
@@ -133,7 +139,7 @@ FILLET = Rule(
 BACKLASH = Rule(
     "GL208",
     "backlash too small",
-    "The least backlash that thickness allowances and centre distance leave is negative (or below limits.backlash).",
+    "The minimum backlash that thickness allowances and centre distance leave is negative (or below limits.backlash).",
     "Without backlash the teeth jam, heat up and wear.",
     "Thin the teeth by larger allowances, or change the centre distance; of a ring and its pinion a larger distance "
     "takes backlash away.",
@@ -201,7 +207,7 @@ RESONANCE = Rule(
     "GL215",
     "near the main resonance",
     "Gear 1 runs near the speed at which the teeth vibrate most (a warning).",
-    "The dynamic load may be several times the nominal one, and K_v is least sure there.",
+    "The dynamic load may be several times the nominal one, and K_v is most uncertain there.",
     "Change the speed or the numbers of teeth; better grades and a tip relief lower what vibrates.",
     "N = n_1/n_E1 outside 0.85 to 1.15, n_E1 = 30000/(pi z_1) sqrt(c_gamma,alpha/m_red)",
     "ISO 6336-1:2006, method B",
@@ -212,7 +218,7 @@ SCUFFING = Rule(
     "GL216",
     "safety against scuffing too small",
     "The mean temperature of the flanks comes too near to that at which the oil fails in the test.",
-    "The film breaks down, flanks weld and tear.",
+    "The animation breaks down, flanks weld and tear.",
     "Take an oil of a higher load stage or viscosity, a tip relief, smoother flanks, or a lower oil temperature.",
     "S_intS = theta_intS/theta_int >= limits.safety_scuffing (1.8)",
     "ISO/TR 13989-2, ISO/TS 6336-21; within 0.5 % of a printed report",
@@ -223,7 +229,7 @@ DAMAGE = Rule(
     "GL217",
     "damage above 1",
     "The load spectrum over the required life damages a flank or a root by more than 1 at the required safety, or its "
-    "greatest load exceeds the static limit.",
+    "maximum load exceeds the static limit.",
     "The gear fails before its life ends.",
     "Widen the gears, take a larger module or a better material, or ask for less life.",
     "U = sum n_k/N(S sigma_k) <= 1, S the required safety; static: sigma_HG, sigma_FG at the static knee",

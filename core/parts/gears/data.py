@@ -153,7 +153,7 @@ class GearData:
 
     @cached_property
     def generating_shift(self) -> tuple[Pair, Pair] | None:
-        """x_E of each gear, least and greatest [module]: x + E_sn/(2 m tan(alpha_n))."""
+        """x_E of each gear, minimum and maximum [module]: x + E_sn/(2 m tan(alpha_n))."""
         return None if self.allowances is None else (self._generated(0), self._generated(1))
 
     def _generated(self, gear: int) -> Pair:
@@ -172,7 +172,7 @@ class GearData:
 
     @cached_property
     def span_measurement_limits(self) -> tuple[Pair | None, Pair | None] | None:
-        """W_k of each gear with its least and greatest thickness [mm]; of a ring the other way round."""
+        """W_k of each gear with its minimum and maximum thickness [mm]; of a ring the other way round."""
         shifts, spans = self.generating_shift, self.pair.span_teeth
         if shifts is None:
             return None
@@ -188,7 +188,7 @@ class GearData:
 
     @cached_property
     def measure_limits(self) -> tuple[Both | None, Both | None] | None:
-        """M over balls of each gear, least and greatest [mm]."""
+        """M over balls of each gear, minimum and maximum [mm]."""
         shifts = self.generating_shift
         if shifts is None:
             return None
@@ -202,7 +202,7 @@ class GearData:
 
     @cached_property
     def backlash(self) -> Backlash | None:
-        """Least and greatest backlash; None where the file leaves none open."""
+        """Minimum and maximum backlash; None where the file leaves none open."""
         both_given = self.pair.given_shift is not None and self.pair.given_distance is not None
         if self.allowances is None and self.distance_allowance is None and not both_given:
             return None
@@ -303,7 +303,7 @@ class GearData:
 
     @property
     def generated_root_factor(self) -> Both:
-        """Greatest tension on the generated fillet over F_t/(b m)."""
+        """Maximum tension on the generated fillet over F_t/(b m)."""
         one, other = (None if root is None else root.tension.factor for root in self.true_roots)
         return one, other
 

@@ -185,7 +185,7 @@ def _thickness(data: GearData) -> Iterator[Row]:
 
 def _mesh(data: GearData) -> Iterator[Row]:
     pair = data.pair
-    yield "teeth of the mate", "", pair.teeth[1], pair.teeth[0], ""
+    yield "teeth of the mating gear", "", pair.teeth[1], pair.teeth[0], ""
     distance = abs(pair.center_distance)
     yield "centre distance", "a_w", distance, distance, "mm"
     allowance = data.distance_allowance

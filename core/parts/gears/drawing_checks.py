@@ -279,7 +279,7 @@ def backlash_check(least: float, greatest: float, limit: float, module: float, j
     """GL208 of a theoretical normal backlash; below 0 there is none.
 
     Parameters
-        least, greatest, limit, module : float [mm]
+        minimum, maximum, limit, module : float [mm]
         jammed : str - what it means where there is none
     """
     aside, fix = f"maximum {short(greatest)} mm", "thin the teeth (allowances)"

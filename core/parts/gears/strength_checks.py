@@ -231,7 +231,7 @@ def resonance(data: GearData, _limits: Any) -> Iterator[Check]:
 
 
 def scuffing(data: GearData, limits: Any) -> Iterator[Check]:
-    """GL216: the oil film breaks down."""
+    """GL216: the oil animation breaks down."""
     found = None if data.rated is None else data.rated.scuffing
     if found is None:
         return

@@ -1,6 +1,6 @@
 """Linkages in one unknown length whose output steps back with each of them: back-step, longest dwell, flattest window.
 
-Without a momentary dwell in the range the back-step has a least value above 0 there. A wider band is filled by the
+Without a momentary dwell in the range the back-step has a minimum value above 0 there. A wider band is filled by the
 back-step of a linkage to either side of that place, as everywhere; a narrower one by none, and the output dwells about
 one of its two standstills. The window as a function of the length has several humps then and jumps where the back-step
 fills the band, so it is looked at over the whole range.
@@ -22,7 +22,7 @@ _INSIDE = math.radians(1e-3)  # beside a limit of the transmission angle, for th
 
 @dataclass(frozen=True)
 class AlwaysStepping:
-    """A range of a length within which every output steps back once a turn.
+    """A range of a length within which every output steps back once a revolution.
 
     Fields
         valley_of : the valley of the output's speed at a length
@@ -55,7 +55,7 @@ class AlwaysStepping:
         return longest_in_band(self.valley(length), tolerance).crank_angle
 
     def ripple(self, length: float) -> float:
-        """The window [rad] within the band that the back-step fills: all of a turn that gains no more than it."""
+        """The window [rad] within the band that the back-step fills: all of a revolution that gains no more than it."""
         half, mean = 0.5 * self.step(length), self.valley(length).mean
         return self.window(length, half) if half < math.pi * mean else 2.0 * math.pi
 
@@ -65,7 +65,7 @@ class AlwaysStepping:
 
     @cached_property
     def least_step(self) -> tuple[float, float]:
-        """Length and back-step [rad] of the least one."""
+        """Length and back-step [rad] of the smallest one."""
         place, value = self._best(lambda length: -self.step(length), self._even)
         return place, -value
 
@@ -75,7 +75,7 @@ class AlwaysStepping:
         return sorted({*self._even, self.least_step[0]})
 
     def with_step(self, angle: float) -> list[float]:
-        """Lengths whose back-step is an angle [rad]; to either side of the least one, or none."""
+        """Lengths whose back-step is an angle [rad]; to either side of the smallest one, or none."""
         return roots_on(lambda length: self.step(length) - angle, self._nodes)
 
     def longest(self, tolerance: float) -> tuple[float, float]:
@@ -110,7 +110,7 @@ class AlwaysStepping:
         return [end(before), end([x for x in self._nodes if x > length])]
 
     def _best(self, measure: Callable[[float], float], nodes: list[float]) -> tuple[float, float]:
-        """Length and value of the greatest value of a measure, between the neighbours of the best node."""
+        """Length and value of the maximum value of a measure, between the neighbours of the best node."""
         values = [measure(node) for node in nodes]
         at = max(range(len(nodes)), key=values.__getitem__)
         return maximum(measure, nodes[max(0, at - 1)], nodes[min(len(nodes) - 1, at + 1)])

@@ -30,7 +30,7 @@ class ToleranceDwell(NamedTuple):
 class Valley(NamedTuple):
     """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
 
-    first, second : phi(1), phi(2), or the least speed's place twice; low, high : the greatest speed's before and after
+    first, second : phi(1), phi(2), or the minimum speed's place twice; low, high : the maximum speed's before and after
     mean : output turns per crank turn, positive
     """
 
@@ -61,12 +61,12 @@ class Valley(NamedTuple):
 
 
 def least_band(valley: Valley, window: float) -> float:
-    """Least tolerance of a window that holds both standstills.
+    """Minimum tolerance of a window that holds both standstills.
 
     tau = (phi5(L + window) - phi5(L))/2,   phi5(L) <= phi5(2),   phi5(L + window) >= phi5(1)
 
     Parameters
-        valley : Valley - of an output with at most one back-step a turn
+        valley : Valley - of an output with at most one back-step a revolution
         window : float [rad] - at least that of equal ripple, which has no room to either side; see `band_of_window`
     Returns
         tolerance : float [rad]
@@ -92,10 +92,10 @@ def least_band(valley: Valley, window: float) -> float:
 
 
 def band_of_window(valley: Valley, window: float) -> float:
-    """Least tolerance of a window that holds both standstills, or one where the back-step is wider than its band.
+    """Minimum tolerance of a window that holds both standstills, or one where the back-step is wider than its band.
 
     Parameters
-        valley : Valley - of an output with at most one back-step a turn
+        valley : Valley - of an output with at most one back-step a revolution
         window : float [rad] - positive
     Returns
         tolerance : float [rad]
@@ -111,7 +111,7 @@ def band_of_window(valley: Valley, window: float) -> float:
 
 
 def _about_top(valley: Valley, window: float) -> float | None:
-    """Least tolerance of a window about phi(1) that ends before phi(2); None where it is too long for that."""
+    """Minimum tolerance of a window about phi(1) that ends before phi(2); None where it is too long for that."""
     first, last = valley.first - window, min(valley.first, valley.second - window)
     left = _of_one_level(valley, window, first, last)
     return None if left is None else 0.5 * (valley.angle(valley.first) - valley.angle(left))
@@ -143,16 +143,16 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     with a back-step D > 2 tol instead  phi5(L) = phi5(R) = phi5(1) - 2 tol  or  phi5(2) + 2 tol, the longer
 
     Parameters
-        valley : Valley - of an output with at most one back-step a turn
+        valley : Valley - of an output with at most one back-step a revolution
         tolerance : float [rad] - 0 < tol < pi times the mean ratio
     Returns
         dwell : ToleranceDwell [rad]
     Raises
-        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+        NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
         Bracketed roots inside a bracketed root; the angle rises outside of the standstills, and what the window leaves
-        of the turn has one greatest speed. Where W(L) = W(R) cannot hold with both standstills inside, the end that
-        binds is taken: of long windows with both ends beyond the greatest speed, too. At
+        of the turn has one maximum speed. Where W(L) = W(R) cannot hold with both standstills inside, the end that
+        binds is taken: of long windows with both ends beyond the maximum speed, too. At
         tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
     Example
         >>> eased = Valley(lambda x: x - math.sin(x), lambda x: 1.0 - math.cos(x), 0.0, 0.0, -math.pi, math.pi, 1.0)
@@ -166,7 +166,7 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     if not 0.0 < tolerance < limit:
         raise NoSolution(
             f"the tolerance of the dwell is {math.degrees(tolerance):.6g} deg; it must be positive and below "
-            f"{math.degrees(limit):.6g} deg, half of what the output gains in a turn of the crank"
+            f"{math.degrees(limit):.6g} deg, half of what the output gains in a revolution of the crank"
         )
     drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
     # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.
@@ -174,7 +174,7 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
         left, right, middle = _around_one_extreme(valley, tolerance)
     else:
         left, right, middle = _around_both(valley, tolerance, drop)
-    start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole turn by the first
+    start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole revolution by the first
     return ToleranceDwell(start, right - left, middle - valley.mean * (left - start))
 
 

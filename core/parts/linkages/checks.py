@@ -1,4 +1,4 @@
-"""Checks that several gear-linkages share: transmission angle, what a synthesis reached."""
+"""Checks that several geared linkages share: transmission angle, what a synthesis reached."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def transmission_check(
 
 
 def transmission_judged(value: Any, limit: Any) -> Judged:
-    """GL303 of least transmission angles [deg]."""
+    """GL303 of minimum transmission angles [deg]."""
     return below(TRANSMISSION_ANGLE, value, limit, limit + _LITTLE, "deg")
 
 

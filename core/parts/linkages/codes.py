@@ -9,11 +9,11 @@ GEAR_COLLISION = Rule(
     "gears collide",
     "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle; "
     "where that is below 0 and lets them overlap, a warning.",
-    "A gear on the crank pin travels: its least distance counts, not the frame length. The source's own example 3 "
+    "A gear on the crank pin travels: its minimum distance counts, not the frame length. The source's own example 3 "
     "compares the tip circles with the frame length and misses a collision of 1.6 mm.",
     "Lengthen the frame or shorten the crank by the missing amount, or take smaller gears; in a synthesis a larger "
     "idler; in a five-bar with an idler a longer frame, as far as the idler reaches.",
-    "least distance of the axes over the cycle - both tip radii >= limits.gear_gap; gears 1 and 5 of a three-gear "
+    "minimum distance of the axes over the cycle - both tip radii >= limits.gear_gap; gears 1 and 5 of a three-gear "
     "four-bar: |l4 - l1| - m (z1 + z5)/2 - 2 m",
     "own derivation; thesis 4.2.2, 4.2.3 with the distance at the closest",
     ("gear-collision",),
@@ -23,10 +23,12 @@ SHAFT_CLEARANCE = Rule(
     "GL302",
     "gear, rim or roller reaches a shaft",
     "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
-    "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
-    "takes (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis of its "
+    "or they leave less room beside the axis of a shaft whose radius the file does not name than the minimum shaft "
+    "radius (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis "
+    "of its "
     "rocker, gripper or drum than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that "
-    "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole turn, beside "
+    "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole "
+    "revolution, next to "
     "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
     "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; a gripper's "
     "limits.least_shaft stands in place of its roller's radius. So are the links of a wide swing (device, slider's rod "
@@ -35,12 +37,12 @@ SHAFT_CLEARANCE = Rule(
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",
-    "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
+    "minimum distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
     "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
-    "greater of the two, each at its least over the cycle (below 0 what a shaft lacks to stay within, or without, "
+    "greater of the two, each at its minimum over the cycle (below 0 what a shaft lacks to stay within, or without, "
     "all round, and not how deep it is in the ring at a moment); links as lines of no width; rim = m (z/2 + 3.25) or "
     "gears.rim; root radius - radius of the own shaft >= h/2",
-    "own derivation; the least rim: ISO 6336-3",
+    "own derivation; the minimum rim: ISO 6336-3",
     ("shaft-clearance", "shaft-seat", "body-clearance"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
 )
@@ -128,7 +130,7 @@ CLOSURE = Rule(
     "GL305",
     "joints close",
     "The links reach from joint to joint at every input (what opens is refused, with the worst input); of a planar "
-    "mechanism the greatest gap of a joint over the rows.",
+    "mechanism the maximum gap of a joint over the rows.",
     "Where they do not reach, the mechanism cannot be put together or jams there.",
     "Make the links that close a loop longer or more equal, shorten the driven ones, or keep away from a dead centre.",
     "five-bar |b - c| < |BD| < b + c over the period, function form |c - e| < |CE| < c + e over the range; planar "

@@ -20,5 +20,5 @@ class DwellBand(Spec):
         None, description="output tolerance +- of the window; alone: the longest window is sought"
     )
     margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
+        None, description="share of the tolerance that the design keeps in reserve, with tolerance alone; default 0.01"
     )

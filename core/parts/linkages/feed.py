@@ -1,4 +1,4 @@
-"""What the output of a gear-linkage feeds: a chain, a roller's web or a belt on its shaft."""
+"""What the output of a geared linkage feeds: a chain, a roller's web or a belt on its shaft."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FEED_QUANTITIES = (
 def feed_radius(feed: Feed) -> float:
     """Radius at which the output's angle becomes travel.
 
-    roller: r,   belt: r + s/2,   chain: z p/(2 pi), by which a turn feeds z pitches
+    roller: r,   belt: r + s/2,   chain: z p/(2 pi), by which a revolution feeds z pitches
 
     Parameters
         feed : Feed - lengths [mm]
@@ -104,7 +104,7 @@ class FeedResults(RealSpeed):
 
     @property
     def feed_per_turn(self) -> float | None:
-        """Net travel per turn of the input [mm]."""
+        """Net travel per revolution of the input [mm]."""
         return self._fed(2.0 * math.pi * self.mean_ratio) if self.spec.feed is not None else None
 
     @property

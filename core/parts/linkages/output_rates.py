@@ -1,4 +1,4 @@
-"""Greatest and least speed and acceleration ratio of an output with their places, as several kinds of drive have."""
+"""Maximum and minimum speed and acceleration ratio of an output with their places, as several kinds of drive have."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Limits, value types and refusals that the specs of several gear-linkages share."""
+"""Limits, value types and refusals that the specs of several geared linkages share."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit":
 class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+    transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle")
     gear_gap: SignedLength = Field(
-        0.0, description="least gap between gears that do not mesh; below 0 in planes of their own"
+        0.0, description="minimum gap between gears that do not mesh; below 0 in planes of their own"
     )
     least_shaft: Distance | None = Field(
-        None, description="radius of the thinnest shaft that would be built; left out: 2 modules"
+        None, description="minimum radius of a shaft that would be built; default: 2 modules"
     )
 
 

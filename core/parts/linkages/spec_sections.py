@@ -1,4 +1,4 @@
-"""Sections that the design files of several gear-linkages may have, each imported by the machines that read them."""
+"""Sections that the design files of several geared linkages may have, each imported by the machines that read them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Feed(Spec):
     )
     ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")
     step: Length | None = Field(
-        None, description="travel per turn of the input: radius, or of a chain ratio or teeth, are found for it"
+        None, description="travel per revolution of the input: radius, or of a chain ratio or teeth, are found for it"
     )
 
     @model_validator(mode="after")

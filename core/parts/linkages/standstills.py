@@ -1,4 +1,4 @@
-"""Extremes and standstills of a motion over one turn of the crank, from its speed and its acceleration ratio."""
+"""Extremes and standstills of a motion over one revolution of the crank, from its speed and its acceleration ratio."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class BackStep(NamedTuple):
     """A back-step, a stretch of negative speed.
 
     start, end : crank angles phi(1) and phi(2) [rad] - the output speed turns negative at the start, positive again at
-        the end; either may be taken less a turn
+        the end; either may be taken less a revolution
     crank_angle : phi12 [rad] - from start to end, 0 < phi12 < 2 pi
     angle : how far the output turns back [rad], as a magnitude
     """
@@ -66,7 +66,7 @@ def zeros_over_turn(f: Function, grid: list[float] = GRID) -> list[float]:
         >>> [round(x, 12) for x in zeros_over_turn(math.cos)]
         [1.570796326795, 4.712388980385]
     """
-    # twice: a tiny negative angle is rounded up to a whole turn by the first
+    # twice: a tiny negative angle is rounded up to a whole revolution by the first
     return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, grid)))
 
 
@@ -100,7 +100,7 @@ def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> l
         [210.0, 330.0]
     """
     places, between = standing(extremes, tolerance)
-    for one, other in between:  # values as they were compared: a turn later the speed is rounded otherwise
+    for one, other in between:  # values as they were compared: a revolution later the speed is rounded otherwise
         places.append(bracketed_root(speed, one.place, other.place, ends=(one.value, other.value)))
     return sorted(place % TURN for place in places)
 

@@ -1,4 +1,4 @@
-"""Bodies in the plane of the gears, and the least gap of every two that could meet.
+"""Bodies in the plane of the gears, and the minimum gap of every two that could meet.
 
 All gears of a train lie in one plane, and the shafts of the frame pass through it unless they end before it (are
 overhung). Two bodies cannot meet that share an axis, are one rigid body, or are gears in mesh. Links and the pins
@@ -87,7 +87,7 @@ class Seat(NamedTuple):
 
 
 class Clearance(NamedTuple):
-    """The least gap [mm] of two bodies, negative where they overlap, and its input angle [rad], None for any."""
+    """The minimum gap [mm] of two bodies, negative where they overlap, and its input angle [rad], None for any."""
 
     one: Gear | Shaft
     other: Gear | Shaft
@@ -102,13 +102,13 @@ class Clearance(NamedTuple):
 
 
 def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance:
-    """The least gap of two bodies over the cycle.
+    """The minimum gap of two bodies over the cycle.
 
     max(r_min - o_1 - o_2, i_1 - r_max - o_2, i_2 - r_max - o_1)
 
     Parameters
         one, other : bodies with outer radius o, and i where another may lie within
-        reach : Reach - least and greatest distance of their axes
+        reach : Reach - minimum and maximum distance of their axes
     Notes
         Beside each other at the nearest, or one within the other's ring at the farthest: a body that passes from
         within a ring to without meets its teeth, so that none of the three is positive.
@@ -175,7 +175,7 @@ class Layout:
 
     @property
     def gear_gap(self) -> float | None:
-        """Least gap of the gears that do not mesh [mm]; None where all mesh."""
+        """Minimum gap of the gears that do not mesh [mm]; None where all mesh."""
         return min((pair.gap for pair in self.gear_pairs), default=None)
 
 

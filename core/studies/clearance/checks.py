@@ -22,7 +22,7 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
 
     Parameters
         pair : Clearance - of two gears
-        limit : float [mm] - least gap
+        limit : float [mm] - minimum gap
         why, remedy : str - which lengths make the gap, and what would give the gears room
     Notes
         A limit below 0 allows gears that overlap, which is a warning: they do not turn in one plane.

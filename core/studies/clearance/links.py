@@ -15,7 +15,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 
 
 class Near(NamedTuple):
-    """The least distance [mm] of a place from what turns, and how far that has turned there [rad]."""
+    """The minimum distance [mm] of a place from what turns, and how far that has turned there [rad]."""
 
     distance: float
     turned: float
@@ -27,7 +27,7 @@ def beside_turning_arm(place: complex, arm: complex, sweep: float) -> Near:
     Parameters
         place : complex [mm] - seen from the pivot
         arm : complex [mm] - from the pivot to the end at the start of the sweep
-        sweep : float [rad] - turned in all, its sign the sense; less than a turn
+        sweep : float [rad] - turned in all, its sign the sense; less than a revolution
     Returns
         near : Near - `turned` positive in the sense of the sweep
     Example

@@ -18,7 +18,7 @@ _TURN = 2.0 * math.pi
 
 
 class Reach(NamedTuple):
-    """Least and greatest distance of two axes [mm] and the input angles [rad] where they occur.
+    """Minimum and maximum distance of two axes [mm] and the input angles [rad] where they occur.
 
     Notes
         The angles are None where the distance never changes.
@@ -64,13 +64,13 @@ def crank_pin(crank: float, frame: float, start: float = 0.0, end: float = _TURN
 
 
 def _first_passed(angle: float, start: float, end: float) -> float | None:
-    """The first input angle of a range that is the given one up to whole turns."""
+    """The first input angle of a range that is the given one up to whole revolutions."""
     place = angle + _TURN * math.ceil((start - angle) / _TURN)
     return place if place <= end else None
 
 
 def coupler_joint(linkage: FourBar) -> Reach:
-    """The coupler joint C against the crank pivot A over a turn of the crank.
+    """The coupler joint C against the crank pivot A over a revolution of the crank.
 
     Parameters
         linkage : FourBar - its crank turns fully

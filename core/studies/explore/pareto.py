@@ -117,7 +117,7 @@ def boxes(multiples: Reals) -> Indices:
     """One design of each box, of the boxes that no other dominates.
 
     A box is as wide as the resolution in each objective and begins at a multiple of it; of a box the design stays that
-    is nearest to its best corner, then the one of the least objectives in their order, then the first.
+    is nearest to its best corner, then the one of the minimum objectives in their order, then the first.
 
     Parameters
         multiples : (N, k) array - of designs that are a front, from `counted`, in the order of their indices
@@ -160,7 +160,7 @@ def _nearest(multiples: Reals, corner: Reals, places: Indices) -> Indices:
 
 
 def knee(objectives: Reals) -> int | None:
-    """Row of the least sum of objectives, each scaled from 0 to 1 over the rows; none of fewer than three.
+    """Row of the minimum sum of objectives, each scaled from 0 to 1 over the rows; none of fewer than three.
 
     Parameters
         objectives : (N, k) array - in the order of the rows shown

@@ -324,7 +324,7 @@ def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
 
 
 def _span(variable: Variable, before: dict[str, Variable]) -> tuple[float, float]:
-    """Least and greatest value of a variable of numbers."""
+    """Minimum and maximum value of a variable of numbers."""
     if variable.values:
         return min(variable.values), max(variable.values)
     low, high = _span(before[variable.times], before) if variable.times else (1.0, 1.0)

@@ -56,7 +56,7 @@ def bending_force(mesh: MeshLoad) -> float:
 
 
 def drawn_play(design: LoadsDesign) -> dict[str, float]:
-    """Greatest circumferential backlash that the gears as drawn leave [mm], by mesh; empty without allowances."""
+    """Maximum circumferential backlash that the gears as drawn leave [mm], by mesh; empty without allowances."""
     machine, keys = _with_gears(design)
     if getattr(keys, "allowances", None) is None:
         return {}
@@ -65,7 +65,7 @@ def drawn_play(design: LoadsDesign) -> dict[str, float]:
 
 
 def thrust(design: LoadsDesign, pin: str) -> float:
-    """Greatest axial force of the helical teeth that a pin holds [N], which forces in the plane do not show; or 0.
+    """Maximum axial force of the helical teeth that a pin holds [N], which forces in the plane do not show; or 0.
 
     F_a = F_t tan(beta_w),   tan(beta_w) = tan(beta) r_w/r
 
@@ -167,7 +167,7 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
 
 
 def motor_torque(design: LoadsDesign) -> Iterator[Check]:
-    """GL603: peak against the greatest torque, root mean square against the rated one."""
+    """GL603: peak against the maximum torque, root mean square against the rated one."""
     motor, running = design.section.motor, design.running
     if motor is None:
         return

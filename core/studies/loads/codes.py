@@ -10,7 +10,7 @@ POWER_IDENTITY = Rule(
     "The input torque by virtual power and that by the forces of all joints differ.",
     "Both follow from the same links, and losses of friction are counted from the motion of the joints; where they "
     "differ, none of the forces can be trusted.",
-    "Move the mechanism away from a dead point: near one the forces grow beyond all digits.",
+    "Move the mechanism away from a dead centre: near one the forces grow beyond all digits.",
     "|M_NE - M_VP| <= 1e-9 max |M|",
     "virtual power against Newton and Euler",
     checks=("power-identity",),
@@ -36,7 +36,7 @@ MOTOR_TORQUE = Rule(
     "motor torque",
     "The motor gives more than it can for a moment (peak, driving or braking), or all the time (root mean square), or "
     "it runs the machine at another speed than that of the file, at which forces, lives and vibration are computed.",
-    "Above its greatest torque it stalls or trips; above its rated torque in the mean it overheats. Forces of masses "
+    "Above its maximum torque it stalls or trips; above its rated torque in the mean it overheats. Forces of masses "
     "grow with the square of the speed.",
     "Take a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that levels the peak, or balance the load "
     "by springs. Where the speed is another one, set loads.motor.ratio, or the speed to the one found.",
@@ -52,8 +52,8 @@ SPEED_FLUCTUATION = Rule(
     "speed fluctuation",
     "The speed of the input varies by more than is allowed over a period, or the machine stops; where the file allows "
     "no number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
-    "Uneven speed shows in the print, and all loads of motion grow with the square of the greatest speed.",
-    "Add flywheel inertia: loads.flywheel.fluctuation alone gives the least that is needed.",
+    "Uneven speed shows in the print, and all loads of motion grow with the square of the maximum speed.",
+    "Add flywheel inertia: loads.flywheel.fluctuation alone gives the minimum that is needed.",
     "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, left out: 0.2",
     "own derivation: energy with variable inertia",
     checks=("speed-fluctuation",),
@@ -63,7 +63,8 @@ SPEED_FLUCTUATION = Rule(
 BEARING_LIFE = Rule(
     "GL606",
     "bearing life",
-    "The basic rating life of a pin's bearing is below what is wanted, or it swings too little for rolling bodies, or "
+    "The basic rating life of a pin's bearing is below the required one, or it swings too little for rolling "
+    "bodies, or "
     "helical teeth push along its axis, which forces in the plane of the machine do not show.",
     "A bearing that fails stops the machine; one that only swings brinells at the same few places.",
     "Take a bearing of a higher rating, or a plain one where the swing is small; less mass lowers the load.",
@@ -77,7 +78,7 @@ FORCE_AMPLIFICATION = Rule(
     "force amplification",
     "The transmission angle becomes so small that pin forces are five times those at a right angle.",
     "Forces grow as 1/sin of the transmission angle, and with them wear, play and the errors of these numbers.",
-    "Change the links for a larger least transmission angle.",
+    "Change the links for a larger minimum transmission angle.",
     "1/sin(mu_min) <= 5",
     "VDI 2142",
     checks=("force-amplification",),
@@ -111,8 +112,8 @@ SELF_LOCKING = Rule(
 TOOTH_LOAD = Rule(
     "GL616",
     "teeth rated for less than they carry",
-    "The greatest tooth force of the loads is above the one for which the file has the teeth rated, K_A counted; a "
-    "force on the other flanks bends the teeth both ways and counts for 3/7 of it besides.",
+    "The maximum tooth force of the loads is above the one for which the file has the teeth rated, K_A counted; a "
+    "force on the other flanks bends the teeth both ways and counts for 3/7 of it in addition.",
     "The safeties against pitting and breaking (GL210, GL211) are those of a smaller force.",
     "Raise the load of the rating (torque, power or tangential_force), or its application factor.",
     "F_t + 3/7 F_back <= K_A F_t,rated r/r_w, 3/7 = (1 - M)/(1 + M) with M = 0.4 of tempered steel",
@@ -125,7 +126,7 @@ CONTACT_PRESSURE = Rule(
     "GL607",
     "contact pressure",
     "The Hertzian pressure of roller and cam is above what their material allows.",
-    "The surface pits; the greatest shear lies below it, where the hardened depth must still reach.",
+    "The surface pits; the maximum shear lies below it, where the hardened depth must still reach.",
     "Widen the roller (loads.roller.width), enlarge roller or cam, or lower speed, mass or spring.",
     "p_max = sqrt(N E*/(pi b R)),  R = r_g (1 - r_g kappa)",
     "Hertz, line contact",

@@ -1,4 +1,4 @@
-"""Values over the input angle as a design file gives them: a number, a table, or zones; periodic over a turn."""
+"""Values over the input angle as a design file gives them: a number, a table, or zones; periodic over a revolution."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def breaks(course: float | Course) -> list[float]:
 
 
 def _width(start: float, end: float) -> float:
-    """Angle of a zone [rad]; one whose ends are whole turns apart is the whole turn."""
+    """Angle of a zone [rad]; one whose ends are whole revolutions apart is the whole revolution."""
     width = math.radians(end - start) % _TURN
     return width if width > 0.0 else (_TURN if end != start else 0.0)
 
@@ -84,7 +84,7 @@ def _from_table(course: Course, phi: Reals) -> Reals:
     start = float(angles[0])
     after = _after(phi, start)
     knots = angles - start
-    if knots[-1] >= _TURN * (1.0 - 1e-12):  # a table that says its first value again after a turn
+    if knots[-1] >= _TURN * (1.0 - 1e-12):  # a table that says its first value again after a revolution
         knots, found = knots[:-1], found[:-1]
     if course.interpolation == "step":
         return np.asarray(found[np.searchsorted(knots, after, side="right") - 1])

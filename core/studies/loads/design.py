@@ -41,7 +41,7 @@ _OF_TORQUE = frozenset(
     )
 )  # fmt: skip
 Wanted: TypeAlias = tuple[str, bool]
-"""A course by name, and whether its greatest value is wanted or its least."""
+"""A course by name, and whether its maximum or its minimum value is shown."""
 _HIGHEST = 10_000
 _CANCELLED = 1e-6
 MOST_TURNS = 100
@@ -133,7 +133,7 @@ class LoadsDesign(Design):
         if given is None and (given := getattr(self.spec, "input_speed", None)) is None:
             raise MissingSection("`loads` needs the speed of the input", key="loads.speed", fix="give loads.speed")
         if abs(given) < _SLOWEST:
-            words = f"{_SLOWEST:g} 1/min or more, or -{_SLOWEST:g} 1/min or less for a turn the other way"
+            words = f"{_SLOWEST:g} 1/min or more, or -{_SLOWEST:g} 1/min or less for a revolution the other way"
             raise NoSolution(
                 f"no loads of motion at a speed of {given:g} 1/min", key="loads.speed", fix=f"give {words}"
             )
@@ -156,7 +156,7 @@ class LoadsDesign(Design):
 
     @property
     def cost(self) -> float:
-        """Loads are computed over every turn of the period; with friction they take some twenty times as long."""
+        """Loads are computed over every revolution of the period; with friction they take some twenty times as long."""
         rubs = "machine" in self.__dict__ and self.machine.friction is not None
         return _TURN_COST * (1 + (self.turns - 1) * (20 if rubs else 1))
 
@@ -287,7 +287,7 @@ class LoadsDesign(Design):
     # Torque
 
     def extreme(self, f: Callable[[Reals], Reals], greatest: bool = True) -> Extreme:
-        """Greatest or least value over the period of a function of the input angle, refined."""
+        """Maximum or minimum value over the period of a function of the input angle, refined."""
         return self._extremes([(f, greatest)])[0]
 
     def _extremes(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
@@ -304,7 +304,7 @@ class LoadsDesign(Design):
         return {}
 
     def extreme_of(self, course: str, greatest: bool = True) -> Extreme:
-        """Greatest or least value over the period of a `course`."""
+        """Maximum or minimum value over the period of a `course`."""
         if (course, greatest) not in self._found:
             self._found[course, greatest] = self.extreme(self.course(course), greatest)
         return self._found[course, greatest]
@@ -358,7 +358,7 @@ class LoadsDesign(Design):
 
     @cached_property
     def torque_range(self) -> tuple[Extreme, Extreme]:
-        """Least and greatest input torque [N m], with their places."""
+        """Minimum and maximum input torque [N m], with their places."""
         return self.extreme_of("torque", False), self.extreme_of("torque")
 
     input_torque_max: float = placed("torque_range.1.value")
@@ -366,17 +366,17 @@ class LoadsDesign(Design):
 
     @property
     def torque_size(self) -> float:
-        """Greatest magnitude of the input torque [N m]."""
+        """Maximum magnitude of the input torque [N m]."""
         return max(abs(self.input_torque_max), abs(self.input_torque_min))
 
     @property
     def input_torque_max_at(self) -> float:
-        """Input angle of the greatest [rad]."""
+        """Input angle of the maximum [rad]."""
         return self.torque_range[1].place % self.machine.period
 
     @property
     def input_torque_min_at(self) -> float:
-        """Input angle of the least [rad]."""
+        """Input angle of the minimum [rad]."""
         return self.torque_range[0].place % self.machine.period
 
     @cached_property
@@ -398,7 +398,7 @@ class LoadsDesign(Design):
 
     @property
     def input_power_peak(self) -> float:
-        """Greatest input power [W]."""
+        """Maximum input power [W]."""
         return max(self.input_torque_max * self.machine.speed, self.input_torque_min * self.machine.speed)
 
     @cached_property
@@ -410,12 +410,12 @@ class LoadsDesign(Design):
 
     @property
     def reflected_inertia_max(self) -> float:
-        """Greatest reflected inertia [kg m^2]."""
+        """Maximum reflected inertia [kg m^2]."""
         return self.extreme_of("inertia").value
 
     @property
     def reflected_inertia_min(self) -> float:
-        """Least reflected inertia [kg m^2]."""
+        """Minimum reflected inertia [kg m^2]."""
         return self.extreme_of("inertia", False).value
 
     @property
@@ -432,7 +432,7 @@ class LoadsDesign(Design):
 
     @property
     def energy_fluctuation(self) -> float:
-        """Greatest less least energy surplus over the period [J]; what is below the rounding of its size is 0."""
+        """Maximum less minimum energy surplus over the period [J]; what is below the rounding of its size is 0."""
         from gearlink.core.base.report import without_noise
 
         return without_noise(self.energy.fluctuation, 16.0 * self.torque_size * self.machine.period)
@@ -454,17 +454,17 @@ class LoadsDesign(Design):
 
     @property
     def speed_min(self) -> float | None:
-        """Least speed of the input [1/min]."""
+        """Minimum speed of the input [1/min]."""
         return self._of_run(lambda: self.running.range[0])
 
     @property
     def speed_max(self) -> float | None:
-        """Greatest speed of the input [1/min]."""
+        """Maximum speed of the input [1/min]."""
         return self._of_run(lambda: self.running.range[1])
 
     @property
     def speed_fluctuation(self) -> float | None:
-        """(greatest - least)/mean speed."""
+        """(maximum - minimum)/mean speed."""
         return self._of_run(lambda: self.running.fluctuation)
 
     motor_torque_rms: float | None = placed("running.motor_rms")
@@ -474,12 +474,12 @@ class LoadsDesign(Design):
 
     @cached_property
     def shaking_force_max(self) -> float:
-        """Greatest shaking force [N]."""
+        """Maximum shaking force [N]."""
         return self.extreme_of("shaking_force").value
 
     @cached_property
     def shaking_moment_max(self) -> float:
-        """Greatest magnitude of the shaking moment about the input's pivot [N m]."""
+        """Maximum magnitude of the shaking moment about the input's pivot [N m]."""
         return self.extreme_of("shaking_moment").value
 
     def shaking(self, phi: Reals) -> Any:
@@ -504,7 +504,7 @@ class LoadsDesign(Design):
         return {name: share * moment for name, moment in self.counterweights().items()}
 
     def balanced_force(self, moments: dict[str, complex]) -> float:
-        """Greatest shaking force with these counterweights [N]."""
+        """Maximum shaking force with these counterweights [N]."""
         from gearlink.core.mechanism.dynamics import Mass, shaking
 
         # On a link that turns about its origin, 1 kg at U mm has the mass moment U, and nothing else in the force.
@@ -541,7 +541,7 @@ class LoadsDesign(Design):
 
     @cached_property
     def balanced_force_max(self) -> float | None:
-        """Greatest shaking force with the counterweights [N]."""
+        """Maximum shaking force with the counterweights [N]."""
         from gearlink.core.base.report import without_noise
 
         if not self.balance:
@@ -617,7 +617,7 @@ class LoadsDesign(Design):
 
     @property
     def transmission_angle(self) -> float | None:
-        """Least transmission angle over the period [rad], of machines that have one."""
+        """Minimum transmission angle over the period [rad], of machines that have one."""
         found: float | None = getattr(getattr(self, "design", None), "min_transmission_angle", None)
         return found
 
@@ -682,7 +682,7 @@ class LoadsDesign(Design):
 
     @property
     def residual_speed_limit(self) -> float | None:
-        """Least speed at which the amplitude passes what is allowed, in the unit of the kind's own speed."""
+        """Minimum speed at which the amplitude passes what is allowed, in the unit of the kind's own speed."""
         limit = None if self._twisting is None else self._twisting.speed_limit
         return None if limit is None else limit / self.speed_unit
 
@@ -692,7 +692,7 @@ class LoadsDesign(Design):
         Parameters
             orders : ascending - cycles over the period
         Notes
-            0 above 10000 a turn: even where the acceleration jumps, it has fallen below 1e-3 there.
+            0 above 10000 a revolution: even where the acceleration jumps, it has fallen below 1e-3 there.
         """
         import numpy as np
 
@@ -746,7 +746,7 @@ class LoadsDesign(Design):
                 raise MissingSection(message, key=f"loads.bearings.{name}", fix=f"give {keys}")
 
     def mesh(self, name: str) -> Any:
-        """Greatest tooth force and reversals of a mesh; None where this design has none of the name."""
+        """Maximum tooth force and reversals of a mesh; None where this design has none of the name."""
         return self.meshes_found.get(name, None)
 
     @cached_property
@@ -815,7 +815,7 @@ _USUAL_FLUCTUATION, _USUAL_DAMPING = 0.1, 0.03
 
 
 def candidates(design: LoadsDesign, check: str) -> Iterator[Remedy]:
-    """What may repair a check, the least change first."""
+    """What may repair a check, the minimum change first."""
     find = _FINDERS.get(check)
     yield from () if find is None else find(design)
 
@@ -831,7 +831,7 @@ def _wider(design: LoadsDesign) -> Iterator[Remedy]:
 
 
 def _stronger_motor(design: LoadsDesign) -> Iterator[Remedy]:
-    """Rated and greatest torque for what runs; a motor with another slope gives another peak."""
+    """Rated and maximum torque for what runs; a motor with another slope gives another peak."""
     motor, margin = design.section.motor, design.limit("torque_margin") / _HOLDS
     needs = {"rated_torque": design.running.motor_rms, "max_torque": abs(design.running.motor_peak or 0.0)}
     for more in _MORE:
@@ -849,7 +849,7 @@ def _other_ratio(design: LoadsDesign) -> Iterator[Remedy]:
 
 
 def _heavier_flywheel(design: LoadsDesign) -> Iterator[Remedy]:
-    """The least that holds the speed within nine tenths of what is allowed; with a motor it may need more."""
+    """The minimum that holds the speed within nine tenths of what is allowed; with a motor it may need more."""
     if design.section.flywheel is None:
         return
     allowed, running = design.section.flywheel.fluctuation, design.running

@@ -99,7 +99,7 @@ class Energy:
         return np.asarray(self.running[row] + width * ((self.mean - load) @ weights))
 
     def extremes(self, *wanted: tuple[Function, bool]) -> list[Extreme]:
-        """Greatest or least values of functions over the period, refined."""
+        """Maximum or minimum values of functions over the period, refined."""
         end = float(self.panels.edges[-1])
         samples = max(180, min(2 * (len(self.panels.edges) - 1), math.ceil(math.degrees(end))))
         fewest = fewest_samples(self.breaks)
@@ -107,17 +107,17 @@ class Energy:
 
     @cached_property
     def range(self) -> tuple[float, float]:
-        """Least and greatest surplus [J]."""
+        """Minimum and maximum surplus [J]."""
         least, greatest = self.extremes((self.surplus, False), (self.surplus, True))
         return least.value, greatest.value
 
     @property
     def fluctuation(self) -> float:
-        """Greatest less least surplus [J]."""
+        """Maximum less minimum surplus [J]."""
         return self.range[1] - self.range[0]
 
     def flywheel_for(self, fluctuation: float, speed: float, more: float = 0.0) -> float:
-        """Least flywheel that keeps the speed within a share of its mean [kg m^2].
+        """Minimum flywheel that keeps the speed within a share of its mean [kg m^2].
 
         J_F = [max(W - J w_1^2/2) - min(W - J w_2^2/2)]/(delta w_m^2),  w_1,2 = w_m (1 +- delta/2)
 
@@ -146,7 +146,7 @@ class Energy:
         return max(0.0, (top.value - bottom.value) / (fluctuation * speed * speed) - more)
 
     def run(self, flywheel: float, speed: float) -> SteadyRun | None:
-        """The periodic run with a given flywheel, its mean of greatest and least speed as asked; None: it stops.
+        """The periodic run with a given flywheel, its mean of maximum and minimum speed as asked; None: it stops.
 
         Parameters
             flywheel : float [kg m^2] - all constant inertia on the input
@@ -171,7 +171,7 @@ class Energy:
         return SteadyRun(self, flywheel, floor + energy)
 
     def _sampled_start(self, flywheel: float, speed: float, floor: float) -> float | None:
-        """About the energy at the greatest deficit with which the speed has its mean [J], by the nodes of the panels.
+        """About the energy at the maximum deficit with which the speed has its mean [J], by the nodes of the panels.
 
         Notes
             None where nothing moves that could hold an energy.
@@ -219,17 +219,17 @@ class SteadyRun:
     def speed(self, phi: Reals) -> Reals:
         """Speed of the input [rad/s]."""
         inertia = self.energy.inertia(phi) + self.flywheel
-        # A run starts with an energy above the greatest deficit: below 0 it falls by rounding alone, at a standstill.
+        # A run starts with an energy above the maximum deficit: below 0 it falls by rounding alone, at a standstill.
         return np.asarray(np.sqrt(2.0 * np.maximum(self.kinetic(phi), 0.0) / inertia))
 
     @cached_property
     def extremes(self) -> tuple[Extreme, Extreme]:
-        """Least and greatest speed [rad/s] with their places."""
+        """Minimum and maximum speed [rad/s] with their places."""
         least, greatest = self.energy.extremes((self.speed, False), (self.speed, True))
         return least, greatest
 
     @property
     def range(self) -> tuple[float, float]:
-        """Least and greatest speed [rad/s]."""
+        """Minimum and maximum speed [rad/s]."""
         low, high = self.extremes
         return low.value, high.value

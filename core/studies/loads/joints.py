@@ -64,7 +64,7 @@ class PinLoad:
 
     @cached_property
     def peak(self) -> float | None:
-        """Greatest force [N]."""
+        """Maximum force [N]."""
         return self.design.extreme_of(f"pin_{self.name}").value if self.known else None
 
     @cached_property
@@ -127,7 +127,7 @@ class PinLoad:
 
     @property
     def bearing_pressure(self) -> float | None:
-        """Greatest pressure of a plain bearing, F/(b d) [N/mm^2]."""
+        """Maximum pressure of a plain bearing, F/(b d) [N/mm^2]."""
         bearing = self.bearing
         if bearing is None or bearing.width is None or bearing.diameter is None or self.peak is None:
             return None
@@ -182,12 +182,12 @@ class MeshLoad:
 
     @cached_property
     def tooth_force_max(self) -> float:
-        """Greatest magnitude of the tangential force [N]."""
+        """Maximum magnitude of the tangential force [N]."""
         return self.design.extreme_of(self.name).value
 
     @cached_property
     def tooth_force_back(self) -> float:
-        """Greatest force on the flanks that carry less [N]; 0 where the teeth never change flanks."""
+        """Maximum force on the flanks that carry less [N]; 0 where the teeth never change flanks."""
         low, high = (self.design.extreme(self.force, greatest).value for greatest in (False, True))
         back = min(-low, high)
         return back if back > _NOISE * self.tooth_force_max else 0.0
@@ -209,7 +209,7 @@ def find_reversals(
     """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there.
 
     Parameters
-        torque_size : float [N m] - greatest input torque, where its changes of sign are wanted as well
+        torque_size : float [N m] - maximum input torque, where its changes of sign are wanted as well
     Returns
         places : input angles of those [rad]; with friction the torque comes with the forces of the meshes
     """

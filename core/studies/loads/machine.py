@@ -61,11 +61,11 @@ class Machine:
         speed : float [rad/s] - of the input, signed, not 0
         turns : int - input turns after which everything repeats
         friction : Coefficients or None
-        joints : input angles of a turn where the machine's own accelerations jump [rad]
+        joints : input angles of a revolution where the machine's own accelerations jump [rad]
         shaft_inertia : float [kg m^2] - of what turns evenly with the input
         more : what acts besides the sources, a spring of the machine's own
         joints_of_period : bool - the joints are those of the whole period
-        stroke : float [rad] - of a machine that is looked at over less than a turn; 0: over its turns
+        stroke : float [rad] - of a machine that is looked at over less than a revolution; 0: over its turns
     """
 
     motion: Motion

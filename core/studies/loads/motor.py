@@ -159,7 +159,7 @@ class MotorRun:
         energy = high = 0.5 * float(inertia.max()) * fastest**2
         for _ in range(_TURNS):
             found = self._turn(energy)
-            if found is None:  # too little to come round: between here and the least that is known to come round
+            if found is None:  # too little to come round: between here and the minimum that is known to come round
                 if high - energy <= 1e-12 * high:
                     raise _stalls()
                 energy = 0.5 * (energy + high)
@@ -190,7 +190,7 @@ class MotorRun:
 
     @cached_property
     def range(self) -> tuple[float, float]:
-        """Least and greatest speed [rad/s]."""
+        """Minimum and maximum speed [rad/s]."""
         end = float(self.panels.edges[-1])
         samples = max(360, min(10 * (len(self.panels.edges) - 1), math.ceil(math.degrees(end))))
         fewest = fewest_samples(self.breaks)

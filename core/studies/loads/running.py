@@ -134,7 +134,7 @@ class Running:
         """Time since input angle 0 at input angles of the period [s], the input turning its own way; each stands alone.
 
         Notes
-            An input that turns backwards comes to the greatest angles first.
+            An input that turns backwards comes to the maximum angles first.
         """
         panels = self.design.machine.panels
         edges = panels.running(self._paces)
@@ -143,7 +143,7 @@ class Running:
 
     @cached_property
     def range(self) -> tuple[float, float]:
-        """Least and greatest speed, magnitudes [1/min]."""
+        """Minimum and maximum speed, magnitudes [1/min]."""
         if self.run is None:
             speed = abs(self.design.speed) / RPM
             return speed, speed
@@ -152,7 +152,7 @@ class Running:
 
     @property
     def fluctuation(self) -> float:
-        """(greatest - least)/mean of the two."""
+        """(maximum - minimum)/mean of the two."""
         low, high = self.range
         return 2.0 * (high - low) / (high + low)
 
@@ -163,10 +163,10 @@ class Running:
 
     @cached_property
     def motor_peak(self) -> float | None:
-        """The motor's torque of the greatest magnitude at its own shaft [N m]; negative where the load drives it.
+        """The motor's torque of the maximum magnitude at its own shaft [N m]; negative where the load drives it.
 
         Notes
-            Its torque falls with its speed, so that the greatest is that at the least speed or at the greatest.
+            Its torque falls with its speed, so that the maximum is that at the minimum speed or at the greatest.
         """
         if self.motor is None:
             return None

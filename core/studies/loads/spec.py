@@ -52,7 +52,7 @@ class Course(Spec):
     """A value over the input angle, repeated every 360 deg: a table of [angle, value], or zones."""
 
     table: Annotated[list[Pair], Field(min_length=1, max_length=10_000)] | None = Field(
-        None, description="pairs [input angle, value], ascending, within one turn"
+        None, description="pairs [input angle, value], ascending, within one revolution"
     )
     interpolation: Literal["step", "linear", "cubic"] = Field("linear", description="between the pairs of the table")
     zones: Annotated[list[Zone], Field(min_length=1, max_length=1000)] | None = Field(
@@ -75,10 +75,12 @@ class Course(Spec):
                 )
                 raise PydanticCustomError("GL111", "{message}", {"message": message, "key": f"table[{back}]"})
             if angles[-1] - angles[0] > 360.0:
-                message = "a table covers one turn at most"
+                message = "a table covers one revolution at most"
                 raise PydanticCustomError("GL111", message, {"key": "table"})
             if angles[-1] - angles[0] == 360.0 and self.table[0][1] != self.table[-1][1]:
-                message = "a table over a whole turn ends with the value that it starts with, or without its last pair"
+                message = (
+                    "a table over a whole revolution ends with the value that it starts with, or without its last pair"
+                )
                 raise PydanticCustomError("GL111", message, {"key": "table"})
             if self.interpolation == "cubic" and len(angles) < 3:
                 raise PydanticCustomError("GL111", "cubic needs three pairs or more", {"key": "interpolation"})
@@ -151,7 +153,7 @@ class Flywheel(Spec):
         None, description="its moment of inertia"
     )
     fluctuation: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="(greatest - least)/mean speed allowed, the mean of these two; alone, the inertia is sought"
+        None, description="(maximum - minimum)/mean speed allowed, the mean of these two; alone, the inertia is sought"
     )
 
     @model_validator(mode="after")
@@ -178,10 +180,10 @@ class Motor(Spec):
     )
     inertia: Inertia = Field(0.0, description="moment of inertia at the motor's shaft")
     ratio: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="motor turns per turn of the input"
+        1.0, description="motor turns per revolution of the input"
     )
     max_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
-        None, description="greatest torque for a moment"
+        None, description="maximum torque for a moment"
     )
 
     @model_validator(mode="after")
@@ -206,7 +208,7 @@ class Bearing(Spec):
         None, description="basic dynamic load rating C"
     )
     life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] | None = Field(
-        None, description="least life"
+        None, description="minimum life"
     )
     width: Length | None = Field(None, description="plain: width b")
     diameter: Length | None = Field(None, description="plain: diameter d")
@@ -238,7 +240,7 @@ class Vibration(Spec):
     )
     damping: Coefficient | None = Field(None, description="damping ratio; left out: 0.03, assumed")
     allowed_residual: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="greatest vibration left in the dwell, deg or mm as the output moves"
+        None, description="maximum vibration left in the dwell, deg or mm as the output moves"
     )
 
     @model_validator(mode="after")
@@ -275,7 +277,7 @@ class Material(Spec):
         0.3, description="Poisson's ratio"
     )
     allowed_pressure: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
-        None, description="greatest Hertzian pressure"
+        None, description="maximum Hertzian pressure"
     )
 
 

@@ -99,7 +99,7 @@ class Vibrating:
 
     @property
     def frequency_ratio(self) -> float:
-        """Natural frequency over that of the input: 60 Hz over 120 turns a minute are exactly 30."""
+        """Natural frequency over that of the input: 60 Hz over 120 revolutions a minute are exactly 30."""
         return self.frequency * self.design.speed_seconds / abs(self.design.given_speed)
 
     def bend(self, phi: Reals) -> Reals:
@@ -169,7 +169,7 @@ class Vibrating:
 
     @cached_property
     def residual(self) -> float | None:
-        """Greatest amplitude that a motion from rest leaves in the dwell after it [deg or mm]; None without dwells."""
+        """Maximum amplitude that a motion from rest leaves in the dwell after it [deg or mm]; None without dwells."""
         if not self.motions or not self.design.stands:
             return None
         speed = abs(self.design.speed)
@@ -177,13 +177,13 @@ class Vibrating:
 
     @cached_property
     def lift(self) -> float:
-        """Greatest less least place over the period [deg or mm]."""
+        """Maximum less minimum place over the period [deg or mm]."""
         low, high = (self.design.extreme(self.place, greatest) for greatest in (False, True))
         return high.value - low.value
 
     @cached_property
     def speed_limit(self) -> float | None:
-        """Least speed of the input at which a motion leaves more than is allowed [rad/s]."""
+        """Minimum speed of the input at which a motion leaves more than is allowed [rad/s]."""
         allowed = self.section.allowed_residual
         if allowed is None or not self.motions or not self.design.stands:
             return None
@@ -207,14 +207,14 @@ class Vibrating:
 
     @cached_property
     def twist(self) -> float | None:
-        """Greatest deflection in the dwells in the steady state [deg or mm]; None without dwells or a steady state."""
+        """Maximum deflection in the dwells in the steady state [deg or mm]; None without dwells or a steady state."""
         if not self.dwells or self.response.unbounded:
             return None
         return max(self._in_dwell(lambda phi: np.abs(self.deflection(phi)), zone)[1] for zone in self.dwells)
 
     @cached_property
     def twisted_ripple(self) -> float | None:
-        """Greatest less least place of the output with its deflection in a dwell [deg or mm]."""
+        """Maximum less minimum place of the output with its deflection in a dwell [deg or mm]."""
         if not self.dwells or self.response.unbounded:
             return None
         ranges = [self._in_dwell(lambda phi: self.place(phi) + self.deflection(phi), zone)
@@ -231,7 +231,7 @@ class Vibrating:
         return min(max(math.ceil(_PER_TURN * width), math.ceil(_PER_PERIOD * width * self.frequency_ratio)), _MOST_ROWS)
 
     def _in_dwell(self, f: Callable[[Reals], Reals], zone: tuple[float, float]) -> tuple[float, float]:
-        """Least and greatest value in a dwell of a function of the input angle, refined."""
+        """Minimum and maximum value in a dwell of a function of the input angle, refined."""
         start, width = zone
         wanted = [(f, False), (f, True)]
         low, high = extremes_over(wanted, start, start + width, samples=self.rows(width))

@@ -30,7 +30,7 @@ Function = Callable[[Reals], Reals]
 
 
 def bounded(frequency: float, speed: float, key: str) -> float:
-    """A natural frequency [rad/s] whose vibration over a turn of the input [rad/s] can be followed.
+    """A natural frequency [rad/s] whose vibration over a revolution of the input [rad/s] can be followed.
 
     Raises
         NoSolution - outside of 1e-6 to 10000 times the input's speed, with the key of the file
@@ -229,7 +229,7 @@ def _one_less_exp(z: complex) -> complex:
 
 
 def speed_limit(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed: float) -> float | None:
-    """Least speed at which the residual of a motion passes what is allowed; None where it does at none of them.
+    """Minimum speed at which the residual of a motion passes what is allowed; None where it does at none of them.
 
     Parameters
         speeds : ascending array [rad/s]

@@ -18,7 +18,7 @@ def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[fl
     """Places within a period where a function changes its sign, to the last bits, all at once.
 
     Notes
-        Brackets from 720 rows a turn; a zero that is touched without a change of sign is none.
+        Brackets from 720 rows a revolution; a zero that is touched without a change of sign is none.
     Source
         T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149
     """

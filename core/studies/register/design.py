@@ -147,7 +147,7 @@ class RegisterDesign(Design):
         return {}
 
     def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-        """Errors of machines as made at some input angles; (places, N) array [mm]."""
+        """Errors of machines as manufactured at some input angles; (places, N) array [mm]."""
         return sampled_errors(self, input_angle, torque_sign, parts)
 
     # Torque and backlash
@@ -254,12 +254,12 @@ class RegisterDesign(Design):
 
     @cached_property
     def worst(self) -> list[float]:
-        """Greatest error where all sources add up [mm]."""
+        """Maximum error where all sources add up [mm]."""
         return [float(one.worst.max()) for one in self.budgets]
 
     @cached_property
     def rss(self) -> list[float]:
-        """Greatest standard deviation of the error [mm]."""
+        """Maximum standard deviation of the error [mm]."""
         return [float(one.rss.max()) for one in self.budgets]
 
     @cached_property
@@ -289,7 +289,7 @@ class RegisterDesign(Design):
     # Tables
 
     def table_budget(self, _samples: int | None = None) -> Table:
-        """Every source where the whole is greatest, for either torque sign where they differ, the greatest first."""
+        """Every source where the whole is largest, for either torque sign where they differ, the maximum first."""
         both = list(zip(SIGNS, self.budgets, strict=True))
         if are_alike(*self.budgets):
             both = both[:1]
@@ -450,7 +450,7 @@ def sampled_share(register: RegisterDesign, number: int) -> Reals:
 
 
 def sampled_errors(register: RegisterDesign, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
-    """Errors of machines as made, the whole chain of each closed; (places, N) array [mm].
+    """Errors of machines as manufactured, the whole chain of each closed; (places, N) array [mm].
 
     Parameters
         input_angle : (places,) array [rad]

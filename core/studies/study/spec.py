@@ -22,8 +22,8 @@ Resolution = Annotated[float, Field(json_schema_extra={"unit": "the quantity's"}
 class VariableSpec(Spec):
     """A key of the design and its values: a list, or a range."""
 
-    from_: Amount | None = Field(None, alias="from", description="least value, in multiples of `times`")
-    to: Amount | None = Field(None, description="greatest value, in multiples of `times`")
+    from_: Amount | None = Field(None, alias="from", description="minimum value, in multiples of `times`")
+    to: Amount | None = Field(None, description="maximum value, in multiples of `times`")
     step: Annotated[float, Field(gt=0, json_schema_extra={"unit": "the key's"})] | None = Field(
         None, description="step of the range; default 1 for whole numbers; left out, real numbers are sampled"
     )

@@ -8,7 +8,7 @@ from gearlink.core.base.errors import NoSolution, named
 
 GROUPS = ("C2", "CN", "C3", "C4", "C5")
 _BORES = (10, 18, 24, 30, 40, 50, 65, 80, 100)
-# Least and greatest clearance in um, a row for each range of bores, a pair for each group.
+# Minimum and maximum clearance in um, a row for each range of bores, a pair for each group.
 _ROWS = (
     ((0, 7), (2, 13), (8, 23), (14, 29), (20, 37)),
     ((0, 9), (3, 18), (11, 25), (18, 33), (25, 45)),
@@ -23,13 +23,13 @@ _ROWS = (
 
 
 def radial_clearance(bore: float, group: str) -> tuple[float, float]:
-    """Least and greatest radial clearance of an unmounted bearing; fits and heat take some of it away.
+    """Minimum and maximum radial clearance of an unmounted bearing; fits and heat take some of it away.
 
     Parameters
         bore : float [mm] - above 0, up to 100
         group : str - C2, CN, C3, C4 or C5
     Returns
-        least, greatest : float [mm]
+        minimum, maximum : float [mm]
     Raises
         NoSolution - no such group, or a bore outside of the table
     Example
@@ -44,7 +44,7 @@ def radial_clearance(bore: float, group: str) -> tuple[float, float]:
     if not 0 < bore <= _BORES[-1]:
         raise NoSolution(
             f"the table of bearing clearances reaches to a bore of {_BORES[-1]} mm, not {bore:g} mm",
-            fix="give clearance: [least, greatest]",
+            fix="give clearance: [minimum, maximum]",
         )
     least, greatest = _ROWS[bisect_left(_BORES, bore)][GROUPS.index(group)]
     return least / 1000, greatest / 1000

@@ -24,7 +24,7 @@ class Contribution:
     Fields
         source : str
         gain : (N,) array, real or complex - error per mm of the source; complex for a vector of any direction
-        limit : float [mm] - greatest deviation of the source
+        limit : float [mm] - maximum deviation of the source
         sigma : float [mm] - its standard deviation; of a vector that of one component
         mean : float [mm] - by how much all machines differ from nominal, of a real gain
         relative : bool - the error at the start has the same cause as that later on, which an uneven profile's has not
@@ -56,7 +56,7 @@ class Budget:
     """All sources together.
 
     worst, rss, mean, band : (N,) arrays [mm] - sum of magnitudes, root of the sum of squares, what all machines have
-    alike, and what 99.73 % of them keep; at : int - where `band` is greatest
+    alike, and what 99.73 % of them keep; at : int - where `band` is largest
     """
 
     worst: Reals

@@ -6,7 +6,7 @@ from gearlink.core.base.report import Rule
 
 NO_MECHANISM = Rule(
     "GL177",
-    "some designs as made do not exist",
+    "some designs as manufactured do not exist",
     "With the sizes of some samples the mechanism does not close, or its crank does not turn (a warning).",
     "Such a design counts as one that fails.",
     "Tighten the sizes that contribute most, or keep further away from the change point.",

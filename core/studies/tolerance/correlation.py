@@ -35,7 +35,7 @@ def coordinate_root(section: Tolerance, sources: Sequence[Scatter]) -> Reals | N
                 matrix[i, j] = group.rho
     values, vectors = np.linalg.eigh(matrix)
     if values[0] < -_ROUNDING:
-        message = f"these correlations contradict each other (least eigenvalue {values[0]:.3g}): make them smaller"
+        message = f"these correlations contradict each other (minimum eigenvalue {values[0]:.3g}): make them smaller"
         raise WrongStudy([Fault("GL176", message, ("tolerance", "correlated"))])
     # The symmetric root: coordinates that are apart from all others stay their own.
     root: Reals = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T

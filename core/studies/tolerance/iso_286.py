@@ -245,7 +245,7 @@ def limit_deviations(size: float, tolerance_class: str) -> tuple[float, float]:
 
 
 def fit_clearances(size: float, fit: str) -> tuple[float, float]:
-    """Least and greatest clearance of a fit; negative where the parts interfere.
+    """Minimum and maximum clearance of a fit; negative where the parts interfere.
 
     Parameters
         size : float [mm]

@@ -53,7 +53,7 @@ class Scatter:
 
     @property
     def limit(self) -> float:
-        """Greatest distance from nominal: of a pin half the clearance, of a gear the eccentricity."""
+        """Maximum distance from nominal: of a pin half the clearance, of a gear the eccentricity."""
         if self.kind == "pin":
             return 0.5 * self.law.upper
         return max(abs(self.law.lower), abs(self.law.upper))
@@ -102,7 +102,7 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
         raise _no(
             "GL175",
-            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): leave out the least",
+            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): leave out the minimum",
             ("tolerance", "sources"),
         )
     return tuple(found)

@@ -54,15 +54,15 @@ class ToleranceSource(Spec):
     size: Length | None = Field(None, description="nominal diameter of the fit")
     group: str | None = Field(None, description="clearance group of a deep-groove ball bearing: C2, CN, C3, C4, C5")
     bore: Length | None = Field(None, description="bore of the bearing")
-    clearance: Pair | None = Field(None, description="[least, greatest] clearance in diameter")
+    clearance: Pair | None = Field(None, description="[minimum, maximum] clearance in diameter")
     reduction: Distance = Field(0.0, description="what fits and heat take off the bearing's clearance")
     grade: FlankClass | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
     width: Length | None = Field(None, description="face width of the gear")
-    eccentricity: Length | None = Field(None, description="greatest distance of a gear's pitch circle from its axis")
+    eccentricity: Length | None = Field(None, description="maximum distance of a gear's pitch circle from its axis")
     phase: Angle | None = Field(
         None, description="measured direction of the eccentricity at input angle 0; left out: any"
     )
-    measured: Deviation | None = Field(None, description="absolute size of one part in hand: it does not scatter")
+    measured: Deviation | None = Field(None, description="absolute size of one part in reserve: it does not scatter")
     law: Literal["normal", "uniform", "triangular", "truncated"] = Field(
         "normal", description="law of distribution", json_schema_extra=also("distribution")
     )
@@ -196,7 +196,7 @@ class Tolerance(Spec):
 class Register(Spec):
     """What the register of a printing machine may lose, for the command register."""
 
-    tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
+    tolerance: Length | None = Field(None, description="maximum error that is allowed, to either side")
     at: str | Annotated[float, Field(json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="dwell, zone, handover, range, or an input angle in degrees"
     )
@@ -213,7 +213,7 @@ class Register(Spec):
     backlash: Distance | dict[str, Distance] | None = Field(
         None, description="circumferential backlash of each mesh by its name, or one for all"
     )
-    cam_error: Length | None = Field(None, description="greatest error of a cam's profile, at right angles to it")
+    cam_error: Length | None = Field(None, description="maximum error of a cam's profile, at right angles to it")
     output_inertia: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})] | None = Field(
         None, description="moment of inertia of all that turns with the output"
     )

@@ -1,5 +1,5 @@
 """The tolerance study of a design: samples of it as made, their yields, what contributes to them, what to tighten.
 
 Begin with `design`, the study as a design whose results a report shows; `problem` makes the sources ready, `samples`
-computes designs as made, `statistics`, `sensitivity` and `allocation` say what came of them.
+computes designs as manufactured, `statistics`, `sensitivity` and `allocation` say what came of them.
 """

@@ -1,4 +1,4 @@
-"""The output over the cycle in the designs as made: by how much it leaves its nominal place, in percentiles."""
+"""The output over the cycle in the designs as manufactured: by how much it leaves its nominal place, in percentiles."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def deviations(made: Problem, number: int) -> list[Reals]:
 
 
 def _table(made: Problem, row: Mapping[str, Any], table: str, count: int) -> Any:
-    """The table of one design as made; None where there is no such mechanism."""
+    """The table of one design as manufactured; None where there is no such mechanism."""
     try:
         found = design_of(made, row).table(table, samples=_PLACES)
     except (Refused, NoSolution):

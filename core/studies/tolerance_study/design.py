@@ -34,7 +34,7 @@ _FEW = 256
 
 
 class ToleranceStudy(Design):
-    """Samples of a design as made; its nominal design's checks stand beside."""
+    """Samples of a design as manufactured; its nominal design's checks stand beside."""
 
     kind = ""  # that of its design file
     outlines = {
@@ -186,7 +186,7 @@ class ToleranceStudy(Design):
         return _table("contributions", columns, rows)
 
     def table_corners(self, _samples: int | None = None) -> Table:
-        """Least and greatest value at the corners of the limits; the signs of the sources at the greatest."""
+        """Minimum and maximum value at the corners of the limits; the signs of the sources at the greatest."""
         found = corners(self.problem, self.varying, self.slopes)
         rows = [(name, self.units[name], *found[name]) for name in self.varying]
         return _table("corners", ("quantity", "unit", "least", "greatest", "signs"), rows)
@@ -321,13 +321,13 @@ class _Corner:
 def corners(
     made: Problem, names: Sequence[str], gains: Mapping[str, list[Slope]]
 ) -> dict[str, tuple[float, float, str]]:
-    """Least and greatest value of quantities at the corners of the limits, and where the greatest is.
+    """Minimum and maximum value of quantities at the corners of the limits, and where the maximum is.
 
     Returns
-        found : by quantity - least, greatest, a sign for each source: + or - a size at its limit, o the play of a pin
+        found : by quantity - minimum, maximum, a sign for each source: + or - a size at its limit, o the play of a pin
     Notes
         Of up to 12 sizes all corners, of more that of the linear signs. From the best one single sizes are turned
-        about, and each pin goes round its hole at half the greatest clearance, until none helps. What lies inside may
+        about, and each pin goes round its hole at half the maximum clearance, until none helps. What lies inside may
         be worse where the quantity is not monotone.
     """
     pins = [source for source in made.sources if source.kind == "pin"]
@@ -377,14 +377,14 @@ def _limit(source: Scatter, sign: float) -> float:
 
 
 def _best(values: Reals) -> int:
-    """Where the greatest value is; a design that does not exist has none."""
+    """Where the maximum value is; a design that does not exist has none."""
     return int(np.argmax(np.where(np.isnan(values), -math.inf, values)))
 
 
 def _climbed(
     values: Callable[[Sequence[_Corner]], Reals], best: float, place: _Corner, pins: Sequence[Scatter]
 ) -> tuple[float, _Corner]:
-    """The greatest value that moving single sources from a place finds, and where it is."""
+    """The maximum value that moving single sources from a place finds, and where it is."""
 
     def take(tried: Sequence[_Corner]) -> bool:
         nonlocal best, place

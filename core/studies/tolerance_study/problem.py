@@ -223,7 +223,7 @@ class Problem:
         return coordinate_root(self.section, self.sources)
 
     def sizes(self, points: Reals) -> dict[str, Reals | Points]:
-        """Sizes as made of random numbers.
+        """Sizes as manufactured of random numbers.
 
         Parameters
             points : (N, coordinates) array - in (0, 1)
@@ -345,7 +345,7 @@ class ToleranceAxis(Protocol):
         ...
 
     def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
-        """The designs as made.
+        """The designs as manufactured.
 
         Parameters
             columns : (N,) arrays by source - sizes and centre distances as made, in the unit of the file; of a pin its

@@ -1,4 +1,4 @@
-"""Designs as made: computed, judged, and summed up replication by replication."""
+"""Designs as manufactured: computed, judged, and summed up replication by replication."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def rows_of(columns: Columns) -> Iterator[dict[str, Any]]:
 
 
 def design_of(made: Problem, row: Mapping[str, Any]) -> Any:
-    """One design as made.
+    """One design as manufactured.
 
     Raises
         Refused, NoSolution - where there is no such mechanism

@@ -274,7 +274,7 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
     assert b"Traceback" not in err
     assert 0 < len(out.splitlines()) < 1500
     # How soon it ends is told by the work done after the signal, which does not depend on who else computes: what the
-    # processes had in hand, a quarter of a second each, not what was left.
+    # processes had in reserve, a quarter of a second each, not what was left.
     later = _written(out_files) - begun
     assert later < 600, f"{later} of 1500 results written after the interrupt"
 

@@ -92,8 +92,8 @@ def test_comments_name_unit_meaning_source_and_rounding(gearlink: Any, tmp_path:
     assert "# asked for: dwell: {window: 70, tolerance: 0.5}" in text
     assert "frame: 114.85" in text
     assert "# mm: frame AD; found by synth dwell; 114.8527195 rounded to 0.01 mm" in text
-    assert "# mm: module of all three gears; yours to choose" in text
-    assert "# deg: least transmission angle; from --set" in text
+    assert "# mm: module of all three gears; required" in text
+    assert "# deg: minimum transmission angle; from --set" in text
     assert spec_of(path).links.frame == 114.85
 
 

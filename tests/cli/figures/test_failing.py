@@ -41,7 +41,7 @@ def test_places_that_fail_are_red(command: str, name: str, keys: dict[str, Any],
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "wide_lever"])
 def test_the_least_transmission_angle_is_the_foot_of_its_curve(name: str) -> None:
-    """Curves have a point every degree at least, and their least is a smooth minimum: 1e-2 deg."""
+    """Curves have a point every degree at least, and their minimum is a smooth minimum: 1e-2 deg."""
     made, figure = sheet(name)
     (line,) = (line for axes in figure.axes for line in axes.lines if line.get_gid() == "transmission-angle")
     least = np.degrees(made.min_transmission_angle)

@@ -112,7 +112,7 @@ def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
 @pytest.mark.parametrize(("title", "value"), [("Bed chain", "46.532°"), ("Cylinder chain", "35.724°")])
 def test_least_transmission_angle_is_drawn_and_named(press: Sheet, title: str, value: str) -> None:
     axes = panel(press.figure, title)
-    (name,) = [label for label in labels(axes) if label.startswith("least transmission angle")]
+    (name,) = [label for label in labels(axes) if label.startswith("minimum transmission angle")]
     assert value in name
     line = lines(axes)[name]
     joints = points(line)

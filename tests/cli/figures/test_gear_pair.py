@@ -132,7 +132,7 @@ def test_a_rack_stands_beside_its_gear_with_its_teeth_and_tables():
     assert ends == pytest.approx(np.array([geometry.contact_start, geometry.contact_end]), rel=1e-12)
     assert points(rack).real.min() == pytest.approx(made.rack.center_distance - 3.0, rel=1e-12)
     shown = words(figure)
-    for words_ in ("measure over balls, least", "axis to the datum line of the rack", "rack"):
+    for words_ in ("measure over balls, minimum", "axis to the datum line of the rack", "rack"):
         assert words_ in shown
 
 

@@ -75,7 +75,7 @@ def meshing(design, bodies, index):
 
 
 def depth(points, polygon, inside):
-    """How far points lie inside (or outside) of a polygon at most, and the least distance of any from it."""
+    """How far points lie inside (or outside) of a polygon at most, and the minimum distance of any from it."""
     contained = Polygon(np.column_stack([polygon.real, polygon.imag])).contains_points(
         np.column_stack([points.real, points.imag])
     )

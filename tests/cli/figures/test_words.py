@@ -23,7 +23,7 @@ from gearlink.core.base.kinds import KINDS
 
 
 def test_extremes_of_a_slider_are_those_of_the_analysis() -> None:
-    """The greatest of curve points half a degree apart would stand at 190.5 in place of 190.66 deg."""
+    """The maximum of curve points half a degree apart would stand at 190.5 in place of 190.66 deg."""
     made, figure = sheet("ty460_slider_crank", "crank")
     for side in ("max", "min"):
         value, place = (made.quantity(f"velocity_{side}{at}").value for at in ("", "_at"))
@@ -119,7 +119,7 @@ def test_a_title_stays_on_the_page(name: str) -> None:
 
 
 def test_curvature_is_shown_as_far_as_it_goes() -> None:
-    """The panel goes no farther: not up to 100 centre distances, 200 times the greatest radius."""
+    """The panel goes no farther: not up to 100 centre distances, 200 times the maximum radius."""
     _, figure = sheet("wide_swing_slider_cam", "cam")
     axes = panel(figure, "Curvature radius")
     radius = next(line for line in axes.lines if line.get_label().startswith("cam, ≥")).get_ydata()

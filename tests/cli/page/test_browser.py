@@ -31,7 +31,7 @@ def window() -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A report and a film of one design."""
+    """A report and a animation of one design."""
     from gearlink.cli.commands.animate import Asked, run_animate
     from gearlink.cli.commands.report import run_report
     from gearlink.cli.options import Options
@@ -152,7 +152,7 @@ def test_watch_shows_what_is_saved(window: Browser, edited: tuple[Path, str, Any
     path, address, watching = edited
     window.size(1280, 900)
     window.open(address)
-    window.wait("return document.querySelector('.sheet svg') && document.querySelector('.film canvas')", 30)
+    window.wait("return document.querySelector('.sheet svg') && document.querySelector('.animation canvas')", 30)
     path.write_text("kind: gear-pair\nmodule: 4\nteeth: [20, 41]\nprofile_shift: [0, 0]\n")
     # Half a second on a machine of its own; the tests share theirs.
     window.wait("return document.querySelector('.sheet')?.textContent.includes('z = 41')", 15)
@@ -206,10 +206,10 @@ def test_on_paper_the_film_is_a_still_picture(window: Browser, pages: Path) -> N
     window.open(pages / "candy-feed.html")
     window.media("print")
     try:
-        shown = "const {{display, objectFit}} = getComputedStyle(document.querySelector('.film {0}'));"
+        shown = "const {{display, objectFit}} = getComputedStyle(document.querySelector('.animation {0}'));"
         shown += "return [display, objectFit]"
         assert window.run(shown.format(".stage")) == ["block", "contain"]
-        assert window.run("return document.querySelector('.film .stage').getBoundingClientRect().height") > 100
+        assert window.run("return document.querySelector('.animation .stage').getBoundingClientRect().height") > 100
         assert [window.run(shown.format(each))[0] for each in (".controls", ".strip")] == ["none", "none"]
     finally:
         window.media("")

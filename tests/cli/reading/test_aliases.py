@@ -25,7 +25,7 @@ from gearlink.core.base.nomenclature import ALIASES, TERMS, fixed_name
 
 ALL = [(kind.name, key.path, term) for kind in FILES.values() for key in spec_keys(kind) for term in key.also]
 VALUES = {"tip_shortening": "none", "run_out": 0.01, "handover_place": 0.02}
-"""Of keys that the worked designs leave out."""
+"""Of keys that the examples leave out."""
 
 
 @cache
@@ -35,7 +35,7 @@ def worked(kind: str) -> dict[str, Any]:
 
 
 def can_be_written(kind: str, path: str) -> bool:
-    """Whether the worked design has the section of a key, or the section needs no other key."""
+    """Whether the example has the section of a key, or the section needs no other key."""
     section, dot, _ = path.rpartition(".")
     inner: Any = worked(kind)
     for step in section.split(".") if section else ():
@@ -48,7 +48,7 @@ CASES = [case for case in ALL if can_be_written(*case[:2])]
 
 
 def written(kind: str, path: str, *names: str) -> dict[str, Any]:
-    """The worked design with a key under other names; each gets its value."""
+    """The example with a key under other names; each gets its value."""
     data = copy.deepcopy(worked(kind))
     *sections, last = path.split(".")
     inner = data

@@ -1,7 +1,7 @@
 """From a file to a validated spec: each kind of error, its code, its place and its words.
 
 Places and texts are compared exactly. The models below are small ones of this test, so that a change of a real
-design file's keys does not disturb it; the worked designs are read in the tests of the commands.
+design file's keys does not disturb it; the examples are read in the tests of the commands.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ class Phases(Section):
     @model_validator(mode="after")
     def _turn(self) -> Phases:
         if self.back + self.dwell > 360:
-            raise ValueError("the phases take more than a turn")
+            raise ValueError("the phases take more than a revolution")
         return self
 
 
@@ -353,7 +353,7 @@ def test_every_error_is_told_in_one_run_in_the_order_of_the_file() -> None:
         ("law: {quintic: x}", "GL107", "law.quintic", "law.quintic must be a number, not 'x'", ""),
         ("split: 7", "GL108", "split", "split must be at most 5, not 7", "allowed: from -5 to 5"),
         ("split: eqal", "GL107", "split", "split must be 'equal' or a number, not 'eqal'", "did you mean 'equal'?"),
-        ("phases: {return: 300, dwell: 90}", "GL111", "phases", "the phases take more than a turn", ""),
+        ("phases: {return: 300, dwell: 90}", "GL111", "phases", "the phases take more than a revolution", ""),
         ("phases: {retrun: 300}", "GL105", "phases.retrun", "unknown key 'retrun' in 'phases'",
          "did you mean 'return'? allowed here: dwell, return"),
         ("pins: {a: 3}", "GL107", "pins.a", "pins.a must be a section of keys, not 3", "its keys are at"),

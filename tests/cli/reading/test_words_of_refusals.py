@@ -9,7 +9,7 @@ from factory import DESIGNS
 
 
 def refusal(gearlink: Any, words: str, *sets: str) -> dict[str, Any]:
-    """The one error of a command line on a worked design, with its keys set."""
+    """The one error of a command line on a example, with its keys set."""
     *command, name = words.split()
     changes = [word for each in sets for word in ("--set", each)]
     ended = gearlink(*command, DESIGNS / f"{name}.yaml", *changes, "--format", "json")
@@ -70,7 +70,7 @@ def test_a_set_beside_a_key_whose_refusal_does_not_name_it_leaves_the_file_its_p
         (
             "loads loaded_feed",
             "loads.speed=0",
-            "a speed of 0 1/min: give 1e-06 1/min or more, or -1e-06 1/min or less for a turn the other way",
+            "a speed of 0 1/min: give 1e-06 1/min or more, or -1e-06 1/min or less for a revolution the other way",
         ),
         (
             "loads loaded_feed",

@@ -67,7 +67,7 @@ def test_no_noise_among_the_results(gearlink: Any, designs: Any, command: str, d
 
 
 def test_json_keeps_full_precision(gearlink: Any, designs: Any) -> None:
-    """The least speed of a momentary dwell is 0 but for rounding: the table says 0, JSON what was computed."""
+    """The minimum speed of a momentary dwell is 0 but for rounding: the table says 0, JSON what was computed."""
     line = ("synth", "momentary-dwell", designs / "thesis_example_3_mended.yaml")
     assert re.search(r"speed_ratio_min .* 0 *$", gearlink(*line, "--all").out, re.MULTILINE)
     value = gearlink(*line, "--format", "json").json["quantities"]["speed_ratio_min"]["value"]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.commands.studio import Guard
+from gearlink.cli.studio.command import Guard
 
 OWN = {"host": "127.0.0.1:8123"}
 

@@ -42,7 +42,7 @@ def test_a_wish_is_met(target: float) -> None:
 
 
 def test_a_wish_is_refused_with_the_limit() -> None:
-    """The limit is that of a sweep: over the frame the transmission angle is greatest near where it stands."""
+    """The limit is that of a sweep: over the frame the transmission angle is largest near where it stands."""
     key = _keys(FEED)["links.frame"]
     with pytest.raises(Refused, match=r"at most 61\.5") as refused:
         wished(FEED, "feed.yaml", "analyze", "min_transmission_angle", 75.0, key)

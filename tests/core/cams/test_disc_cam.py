@@ -89,7 +89,7 @@ def test_least_convex_radius_of_two_lobes(size, depth):
 
 def test_radii_of_a_profile_that_loops_hold_the_body():
     """Against the body itself: along each ray from the axis it reaches to the first roller."""
-    cam = lobes(100.0, 10.0, 87.0)  # least radius of curvature 80.7 mm
+    cam = lobes(100.0, 10.0, 87.0)  # minimum radius of curvature 80.7 mm
     pitch, _profile = cam.points(np.linspace(0.0, 2.0 * math.pi, 1441))
     along = pitch * np.exp(-1j * np.linspace(0.0, math.pi, 181))[:, None]
     inside = 87.0**2 - along.imag**2
@@ -104,7 +104,7 @@ def test_radii_of_a_profile_that_loops_hold_the_body():
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("roller", [44.8, 50.0, 60.0])
 def test_roller_that_cuts_through_the_neck_from_the_other_side(roller):
-    # No cusp: the least convex radius is 64 mm. But the neck is 2 x 40 mm wide, and the roller takes its radius
+    # No cusp: the minimum convex radius is 64 mm. But the neck is 2 x 40 mm wide, and the roller takes its radius
     # from both sides.
     cam = lobes(100.0, 60.0, roller)
     assert cam.min_curvature_radius.value == pytest.approx(64.0, rel=1e-13)

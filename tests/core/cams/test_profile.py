@@ -167,7 +167,7 @@ def test_pressure_angle_of_a_rocker(psi: float, rate: float, sense: int) -> None
 
 
 def modified_sine_cam(phi: np.ndarray) -> CamProfile:
-    """Rise and return of 0.3 rad over half a turn each, clockwise cam."""
+    """Rise and return of 0.3 rad over half a revolution each, clockwise cam."""
     s, v, a = law("modified-sine").evaluate(np.where(phi < math.pi, phi, TURN - phi) / math.pi, 2)
     up = np.where(phi < math.pi, 1.0, -1.0)
     path = oscillating(200.0 + 30.0j, 150.0, 2.4 - 0.3 * s, -0.3 * up * v / math.pi, -0.3 * a / math.pi**2)
@@ -225,7 +225,7 @@ def test_mirror_and_scale(psi: float, rate: float, bend: float, scale: float) ->
 
 
 def test_opposite_rollers_of_a_press_mirror_each_other() -> None:
-    # a roller on -x that moves like one on +x half a turn later
+    # a roller on -x that moves like one on +x half a revolution later
     lift, rate = 3.0, -2.0
     right = profile(0.4, translating(90.0 + lift, rate), sense=1, roller_radius=25.0)
     left = profile(0.4 - math.pi, translating(90.0 + lift, rate, direction=-1.0), sense=1, roller_radius=25.0)

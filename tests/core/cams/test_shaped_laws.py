@@ -3,7 +3,7 @@
 Tolerances
     Peaks are upper bounds that lie at most 1.5e-14 of the largest coefficient too high; samples lie below by
     (step/2)^2/2 of the next-but-one derivative. Residuals: quadrature against a simulation of 30 digits, 1e-12 of the
-    greatest |s''|, whose coefficients are rounded. What is minimized is proved to 1e-6 and less of itself, so bounds
+    maximum |s''|, whose coefficients are rounded. What is minimized is proved to 1e-6 and less of itself, so bounds
     are met to 2e-6.
 """
 
@@ -417,7 +417,7 @@ def test_a_gripper_reaches_its_speed_by_laws_of_its_own() -> None:
     assert law_.accelerate.kappa == pytest.approx(0.5, rel=1e-12)
     assert law_.accelerate.peak_acceleration < usual.accelerate.peak_acceleration
     assert law_.joints()[:, :3] == pytest.approx(np.zeros((6, 3)), abs=1e-10)
-    # one turn a sheet, 12000 an hour: the return takes 120/360 of 0.3 s
+    # one revolution a sheet, 12000 an hour: the return takes 120/360 of 0.3 s
     assert law_.return_.shaping.periods == pytest.approx(50.0 * 0.1, rel=1e-12)
     assert [check.status for name in ("law-gap", "polydyne-range") for check in made.check(name)] == ["pass", "pass"]
     (found,) = made.completion()

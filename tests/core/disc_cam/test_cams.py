@@ -73,7 +73,7 @@ def test_a_flat_face_touches_its_cam_and_cuts_it_nowhere(sense: int, side: int, 
 
 
 def test_published_flat_cam() -> None:
-    """A lift of one inch in 90 deg by the cycloidal law, least radius a quarter inch: base circle 1.893 in."""
+    """A lift of one inch in 90 deg by the cycloidal law, minimum radius a quarter inch: base circle 1.893 in."""
     motion = [{"to": 90}, {"to": 180, "lift": 25.4, "law": "cycloidal"}, {"to": 270}]
     motion.append({"to": 360, "lift": 0, "law": "cycloidal"})
     design = cam(motion, {"type": "translating-flat"}, {"size": {"curvature_radius": 6.35}})
@@ -156,7 +156,7 @@ def test_groove_and_cutter_stand_off_the_pitch_curve() -> None:
     assert np.abs(cutter - inner) == pytest.approx(30.0, rel=1e-12)
     assert design.max_radius == pytest.approx([78.0, 102.0], rel=1e-12)
     assert design.min_radius == pytest.approx([48.0, 72.0], rel=1e-12)
-    # the least hollow radius, where the profile bends inwards
+    # the minimum hollow radius, where the profile bends inwards
     measured = radius_by_differences(lambda each: design.cams.main.points(each)[1], np.linspace(0.02, 6.26, 20_001))
     assert design.min_concave_radius == pytest.approx(measured[measured > 0.0].min(), rel=1e-3)
 

@@ -49,7 +49,7 @@ def test_windows_are_those_of_a_sliding_window(ratio: float, tolerance: float) -
     t = np.linspace(0.0, 4.0 * math.pi / 3.0, rows + 1)
     angle = np.degrees(arm.turn(t, 1).value)
     best, start, first = 0, 0, 0
-    low, high = [], []  # queues of places of least and greatest
+    low, high = [], []  # queues of places of minimum and maximum
     for last in range(rows + 1):
         while low and angle[low[-1]] >= angle[last]:
             low.pop()

@@ -106,7 +106,7 @@ def test_rocker_starts_from_rest_at_its_dead_centre():
     table = made.table("motion", samples=400)
     data = dict(zip(table.columns, table.data, strict=True))
     assert data["rocker_angle"][0] == pytest.approx(data["rocker_angle"][399], rel=1e-13)
-    quarter = data["rocker_angle"][50]  # after 0.75 turns of the input the driven gear has made half a turn
+    quarter = data["rocker_angle"][50]  # after 0.75 revolutions of the input the driven gear has made half a revolution
     assert math.radians(quarter) == pytest.approx(solve(linkage, start + math.pi).rocker_angle, rel=1e-14)
     assert data["driven_speed_ratio"][:2].tolist() == [made.driven_speed_ratio] * 2
     assert data["driven_speed_ratio"][100] == 0.0
@@ -138,7 +138,7 @@ def test_linkage_that_does_not_turn_is_refused():
 
 
 def test_a_motion_that_begins_between_dead_centres_is_named():
-    """Two stops: the first motion begins at the dead centre, the second half a turn of the driven gear on."""
+    """Two stops: the first motion begins at the dead centre, the second half a revolution of the driven gear on."""
     made = design(links=LINKS, gears__group_teeth=10, gears__stops=2)
     linkage = FourBar(40.0, 120.0, 100.0, 140.0)
     second = made.start_crank_angle + math.pi
@@ -173,7 +173,7 @@ def test_gap_against_the_contact_ratio(group, status):
 
 
 def by_search(share: float, turn: float, groups: int, most: int) -> float:
-    """The least miss of the share over every number of teeth."""
+    """The minimum miss of the share over every number of teeth."""
     misses = [
         abs(n * groups / full - share)
         for z in range(17, 121)

@@ -45,7 +45,7 @@ def test_an_end_of_the_range_is_reached_and_never_left(requirement: str, end: fl
 
 
 def test_the_best_within_a_range_is_that_of_a_fine_grid() -> None:
-    """A greatest value inside: the transmission angle is best where neither dead centre is nearer than the other."""
+    """A maximum value inside: the transmission angle is best where neither dead centre is nearer than the other."""
     found = study(maximize={"min_transmission_angle": 1e-6})
     grid = study(
         variables={"links.frame": {"from": 130, "to": 180, "step": 0.01}},

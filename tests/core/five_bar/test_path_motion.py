@@ -330,7 +330,7 @@ def test_ratio_period_and_table():
 
 def test_phase_step_is_one_tooth():
     made = path_design()
-    moved = 20.0 * made.phase_step  # a whole turn of the output link is as many steps as it has teeth
+    moved = 20.0 * made.phase_step  # a whole revolution of the output link is as many steps as it has teeth
     assert moved == pytest.approx(2.0 * math.pi, rel=1e-15)
 
 

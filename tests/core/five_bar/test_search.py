@@ -42,7 +42,7 @@ def row_of(bar, offset=OFFSET):
 
 
 def from_chords(path, target):
-    """Least distance of a point from the chords of a path."""
+    """Minimum distance of a point from the chords of a path."""
     chord = np.diff(path)
     share = np.clip(((target - path[:-1]) * np.conj(chord)).real / np.abs(chord) ** 2, 0.0, 1.0)
     return np.min(np.abs(path[:-1] + share * chord - target))

@@ -36,7 +36,7 @@ CAM = {
 ZONES = {
     "ty460": (420.0, 125.0, 100.0),
     "negative offset": (300.0, 125.0, 110.0),
-    "centric, two turns a sheet": (330.0, 115.0, 120.0),
+    "centric, two revolutions a sheet": (330.0, 115.0, 120.0),
     "mirrored cylinder chain": (280.0, 130.0, 120.0),
 }
 REPORT = {"start": 34.0, "end": 155.0, "print_length": 320.0}
@@ -152,7 +152,7 @@ def test_extremes_pass_a_dense_table_by_a_hair(name):
     assert math.degrees(design.max_pressure_angle) == pytest.approx(np.abs(rows[:, 0]).max(), abs=2e-5)
     convex = rows[:, 1][rows[:, 1] > 0.0].min()
     assert design.min_curvature_radius <= convex + 1e-10
-    # the least may stand on a joint, between two rows: the curvature runs there with a slope
+    # the minimum may stand on a joint, between two rows: the curvature runs there with a slope
     assert design.min_curvature_radius == pytest.approx(convex, rel=2e-2)
 
 

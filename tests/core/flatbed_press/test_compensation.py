@@ -36,7 +36,7 @@ TURN = 2.0 * math.pi
 ZONES = {
     "ty460": (420.0, 125.0, 100.0),
     "negative offset": (300.0, 125.0, 110.0),
-    "centric, two turns a sheet": (330.0, 115.0, 120.0),
+    "centric, two revolutions a sheet": (330.0, 115.0, 120.0),
     "mirrored cylinder chain": (280.0, 130.0, 120.0),
 }
 

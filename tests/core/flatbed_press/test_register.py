@@ -88,7 +88,7 @@ def test_every_pin_has_a_gain(pin: str) -> None:
     "case", [c for c in CASES if c["input"]["what"] == "gripper-gains"], ids=lambda c: str(c["name"])
 )
 def test_loop_gains_are_the_reference(case: dict[str, Any]) -> None:
-    """The gripper's loop A (230, 0), E (498, 55), 150, 260, 100 of the worked design."""
+    """The gripper's loop A (230, 0), E (498, 55), 150, 260, 100 of the example."""
     frame = complex(268.0, 55.0)
     direction = math.atan2(frame.imag, frame.real)
     crank = math.radians(case["input"]["theta1"])

@@ -20,7 +20,7 @@ def test_a_rack_has_the_lines_of_its_teeth_alone() -> None:
     }
     assert lines["number of teeth"] == (20, "rack")
     assert lines["normal module"] == (3.0, 3.0)
-    for item in ("span measurement, least", "measure over balls, greatest", "thickness allowance, upper"):
+    for item in ("span measurement, minimum", "measure over balls, maximum", "thickness allowance, upper"):
         gear = pair[(item, "mm")]
         assert lines[item] == (gear, gear if item.startswith("thickness") else None), item  # a rack takes its gear's
     assert lines["axis to the datum line of the rack"][0] == lines["reference diameter"][0] / 2 + 0.6
@@ -35,12 +35,12 @@ def test_a_rack_has_its_own_lines_to_cut_and_measure_it_by() -> None:
     assert rack["pitch of the rack"] == math.pi * 3 / math.cos(math.radians(10))
     assert (rack["tip line above the datum line"], rack["root line below the datum line"]) == (3.0, 3.75)
     alpha, allowance = math.radians(20.0), rack["thickness allowance, upper"]
-    center = rack["datum line to ball top, greatest"] - 2.5
+    center = rack["datum line to ball top, maximum"] - 2.5
     half = 0.25 * math.pi * 3 - 0.5 * allowance  # of the space on the datum line
     to_flank = (half + center * math.tan(alpha)) * math.cos(alpha)
     assert abs(to_flank - 2.5) < 1e-12
-    assert rack["datum line to ball top, least"] < rack["datum line to ball top, greatest"]
-    assert rack["theoretical backlash, least"] == made.quantity("backlash_normal").value[0]
+    assert rack["datum line to ball top, minimum"] < rack["datum line to ball top, maximum"]
+    assert rack["theoretical backlash, minimum"] == made.quantity("backlash_normal").value[0]
 
 
 @pytest.mark.parametrize(("teeth", "pins", "words"), [

@@ -56,7 +56,7 @@ DIAMETERS = {
     "d_Nf": "used_root_radius",
     "d_Ff_external": "form_radius",
 }
-WITHOUT_BOUND = {("spur-undercut-9-50", "zeta_root")}  # the mate's tip reaches beyond the base tangent point
+WITHOUT_BOUND = {("spur-undercut-9-50", "zeta_root")}  # the mating gear's tip reaches beyond the base tangent point
 
 
 def quantities(case: dict[str, Any]) -> list[tuple[str, str, float, Any]]:

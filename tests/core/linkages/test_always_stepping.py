@@ -30,7 +30,7 @@ GRID = np.radians(np.arange(0.0, 720.0, STEP))
 
 
 def angles(a: float, b: float, c: float, d: float, assembly: int) -> tuple[Any, Any]:
-    """Directions of coupler and rocker over two turns, by the triangle of B, C and D."""
+    """Directions of coupler and rocker over two revolutions, by the triangle of B, C and D."""
     to_d = d - a * np.exp(1j * GRID)
     length = np.abs(to_d)
     inner = np.arccos((b * b + length**2 - c * c) / (2.0 * b * length))
@@ -40,7 +40,7 @@ def angles(a: float, b: float, c: float, d: float, assembly: int) -> tuple[Any, 
 
 
 def scanned_window(output: Any, tolerance: float) -> float:
-    """Longest window [deg] within +- a tolerance [rad] among the samples of two turns."""
+    """Longest window [deg] within +- a tolerance [rad] among the samples of two revolutions."""
 
     def too_long(steps: int) -> bool:
         samples = steps + 1
@@ -53,7 +53,7 @@ def scanned_window(output: Any, tolerance: float) -> float:
 
 
 class Case(NamedTuple):
-    """Frames of a design, and its output [rad] over two turns at one of them."""
+    """Frames of a design, and its output [rad] over two revolutions at one of them."""
 
     name: str
     frames: AlwaysStepping
@@ -179,7 +179,7 @@ def test_frames_that_keep_a_transmission_angle(case: Case) -> None:
 
 
 def test_long_windows_reach_beyond_the_greatest_speed() -> None:
-    """Both ends of such a window lie to one side of the greatest speed; it was cut off there, at 260 deg."""
+    """Both ends of such a window lie to one side of the maximum speed; it was cut off there, at 260 deg."""
     case = two_gears(47, 63, 21.043, 56.683)
     assert case is not None
     drive = Family(16.0, 21.043, 56.683, 47 / 63).drive(61.7259)
@@ -251,7 +251,7 @@ def test_two_gears_that_always_step_back_name_their_limits() -> None:
 
 
 def test_two_gears_that_always_step_back_by_an_angle() -> None:
-    """The greatest less the least output between the standstills, on the positions; the least of all is refused."""
+    """The maximum less the minimum output between the standstills, on the positions; the minimum of all is refused."""
     found = two("back-step", RING, back_step={"angle": 5.0})
     case = two_gears(44, 69, 45.28, 72.727)
     assert case is not None
@@ -260,7 +260,7 @@ def test_two_gears_that_always_step_back_by_an_angle() -> None:
     falls = falls[falls < len(GRID) // 2]
     assert math.degrees(output[falls[0]] - output[falls[-1] + 1]) == pytest.approx(5.0, abs=0.02)
     low = {"gears": {"module": 2.0, "planet": 47, "ring": 63}, "links": {"coupler": 21.043, "rocker": 56.683}}
-    with pytest.raises(NoSolution, match=r"less than the least of crank-rockers .*, 32\.5\d+ deg"):
+    with pytest.raises(NoSolution, match=r"less than the minimum of crank-rockers .*, 32\.5\d+ deg"):
         two("back-step", low, back_step={"angle": 5.0}).linkage  # noqa: B018
     with pytest.raises(NoSolution, match="is more than"):
         two("back-step", RING, back_step={"angle": 60.0}).linkage  # noqa: B018

@@ -1,4 +1,4 @@
-"""Checks that several gear-linkages share."""
+"""Checks that several geared linkages share."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ ROCKER_CRANK = FourBar(100.0, 50.0, 18.0, 121.4)
 
 
 def apart(x: float, y: float) -> float:
-    """Distance of two angles, whole turns aside."""
+    """Distance of two angles, whole revolutions aside."""
     return abs(math.remainder(x - y, math.tau))
 
 
@@ -262,7 +262,7 @@ def test_mirror_and_scale_hold_bit_by_bit(lengths: tuple[float, ...], share: flo
         return
     linkage, phi = case
     state = solve(linkage, phi, 3)
-    # Where the crank is the longer, nu winds as phi - pi, which mirrors only up to the whole turn.
+    # Where the crank is the longer, nu winds as phi - pi, which mirrors only up to the whole revolution.
     mirror = solve(FourBar(*lengths, -1), -phi, 3)
     turn = math.tau if linkage.crank > linkage.frame else 0.0
     assert abs(mirror.rocker_angle + state.rocker_angle + turn) <= 8 * EPS
@@ -279,7 +279,7 @@ def condition(linkage: FourBar, phi: float, state: FourBarState) -> float:
 
 
 def condition_there_and_back(linkage: FourBar, phi: float, there: FourBarState, gain: float) -> float:
-    """Condition of the angles after both ways: the way back passes on the error of the rocker angle by its gain,
+    """Condition of the angles after both ways: the return stroke passes on the error of the rocker angle by its gain,
     d phi/d psi, and adds its own."""
     a, b, c, d = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame
     side, psi = math.sin(phi - there.coupler_angle), there.rocker_angle
@@ -300,7 +300,7 @@ def condition_there_and_back(linkage: FourBar, phi: float, there: FourBarState, 
 def test_the_way_back_passes_on_the_error_of_a_rounded_rocker_angle(
     lengths: tuple[float, ...], assembly: int, phi: float
 ) -> None:
-    """Against 50 digits: the crank angle comes back off by (error of psi) d phi/d psi, but for the way back's own
+    """Against 50 digits: the crank angle comes back off by (error of psi) d phi/d psi, but for the return stroke's own
     rounding; so the gain belongs to the condition of the exchange."""
     linkage = FourBar(*lengths, assembly)
     there, exact = solve(linkage, phi), oracle(linkage, phi, 1)[1]
@@ -324,7 +324,7 @@ def test_exchange_of_crank_and_rocker(lengths: tuple[float, ...], share: float, 
     there = solve(linkage, phi, 3)
     side = math.sin(phi - there.coupler_angle)
     if abs(side) < 0.05 or math.sin(there.transmission_angle) < 0.05:
-        return  # a dead point of one of the two drives: tested on its own
+        return  # a dead centre of one of the two drives: tested on its own
     drive = {
         "velocity": there.rocker_velocity,
         "acceleration": there.rocker_acceleration,
@@ -382,7 +382,7 @@ def test_angles_are_continuous_and_close_the_period(lengths: tuple[float, ...], 
         for turns in (1, 2, 4):
             first, later = states[k], states[k + 360 * turns]
             for name in ("coupler_angle", "rocker_angle"):
-                # Crank angles of up to three turns are rounded to 4 EPS, amplified by the velocity ratio (< 4).
+                # Crank angles of up to three revolutions are rounded to 4 EPS, amplified by the velocity ratio (< 4).
                 gone = getattr(later, name) - getattr(first, name)
                 assert gone == pytest.approx(math.tau * winding * turns, abs=32 * EPS)
 

@@ -1,4 +1,4 @@
-"""Nearest and farthest pass of the coupler joint over a whole turn of the linkage.
+"""Nearest and farthest pass of the coupler joint over a whole revolution of the linkage.
 
 Tolerances: distances 4 eps of the longest link (one rounded sum); the crank angle of a bound is checked by the distance
 that the closed linkage has there: near a bound the distance is flat (dead centre, quadratic), so that an angle good to

@@ -126,7 +126,7 @@ def test_round_trip_mirror_and_scale(drawn):
     offset = part * rod
     crank = share * (rod - abs(offset))
     stroke = SliderCrank.of_crank(crank, rod, offset).stroke
-    # dr/dS goes to 0 at the largest stroke, so that the way back is never worse than the stroke itself
+    # dr/dS goes to 0 at the largest stroke, so that the return stroke is never worse than the stroke itself
     assert SliderCrank(stroke, rod, offset).crank_length == pytest.approx(crank, rel=16 * EPS, abs=0.0)
     ratio = SliderCrank.of_crank(crank, rod, offset).quick_return_ratio
     assert SliderCrank.of_crank(crank, rod, -offset).quick_return_ratio == pytest.approx(
@@ -215,7 +215,7 @@ def test_mirror_of_the_position(psi, drawn):
         (lambda: SliderCrank(10.0, -1.0), "rod -1 mm"),
         (lambda: SliderCrank(10.0, 20.0, math.nan), "offset nan mm"),
         (lambda: SliderCrank.of_crank(96.0, 100.0, 5.0), "must not exceed rod less offset, 95 mm"),
-        (lambda: slider_crank.dead_center_folded(96.0, 100.0, -5.0), "cannot make a full turn"),
+        (lambda: slider_crank.dead_center_folded(96.0, 100.0, -5.0), "cannot make a full revolution"),
         (lambda: SliderCrank.of_crank(-1.0, 100.0), "crank -1 mm"),
         (lambda: slider_crank.slider(0.0, 96.0, 100.0, 5.0), r"at crank direction 0 deg .* longer than 101 mm"),
         (lambda: slider_crank.slider(0.0, 95.0, 100.0, 5.0, 1), "does not reach"),

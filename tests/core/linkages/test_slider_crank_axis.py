@@ -82,7 +82,7 @@ def test_an_extreme_at_two_places_is_left_to_the_class() -> None:
 
 
 def test_acceleration_that_peaks_on_both_sides_of_the_dead_centre() -> None:
-    """Class and array form against the greatest of a fine grid, h = 2e-6 rad, off by h^2/8 of the bend: 1e-12."""
+    """Class and array form against the maximum of a fine grid, h = 2e-6 rad, off by h^2/8 of the bend: 1e-12."""
     rods = [500.0, 568.46282557, 568.67, 590.0, 599.9]
     made = axis(design({**BASE, "offset": 0}, command="analyze").spec, "analyze", ["rod"], ["acceleration_max"], [])
     assert made is not None

@@ -1,4 +1,4 @@
-"""Extremes, standstills and back-steps over a turn.
+"""Extremes, standstills and back-steps over a revolution.
 
 Tolerances: 1e-14 rad for simple zeros of 1 + k sin(phi + s) (slope of order 1, a few ulp of 2 pi); near the tangency of
 1 + sin the place is set by the root of the derivative, again 1e-14.
@@ -56,7 +56,7 @@ def test_zero_at_the_seam_counts_once():
 
 
 def test_a_least_speed_that_a_turn_later_rounds_to_the_other_side_of_zero():
-    """Three extremes of a rounded 1 + sin: the least is negative where it was found, not where the turn closes."""
+    """Three extremes of a rounded 1 + sin: the minimum is negative where it was found, not where the turn closes."""
     least = Turning(0.5, -5.6e-17)
 
     def speed(x):

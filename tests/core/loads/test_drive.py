@@ -102,7 +102,7 @@ def test_motor_against_the_reference() -> None:
 
 
 def test_energy_balance_of_the_motor() -> None:
-    """Over a turn the motor gives what the load takes; over any part, besides, the change of the energy."""
+    """Over a revolution the motor gives what the load takes; over any part, besides, the change of the energy."""
     design = feed(motor={"no_load_speed": 210.0, "slope": 3.0}, flywheel={"inertia": 3.0})
     run = design.running.run
     nodes = run.panels.nodes
@@ -136,7 +136,7 @@ def test_rms_torque_of_the_motor_is_over_time() -> None:
 
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "loaded_swing_cycle"])
 def test_all_panels_at_once_are_those_turn_by_turn(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Energies to 1e-14, rates, which cancel, to 1e-12 of the greatest; turns are taken only where that does not do."""
+    """Energies to 1e-14, rates, which cancel, to 1e-12 of the maximum; turns are taken only where that does not do."""
     run = factory.design(name, command="loads").running.motor_run
     (edges, rates), turns = run._at_once(), run._turn_by_turn()
     assert edges == pytest.approx(turns[0], rel=1e-14)
@@ -166,7 +166,7 @@ def test_zone_of_constant_torque_has_its_closed_form() -> None:
 
 
 def test_motor_from_two_points_of_its_characteristic_at_its_own_shaft() -> None:
-    """Ratio 12 turns slope by 144, speed by 12 and inertia by 144."""
+    """Ratio 12 revolutions slope by 144, speed by 12 and inertia by 144."""
     motor = {"no_load_speed": 1500, "rated_speed": 1440, "rated_torque": 14.6, "inertia": 0.011, "ratio": 12}
     design = feed(motor=motor)
     slope = 14.6 / (60.0 * RPM) * 144.0
@@ -274,7 +274,7 @@ def test_a_share_of_the_balance_takes_that_share_of_the_force(share: float) -> N
 
 
 def test_best_counterweight_of_a_slider_crank() -> None:
-    """TY-460 size: 1105 N without, 925 N with the whole, the least in between."""
+    """TY-460 size: 1105 N without, 925 N with the whole, the minimum in between."""
     case = next(case for case in DATA["cases"] if case["spec"]["kind"] == "slider-crank")
     spec = {key: value for key, value in case["spec"].items() if key != "at"}
 

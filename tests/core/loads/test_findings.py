@@ -1,4 +1,4 @@
-"""Findings of loads that no worked design has: where each begins, and the number that its message names."""
+"""Findings of loads that no example has: where each begins, and the number that its message names."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_links_count_as_rigid_from_ten_times_the_input_on(frequency: float, stat
 
 
 def test_a_natural_frequency_at_the_limit_itself_passes() -> None:
-    """60 Hz over 120 turns a minute are 30: by way of rad/s a rounding was missing, and the check warned."""
+    """60 Hz over 120 revolutions a minute are 30: by way of rad/s a rounding was missing, and the check warned."""
     check = found("rigid-model", limits={"frequency_ratio": 30}, loads__vibration={"frequency": 60, "damping": 0.05})
     assert (check.status, check.value, check.limit) == ("pass", 30.0, 30.0)
     ratios = {"loaded_gripper": 110 * 3600 / 12000, "loaded_oscillating_cam": 60.0, "loaded_six_bar": 30.0}

@@ -55,7 +55,7 @@ def free(n: int) -> SteadyRun:
 
 
 def time(run: SteadyRun) -> tuple[Panels, Any]:
-    """Panels of a turn, and the time to their edges [s]."""
+    """Panels of a revolution, and the time to their edges [s]."""
     panels = run.energy.panels
     return panels, panels.running(1.0 / run.speed(panels.nodes))
 
@@ -72,7 +72,7 @@ def test_inertia_and_speed_at_the_change_point(n: int, inertia: float, speed: fl
 
 @pytest.mark.parametrize("n", [2, 40])
 def test_energy_does_not_drift_and_a_turn_takes_its_time(n: int) -> None:
-    """w^2 = 1 + 4 c sin^2(phi/2), c = (N + (N + 1)/2) g/J: a turn takes 4 K(-4 c)."""
+    """w^2 = 1 + 4 c sin^2(phi/2), c = (N + (N + 1)/2) g/J: a revolution takes 4 K(-4 c)."""
     run, phi = free(n), np.linspace(0.0, 2.0 * math.pi, 41)
     weight, inertia = (n + 0.5 * (n + 1)) * 9.81, n + (n + 1) / 3.0
     total = 0.5 * inertia * run.speed(phi) ** 2 + weight * np.cos(phi)
@@ -101,7 +101,7 @@ def test_reactions_need_no_drive_beside_the_change_points() -> None:
 
 
 def test_history_of_the_published_figure() -> None:
-    """B0 over 10 s, five turns through ten change points; an ODE solver gives the same to its tolerance."""
+    """B0 over 10 s, five revolutions through ten change points; an ODE solver gives the same to its tolerance."""
     run = free(2)
     panels, at = time(run)
     turn = at[-1]

@@ -123,7 +123,7 @@ def test_a_preload_that_holds_both_rollers_leaves_no_strike(held: Any) -> None:
 
 
 def test_a_roller_is_driven_round_where_it_is_pressed(free: Any, held: Any) -> None:
-    """Without a preload each roller leaves its cam; with one the greatest share is that of a fine grid."""
+    """Without a preload each roller leaves its cam; with one the maximum share is that of a fine grid."""
     assert free.traction_needed == [None, None]
     rows = np.linspace(0.0, 2.0 * math.pi, 5_001)
     for name, found in zip(held.own_rollers, held.traction_needed, strict=True):
@@ -141,7 +141,7 @@ MUTILATED = {
 
 
 def test_mutilated_gear_carries_the_load_only_while_it_moves() -> None:
-    """Ratio 2/3 in 1.5 turns of 6: tooth force 12 N m/30 mm, input torque 12 * 2/3, else nothing."""
+    """Ratio 2/3 in 1.5 revolutions of 6: tooth force 12 N m/30 mm, input torque 12 * 2/3, else nothing."""
     design = factory.design("mutilated_gear_press", command="loads", loads=MUTILATED)
     torque, teeth = design.table("torque"), design.table("teeth")
     moving = torque["input_angle"] < 540.0

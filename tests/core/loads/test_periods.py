@@ -37,7 +37,7 @@ def loaded(name: str, center: list[float]) -> Any:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_a_gear_out_of_balance_comes_home_after_its_own_turns(name: str) -> None:
-    """1e-12 of the greatest torque."""
+    """1e-12 of the maximum torque."""
     loads = loaded(name, [20.0, 0.0])
     assert loads.turns == LOADED[name][2]
     phi = np.linspace(0.0, 6.0, 40)

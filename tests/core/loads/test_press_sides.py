@@ -1,7 +1,7 @@
 """On which side of each other the parts of a press lie: by the work of a rolling pair, by hand, by its picture.
 
 A pair of forces in the line in which bed and cylinder roll on each other, +F on the bed and -F on the cylinder, does no
-work where both run the same way. Tolerances are 1e-12 of the greatest value of a course where both ways are exact; the
+work where both run the same way. Tolerances are 1e-12 of the maximum value of a course where both ways are exact; the
 zone's compensation leaves 1e-9 of the speed.
 """
 

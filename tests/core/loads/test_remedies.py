@@ -54,7 +54,7 @@ def test_remedy_makes_the_check_pass(code: str, base: str, keys: dict[str, Any])
         ({"zones": [{"from": 10, "to": 10, "value": 5}]}, "empty"),
         ({"table": [[0, 1], [90, 3], [360, 2]]}, "ends with the value"),
         ({"table": [[0, 1], [90, 3], [80, 2]]}, "ascend"),
-        ({"table": [[0, 1], [400, 2]]}, "one turn"),
+        ({"table": [[0, 1], [400, 2]]}, "one revolution"),
     ],
 )
 def test_courses_that_say_nothing_or_two_things(data: dict[str, Any], words: str) -> None:

@@ -382,7 +382,7 @@ def test_the_way_home_of_a_cam_on_a_crank_rocker_is_under_load() -> None:
 
 
 def test_a_crank_rocker_has_a_whole_turn() -> None:
-    """Weights and the device take nothing over a turn; a flywheel and a motor have what they need."""
+    """Weights and the device take nothing over a revolution; a flywheel and a motor have what they need."""
     loads = {"gravity": [3.0, -9.81], "drive_direction": 20, "flywheel": {"inertia": 3.0}, "roller": {"width": 20}}
     links = {"crank": {"mass": 1.2, "inertia": 0.002, "center": [10, 4]}, "cam": {"mass": 6.0, "inertia": 0.06}}
     design = factory.design("wide_swing_oscillating_cam", command="loads", loads={**loads, "links": links})

@@ -63,7 +63,7 @@ def _piston(**loads: Any) -> Any:
 
 
 def test_harmonics_of_a_piston() -> None:
-    """a/(r w^2) = cos t + 0.2540 cos 2t - 0.0041 cos 4t + 0.0001 cos 6t, its greatest 1 + r/L."""
+    """a/(r w^2) = cos t + 0.2540 cos 2t - 0.0041 cos 4t + 0.0001 cos 6t, its maximum 1 + r/L."""
     design = _piston(links={"slider": {"mass": 2.0}})
     unit = 2.0 * 0.05 * (20.0 * math.pi) ** 2
     table = design.table("frame")
@@ -83,7 +83,7 @@ def test_equivalent_load_of_the_crank_s_bearing_has_a_closed_form() -> None:
     assert design.raw("pin_D.equivalent") == pytest.approx(wanted, rel=1e-12)
     assert design.raw("pin_D.peak") == pytest.approx(1000.0 / math.sqrt(1.0 - m), rel=1e-12)
     assert design.raw("pin_D.travel") == pytest.approx(1.0, rel=1e-12)
-    # the gudgeon pin swings by asin(r/L) to either side, twice a turn
+    # the gudgeon pin swings by asin(r/L) to either side, twice a revolution
     assert design.raw("pin_F.travel") == pytest.approx(4.0 * math.asin(0.25) / (2.0 * math.pi), rel=1e-12)
 
 
@@ -150,7 +150,7 @@ def test_vibration_of_a_rocker_that_never_rests_by_an_ode_solver(frequency: floa
     def turn(state: list[float], **given: Any) -> Any:
         return solve_ivp(rate, (0.0, period / speed), state, method="DOP853", rtol=1e-10, atol=1e-13, **given)
 
-    # The state after a turn is linear in that before it: what comes back to itself.
+    # The state after a revolution is linear in that before it: what comes back to itself.
     free, one, two = (turn(state).y[:, -1] for state in ([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]))
     start = np.linalg.solve(np.eye(2) - np.column_stack((one - free, two - free)), free)
     places = np.array([0.4, 2.1, 3.3, 5.0])

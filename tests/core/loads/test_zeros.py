@@ -59,6 +59,6 @@ def test_end_of_a_dwell_is_where_the_function_leaves_zero() -> None:
         return np.where(phi < 1.0, 0.0, np.where(phi > 4.0, 0.0, np.sin((phi - 1.0) * math.pi / 3.0) ** 3))
 
     lasting = [place for place in zeros(f, TURN) if place < 3.0]
-    assert lasting == pytest.approx([1.0], abs=1e-9)  # a share of 1e-27 of the greatest value beyond it
+    assert lasting == pytest.approx([1.0], abs=1e-9)  # a share of 1e-27 of the maximum value beyond it
     anywhere = zeros_of([f], TURN, any_zero=True)[0][0]
     assert float(f(np.array([anywhere]))[0]) == pytest.approx(0.0, abs=1e-20)

@@ -54,7 +54,7 @@ def test_the_sum_is_that_of_the_members_and_its_mean_is_that_of_the_forces() -> 
     table = found.table("torque")
     whole = table["a.torque"] + table["b.torque"] + table["c.torque"]
     np.testing.assert_allclose(table["input_torque"], whole, rtol=0.0, atol=1e-10)
-    # two strokes of 60 mm against 40 N over a turn; springs and masses give back what they take
+    # two strokes of 60 mm against 40 N over a revolution; springs and masses give back what they take
     assert found.input_torque_mean == pytest.approx(2.0 * 0.060 * 40.0 / (2.0 * math.pi), rel=1e-9)
 
 
@@ -85,7 +85,7 @@ def test_resistance_behind_a_swinging_driver_acts_against_the_motion() -> None:
     swung = ROCKER | {"loads": {"links": {"rocker": {"inertia": 0.01}}, "forces": [{"on": "rocker", "resistance": 5}]}}
     found = loads({"first": of(BAR), "arm": of(swung, input="first.output", phase=60)})
     way = np.abs(np.diff(found.members["arm"].rates(np.linspace(0.0, 2.0 * math.pi, 7201), 0)[0])).sum()
-    # the whole way forth and back times the torque, over a turn; the rows leave 1e-6 of it
+    # the whole way forth and back times the torque, over a revolution; the rows leave 1e-6 of it
     assert found.input_torque_mean == pytest.approx(way * 5.0 / (2.0 * math.pi), rel=1e-5)
 
 

@@ -17,7 +17,7 @@ from gearlink.core.machines.machine.phases import Tie, solve
 
 
 def least(ties: Sequence[Tie], phases: Mapping[str, Any], dial: float) -> Any:
-    """Least margin of some phases, numbers or arrays, by the definition alone."""
+    """Minimum margin of some phases, numbers or arrays, by the definition alone."""
     found = []
     for tie in ties:
         x = wrapped(phases.get(tie.two, 0.0) - phases.get(tie.one, 0.0) + tie.offset, dial)

@@ -195,7 +195,7 @@ def test_where_joints_turn_back_a_row_is_the_one_just_after() -> None:
 
 
 def test_how_near_it_is_to_locking_is_the_worst_of_all_turns() -> None:
-    """A five-bar of three turns is nearest to locking in its second, between two rows of 5 deg."""
+    """A five-bar of three revolutions is nearest to locking in its second, between two rows of 5 deg."""
     links = {"input": 35, "coupler": 80, "follower": 75, "output": 35}
     data = {"kind": "geared-five-bar", "form": "path", "gears": {"module": 2, "input": 20, "output": 60}, "phase": 60}
     data |= {"links": links, "coupler_point": {"along": 30}}

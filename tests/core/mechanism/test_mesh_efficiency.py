@@ -1,6 +1,6 @@
 """The efficiency of a mesh: output over input power, whichever gear drives, counted by the balance of each free gear.
 
-Tolerance 1e-11 of the greatest: a fixed point that ends at 1e-14, and forces of linkages of condition below 1e3.
+Tolerance 1e-11 of the maximum: a fixed point that ends at 1e-14, and forces of linkages of condition below 1e3.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Derivatives of all links of every kind against differences of the derivative below.
 
 Central differences over h and h/2, extrapolated: their error is of the order h^4 of a smooth motion, and of the
-rounding over h. Both lie below 1e-8 of the greatest rate of a link at these places.
+rounding over h. Both lie below 1e-8 of the maximum rate of a link at these places.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ MORE: dict[str, tuple[Any, dict[str, Any]]] = {
     "wide swing, slider": ("loaded_swing_slider", {}),
     "wide swing, stroke alone": ("loaded_wide_swing", {}),
     "five-bar, function": (FUNCTION, {"loads": SPEED}),
-    "six-bar, whole turns": ("loaded_six_bar", {}),
+    "six-bar, whole revolutions": ("loaded_six_bar", {}),
     "drag link": ("two_gear_drag_link", {"loads": SPEED}),
     "mutilated, timed": ("mutilated_gear_times", {"loads": {"speed": 60, "links": {"rocker": {"inertia": 0.01}}}}),
     "press, quartic transition": ("loaded_press", {"cam__transition": "quartic"}),
@@ -45,7 +45,7 @@ def _made(name: str) -> Any:
 
 
 def _places(design: Any, count: int = 24) -> Any:
-    """Input angles over a turn, or a stroke, away from the joints of the law."""
+    """Input angles over a revolution, or a stroke, away from the joints of the law."""
     width = design.machine.stroke or 2.0 * np.pi
     phi = width * (np.arange(count) + 0.37) / count
     joints = np.array([*design.own_joints, 0.0, width])

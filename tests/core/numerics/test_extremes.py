@@ -1,4 +1,4 @@
-"""Refined extremes over a turn.
+"""Refined extremes over a revolution.
 
 Tolerances
     Values at smooth maxima and at kinks: 4 ulp. Places: sqrt(eps) of the turn at a smooth maximum (the function is
@@ -104,7 +104,7 @@ def test_few_rounds_at_a_kink(kink: float, left: float, right: float, bend: floa
 
 
 def test_few_rounds_at_a_jump_between_the_samples() -> None:
-    # rising up to 2, then 1: the least upper bound at the jump, 16-fold a round
+    # rising up to 2, then 1: the minimum upper bound at the jump, 16-fold a round
     top, calls = _calls(lambda x: np.where(x < 2.0, 3.0 + x, 1.0), samples=360)
     assert top.value == pytest.approx(5.0, abs=8.0 * math.ulp(TURN))
     assert calls <= 16

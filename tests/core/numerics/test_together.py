@@ -22,7 +22,7 @@ FUNCTIONS: list[Callable[[Reals], Reals]] = [np.cos, _kinked, lambda x: np.floor
 
 
 def test_extremes_found_together_are_those_found_alone() -> None:
-    """Greatest and least of smooth, kinked, jumping and constant functions."""
+    """Maximum and minimum of smooth, kinked, jumping and constant functions."""
     wanted = [(f, greatest) for f in FUNCTIONS for greatest in (True, False)]
     alone = [(maximum_over if greatest else minimum_over)(f, joints=JOINTS, samples=300) for f, greatest in wanted]
     assert extremes_over(wanted, joints=JOINTS, samples=300) == alone

@@ -69,14 +69,14 @@ def by_turnings(drive: PlanetLinkage) -> int:
 
 
 def outputs(drive: PlanetLinkage) -> np.ndarray[Any, Any]:
-    """Output angle [deg] over two turns on the grid."""
+    """Output angle [deg] over two revolutions on the grid."""
     places = np.radians(np.arange(0.0, 720.0, GRID))
     coupler = fourbar_sweep.solve(drive.linkage, places, 0).coupler_angle
     return np.degrees((1.0 - drive.ratio) * places + drive.ratio * coupler)
 
 
 def scanned_window(drive: PlanetLinkage, tolerance: float) -> float:
-    """Longest window [deg] within +- a tolerance [deg] among the samples of two turns."""
+    """Longest window [deg] within +- a tolerance [deg] among the samples of two revolutions."""
     angles = outputs(drive)
 
     def too_long(steps: int) -> bool:

@@ -35,7 +35,7 @@ def scanned(design: Any, tolerance: float) -> float:
     output = output.tolist()
     longest, start, least, most = 0, 0, deque[int](), deque[int]()
     for end, angle in enumerate(output):
-        for kept, sign in ((least, 1.0), (most, -1.0)):  # places of the least and of the greatest since `start`
+        for kept, sign in ((least, 1.0), (most, -1.0)):  # places of the minimum and of the maximum since `start`
             while kept and sign * output[kept[-1]] >= sign * angle:
                 kept.pop()
             kept.append(end)

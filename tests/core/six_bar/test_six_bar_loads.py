@@ -17,7 +17,7 @@ from gearlink.core.base.errors import GearlinkError
 from gearlink.core.mechanism.joints import meshes_of
 
 SWING = "six_bar_swing"
-TURNS = {"both trains on one link, two turns": 2, "free gear on B": 3, "free gear on F": 3}
+TURNS = {"both trains on one link, two revolutions": 2, "free gear on B": 3, "free gear on F": 3}
 
 
 @pytest.mark.quick(3)
@@ -45,7 +45,7 @@ def test_mean_power_is_that_of_the_load_and_friction_adds_to_it(name: str) -> No
 
 
 def test_a_trial_of_loads_counts_the_turns_of_its_period() -> None:
-    """Fifty turns cost as much as fifty designs of one turn, with friction as thousand."""
+    """Fifty turns cost as much as fifty designs of one revolution, with friction as thousand."""
     trains = [worked(SWING)["trains"][0] | {"pins": ["E", "F", "A"], "gears": [20, 30, 40]},
               {"pins": ["A", "B"], "module": 2, "gears": [22, 20]}]  # fmt: skip
     links = {"coupler_1": 180, "coupler_2": 180, "coupler_3": 180}
@@ -152,7 +152,7 @@ def test_a_negative_mass_is_refused() -> None:
 
 
 def test_two_trains_between_the_same_pins_are_judged_both() -> None:
-    made = design({k: v for k, v in SIX_BARS["both trains on one link, two turns"].items() if k != "loads"})
+    made = design({k: v for k, v in SIX_BARS["both trains on one link, two revolutions"].items() if k != "loads"})
     assert len(made.meshes) == 3
     assert len(made.center_distance) == 3
     assert len(made.check("contact-ratio")) == 3

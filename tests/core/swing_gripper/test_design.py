@@ -72,7 +72,7 @@ def test_extremes_of_the_reference() -> None:
     assert peak == pytest.approx(expected["psi_dd_max"], rel=1e-9, abs=0.0)
     scan = REFERENCE["example_extremes_1deg_scan"]
     for value, key in zip(DESIGN.min_curvature_radius, ("kappa1", "kappa2"), strict=True):
-        # The least curvature radius is that of the dwell circle, in both cams at a dwell that the scan met.
+        # The minimum curvature radius is that of the dwell circle, in both cams at a dwell that the scan met.
         assert value == pytest.approx(1.0 / float(scan[key]["max"]), rel=1e-10, abs=0.0)
     assert DESIGN.min_radius == pytest.approx((93.990, 94.667), rel=0.0, abs=5e-4)
     assert DESIGN.max_radius == pytest.approx((165.461, 166.158), rel=0.0, abs=5e-4)
@@ -177,7 +177,7 @@ def test_rows_of_the_tables() -> None:
         ({"laws__accelerate": {"quintic": 0.7}}, "laws.accelerate", "keep kappa in 2/5 to 3/5"),
         ({"laws__accelerate": "half-simple-harmonic"}, "laws.accelerate", "half-cycloidal or velocity-345"),
         ({"total_swing": 40.0}, "total_swing", r"phases.constant by \+1.88888889 deg"),
-        ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a turn or more.*arm longer than 32.63 mm"),
+        ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a revolution or more.*arm longer than 32.63 mm"),
         ({"cylinder__radius": 1e12}, "arm.length", "radius less than 1241 mm"),
     ],
     ids=lambda value: str(value)[:40],

@@ -1,9 +1,9 @@
-"""The linkage of the swing gripper: both ways of its loop, its dead points, what brings it clear of them.
+"""The linkage of the swing gripper: both ways of its loop, its dead centres, what brings it clear of them.
 
 Tolerances, EPS = 2^-52; the example keeps 70 deg of transmission, so conditions are near 1:
 * angles of the 18-digit table: 8 EPS of a half turn; rates 16 EPS and accelerations 64 EPS of their peak - three
   sums of rotating terms, each rounded, divided by sin(mu);
-* closed form against Newton-Raphson: 64 EPS over sin(mu) - both read the driving angle shifted by half a turn;
+* closed form against Newton-Raphson: 64 EPS over sin(mu) - both read the driving angle shifted by half a revolution;
 * turned, shifted and mirrored machines: 16 EPS of a turn, for the pivots are rounded anew; the mirror image is exact
   but for the sign of the rounding in the angles' reduction.
 """
@@ -137,7 +137,7 @@ def test_error_of_the_closed_form_is_its_distance_from_60_digits() -> None:
 
 
 def test_a_direction_of_another_turn_is_the_same_direction() -> None:
-    """Of a gripper that could not go round: Newton-Raphson is not sought a turn away."""
+    """Of a gripper that could not go round: Newton-Raphson is not sought a revolution away."""
     links = {"input": 150.0, "coupler": 215.0, "output": 100.0}
     for direction in (-250.0, 110.0):
         linkage = machine(links=links, output_direction=direction).linkage
@@ -248,7 +248,7 @@ def test_least_transmission_angles_against_a_fine_sweep() -> None:
 def test_transmission_angles_of_the_example() -> None:
     scanned = {key: math.radians(float(value)) for key, value in (("D", "69.7178346241"), ("C", "73.0626895763"))}
     at_d, at_c = LINKAGE.least_transmission
-    # Printed with 12 digits, and least at the end of the stroke, where the scan stood.
+    # Printed with 12 digits, and minimum at the end of the stroke, where the scan stood.
     assert at_d.value == pytest.approx(scanned["D"], rel=0.0, abs=1e-12)
     assert at_c.value == pytest.approx(scanned["C"], rel=0.0, abs=1e-12)
     assert at_d.place == LINKAGE.law.total_swing
@@ -294,7 +294,7 @@ def test_the_coupler_that_is_asked_for_closes_the_linkage() -> None:
     with pytest.raises(NoSolution) as refused:
         _ = machine(links__coupler=115.5).linkage
     missing = float(str(refused.value).split("lengthen input or coupler by ")[1].split()[0])
-    # Rounded to four digits; a tenth of a millimetre more takes it off the dead point.
+    # Rounded to four digits; a tenth of a millimetre more takes it off the dead centre.
     assert machine(links__coupler=115.5 + missing + 0.1).linkage.least_transmission[1].value > DEAD_POINT
 
 

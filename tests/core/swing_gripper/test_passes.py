@@ -95,7 +95,7 @@ def distance(place: complex, start: Any, end: Any) -> Any:
 
 
 def brute(data: Data, beta_of: Callable[[Any], Any], place: complex, body: str) -> float:
-    """The least distance over a turn of the cylinder."""
+    """The minimum distance over a revolution of the cylinder."""
     low, high = 0.0, 360.0
     for _ in range(6):
         theta = np.linspace(low, high, 601)
@@ -146,7 +146,7 @@ def try_designs(count: int, seed: int) -> Counter[str]:
         try:
             _ = made.linkage
         except NoSolution:
-            continue  # a linkage that does not close, or comes to a dead point
+            continue  # a linkage that does not close, or comes to a dead centre
         statuses += judged(made, data)
         tried += 1
     return statuses

@@ -55,7 +55,7 @@ def test_phases_that_leave_nothing_or_too_much_open_are_refused(phases: dict[str
 
 
 def peaks(design: Any) -> list[float]:
-    """Greatest |beta''| in accelerate, decelerate and return, off a dense grid of the turn."""
+    """Maximum |beta''| in accelerate, decelerate and return, off a dense grid of the turn."""
     law, found = design.motion.law, []
     for k in (0, 2, 4):
         inside = np.linspace(law.starts[k], law.starts[k + 1], 20_001)[:-1]

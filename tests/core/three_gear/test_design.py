@@ -2,7 +2,7 @@
 
 Tolerances
 * oracle (tests/oracles/three_gear.py, 30 digits): 1e-11 relative for speeds and angles. The linkages keep 20 deg and
-  more from their dead points: condition below 10. A standstill loses d/|d - d*|, 40 for the printed example 3:
+  more from their dead centres: condition below 10. A standstill loses d/|d - d*|, 40 for the printed example 3:
   1e-10 deg.
 * mirror image: 1e-12 relative; the same sums in another order.
 * remedies are applied as printed and must hold exactly.
@@ -464,7 +464,7 @@ def test_the_tolerance_of_the_request_for_a_dwell_measures_an_analysis():
 
 @pytest.mark.parametrize("key", ["dwell_tolerance", "dwell_backlash"])
 def test_a_tolerance_without_end_is_a_finding(key):
-    """Half of the gain of a turn of example 3; a play counts at the output gear's circle, r5 = 75 mm."""
+    """Half of the gain of a revolution of example 3; a play counts at the output gear's circle, r5 = 75 mm."""
     limit = 180.0 * design(**EXAMPLE_3).mean_ratio
     scale = 1.0 if key == "dwell_tolerance" else math.radians(2.0 * 75.0)
     for share, status in ((0.999, "pass"), (1.001, "fail")):

@@ -100,7 +100,7 @@ def test_published_dwell_angles(case):
 
 @pytest.mark.parametrize("name", ["synth", "analyze"])
 def test_published_designs(name):
-    """Each worked design of the command line, from its link lengths."""
+    """Each example of the command line, from its link lengths."""
     for case in json.loads((REFERENCE / "contract" / f"{name}.json").read_text()):
         gears, out = case["spec"]["gears"], case["quantities"]
         links = case["spec"].get("links", {})

@@ -139,7 +139,7 @@ def test_frame_agrees_with_the_direct_formula_at_60_digits(r1, r3, r5, share):
 
 
 def test_double_root_by_search_at_30_digits():
-    """Second method: the frame for which the least speed, found by its derivative, is zero."""
+    """Second method: the frame for which the minimum speed, found by its derivative, is zero."""
     a, b, c = 18, 50, 100
 
     def speed(phi, d):

@@ -1,7 +1,7 @@
 """Output motion of the three-gear four-bar.
 
 Tolerances: 1e-14 absolute for ratios and angles of order one (a few ulp; the reference has 16 digits and the links are
-far from a dead point); extremes' places 1e-14 rad for the same reason, being simple roots; random linkages 1e-12
+far from a dead centre); extremes' places 1e-14 rad for the same reason, being simple roots; random linkages 1e-12
 times the condition number 1/sin^2(gamma) of the rates.
 """
 

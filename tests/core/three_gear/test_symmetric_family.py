@@ -79,7 +79,7 @@ def test_published_example_2():
 
 
 def test_published_designs_of_the_symmetric_family():
-    """The worked designs of the command line, to their 1e-11 and well below."""
+    """The examples of the command line, to their 1e-11 and well below."""
     for case in json.loads((REFERENCE / "contract" / "synth.json").read_text()):
         spec, out = case["spec"], case["quantities"]
         if "momentary" in spec:
@@ -117,7 +117,7 @@ def test_frame_ratio_and_crank_angle_are_inverse(i3, phi12):
 def test_closed_limits_agree_with_the_general_linkage(i3, d, assembly):
     linkage, train = symmetric_linkage(d, 100.0, assembly), GearTrain(1.0, -i3, 1.0)
     assert linkage.kind() == "crank-rocker"
-    # k = 2d/(1 + d^2) is the cosine of the least transmission angle; rates lose 1/sin^2
+    # k = 2d/(1 + d^2) is the cosine of the minimum transmission angle; rates lose 1/sin^2
     slack = 2e-14 * (1.0 - i3) * ((d + 1.0) / (d - 1.0)) ** 2
     speed, peak = speed_extremes(linkage, train), acceleration_extremes(linkage, train)
     assert (speed.greatest, speed.least) == pytest.approx(speed_ratio_limits(i3, d), abs=slack)

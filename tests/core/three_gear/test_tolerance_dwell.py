@@ -44,7 +44,7 @@ def spread(linkage, train, start, length, steps=1000):
 
 
 def longest_on_a_grid(linkage, train, tolerance, steps=360):
-    """Second method: a window that slides over a grid of two turns; short by up to two steps."""
+    """Second method: a window that slides over a grid of two revolutions; short by up to two steps."""
     values = [output_angle(linkage, train, TURN * i / steps) for i in range(2 * steps)]
     best = 0
     for i in range(steps):

@@ -1,4 +1,4 @@
-"""Drives as made: the general class against the closed forms, and many at once against the class.
+"""Drives as manufactured: the general class against the closed forms, and many at once against the class.
 
 Tolerances: places of the turn are roots of well-conditioned functions, met to a few ulp of a turn (1e-12 rad leaves
 room for the condition of the loop); at a standstill that nearly touches the condition is 1/sqrt(distance), 1e-11. The
@@ -124,7 +124,7 @@ def test_no_bit_of_a_drive_hangs_by_the_others(name: str) -> None:
 
 
 def _with_window(nominal: Any) -> Any:
-    """The drive that asks for just the window that it has: some as made miss it."""
+    """The drive that asks for just the window that it has: some as manufactured miss it."""
     given = nominal.spec.model_dump(mode="json", exclude_unset=True, by_alias=True)
     return factory.design(given, dwell_window=math.degrees(nominal.tolerance_dwell_angle))
 

@@ -152,7 +152,7 @@ def test_a_command_that_the_file_has_nothing_for_is_refused_at_its_key() -> None
 
 
 def test_a_share_of_missing_designs_is_counted() -> None:
-    """A slider-crank whose rod is hardly longer than crank and offset: some designs as made do not turn."""
+    """A slider-crank whose rod is hardly longer than crank and offset: some designs as manufactured do not turn."""
     data = {"kind": "slider-crank", "name": "short", "crank": 40.0, "rod": 50.2, "offset": 10.0}
     section = {"sources": {"rod": {"plus_minus": 0.3}}, "samples": 64}
     made = factory.design(data, command="tolerance", tolerance=section)

@@ -98,9 +98,7 @@ def test_an_arm_that_turns_over_the_cam_shaft_is_warned_of() -> None:
     assert value == pytest.approx(150.0 * math.sin(math.radians(135.0)) - 110.0, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "name", ["twin_cam", "twin_rocker", "slider_cam", "oscillating_cam", "cycle"]
-)  # the worked designs
+@pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider_cam", "oscillating_cam", "cycle"])  # the examples
 def test_worked_designs_keep_clear(name: str) -> None:
     assert not told(factory.design(f"wide_swing_{name}"))
 
@@ -206,7 +204,7 @@ PLACED = {
     ],
 )
 def test_what_a_direction_places_against_the_links_of_the_loads(name: str, key: str) -> None:
-    """The least distance of rows of the mechanism that the loads are computed with, in directions all round."""
+    """The minimum distance of rows of the mechanism that the loads are computed with, in directions all round."""
     warned = 0
     for direction in range(-180, 180, 15):
         design = factory.design(name, command="loads", **{f"loads__{key}": direction})

@@ -1,7 +1,7 @@
 """The whole cycle of a wide swing: closed contours, their sectors and joints, what the device has to spare.
 
 Tolerances: 1e-10 against references of 16 digits; places against the machine set up in the world 1e-12 of the centre
-distance (one turn of coordinates of some hundred mm); the roller's distance from points 0.1 mm apart of a contour
+distance (one revolution of coordinates of some hundred mm); the roller's distance from points 0.1 mm apart of a contour
 exceeds that from the contour by up to 0.05^2/(2 r_p), below 5e-4 mm; radii by differences over 1e-4 rad keep 5e-3
 beside a law that starts with a step.
 """
@@ -239,7 +239,7 @@ def test_contour_in_the_shaft_fails() -> None:
 
 
 def test_contour_without_a_hub_is_warned_of() -> None:
-    """Half the shaft's radius is the usual least hub; a free sector that left 0.9 mm of it had passed."""
+    """Half the shaft's radius is the usual minimum hub; a free sector that left 0.9 mm of it had passed."""
     slot = min(cam.least_radius for cam in rocker(cam__free_clearance=0).cycle.contours.values())
     clearance = 40.0
     made = rocker(cam__free_clearance=clearance, cam__shaft_radius=slot - clearance - 0.9)

@@ -589,7 +589,7 @@ def test_laziness() -> None:
 
 
 def test_spring_of_given_length_is_judged_by_formula_4() -> None:
-    """The least ratio solves (4) with its own stretch, whatever ratio the file has; it is the check's limit."""
+    """The minimum ratio solves (4) with its own stretch, whatever ratio the file has; it is the check's limit."""
     unloader = {"type": "spring", "stretch_ratio": 0.5, "arm": 120, "closed_length": 150, "end_fittings": 40}
     for ratio in (2.2, 2.9, 2.92, 4.0):
         made = design(unloader={**unloader, "pivot_ratio": ratio}, cam=None)

@@ -1,7 +1,7 @@
 """Torques over the stroke with an elastic drive, and the blow at the change of flanks.
 
 Tolerances: 1e-7 of the peak against DOP853 (own control 1e-11); the formula of the blow is of leading order: 8 %
-against the free rocker integrated, 2 to 5 % in the worked design; 1e-6 for a difference quotient of the arc.
+against the free rocker integrated, 2 to 5 % in the example; 1e-6 for a difference quotient of the arc.
 """
 
 from __future__ import annotations

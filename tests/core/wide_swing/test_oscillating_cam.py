@@ -134,7 +134,7 @@ def test_refusals() -> None:
 
 
 def example(roller: float = 8.0, assembly: int = 1) -> OscillatingCam:
-    """The worked design: 60, 180, 96, 192 mm, centre distance 200 mm."""
+    """The example: 60, 180, 96, 192 mm, centre distance 200 mm."""
     drive = CrankRockerDrive(FourBar(60.0, 180.0, 96.0, 192.0, assembly))
     return OscillatingCam(drive, ElasticLaw(Pneumatic(2.6), SWING), 200.0, roller)
 
@@ -161,7 +161,7 @@ def test_roller_touches_the_profile_where_contact_says(cam: OscillatingCam) -> N
 
 
 def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
-    """The worked design starts with a bulge and ends hollow; 0.752 of the least radius is 4/3 of a cusp's, to 2 %."""
+    """The example starts with a bulge and ends hollow; 0.752 of the minimum radius is 4/3 of a cusp's, to 2 %."""
     cam = example()
     (first, _), (_, last) = cam.contact
     assert 0.002 < first < 0.003
@@ -200,7 +200,7 @@ def test_next_to_a_standstill_the_pressure_angle_is_that_of_the_stop() -> None:
 
 
 def test_greatest_contact_force_is_the_same_in_other_units() -> None:
-    """Above its lift-off speed the force is greatest at the end of the stroke; all lengths 1.7 times as long."""
+    """Above its lift-off speed the force is largest at the end of the stroke; all lengths 1.7 times as long."""
     data = factory.worked("wide_swing_oscillating_cam")
     force = factory.design(data, command="swing", unloader__residual=0.34).contact_force
     sizes = [(section, key) for section in ("drive", "cam", "unloader") for key in data[section]]

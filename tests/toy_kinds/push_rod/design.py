@@ -30,7 +30,7 @@ class PushRod(RealSpeed, Design):
         return reach.farthest - reach.nearest
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """The slider over a turn."""
+        """The slider over a revolution."""
         from gearlink.core.mechanism.courses import Shown, motion_table
         from gearlink.core.push_rod.mechanism import SLIDER
 

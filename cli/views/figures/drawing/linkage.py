@@ -106,7 +106,7 @@ def over_turn(design: Any, name: str, gain: float = 0.0) -> tuple[Any, Any]:
 
 
 def closed(values: Any, gain: float = 0.0) -> Any:
-    """A column with its first value, and what a turn adds, put at the end."""
+    """A column with its first value, and what a revolution adds, put at the end."""
     import numpy as np
 
     data = np.asarray(values, dtype=float)

@@ -1,4 +1,4 @@
-"""Panels that several figures share: named phases over a turn, legends outside the curves, cams to scale."""
+"""Panels that several figures share: named phases over a revolution, legends outside the curves, cams to scale."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _LINE = 112
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """A named stretch of a turn [deg]; it may begin before 0 or end after 360."""
+    """A named stretch of a revolution [deg]; it may begin before 0 or end after 360."""
 
     name: str
     start: float
@@ -220,7 +220,7 @@ def few_ticks(axis: Axis, most: int = 6) -> None:
 
 
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
-    """Curves over one turn; panels above others go without a label of the x axis."""
+    """Curves over one revolution; panels above others go without a label of the x axis."""
     style.curves(axes, xlabel, ylabel)
     small_ticks(axes)
     style.full_turn(axes, 30)

@@ -87,13 +87,13 @@ def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
 
 
 def full_turn(axes: Axes, step: int = 60) -> None:
-    """The x axis as one turn in degrees."""
+    """The x axis as one revolution in degrees."""
     axes.set_xlim(0, 360)
     numbers_at(axes, range(0, 361, step))
 
 
 def turns(axes: Axes, count: int) -> None:
-    """Numbers along an x axis over so many turns, in degrees."""
+    """Numbers along an x axis over so many revolutions, in degrees."""
     numbers_at(axes, range(0, 360 * count + 1, 60 if count == 1 else 180 if count <= 3 else 360 * -(-count // 8)))
 
 

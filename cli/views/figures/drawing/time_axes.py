@@ -22,7 +22,7 @@ _UNITS_OF_A_TURN = {
     "cam angle [deg]": 360.0,
     "input turns": 1.0,
 }
-"""How the x axes over the input are named, and what a turn is on them."""
+"""How the x axes over the input are named, and what a revolution is on them."""
 
 
 def turn_time(design: Any) -> float | None:

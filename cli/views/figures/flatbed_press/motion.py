@@ -46,7 +46,7 @@ def machine(axes: Axes, design: FlatbedPress) -> None:
 
 
 def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
-    """The press in twelve positions, and last where a chain has its least transmission angle."""
+    """The press in twelve positions, and last where a chain has its minimum transmission angle."""
     from gearlink.core.machines.flatbed_press.chains import least_transmission_input
 
     return Machine(design, np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN))
@@ -82,14 +82,14 @@ def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
 
 
 def _overlay(axes: Axes, scene: Scene, at: Machine, angle: float) -> None:
-    """All positions thin, one strong with its letters, and the one of the least transmission angle dashed."""
+    """All positions thin, one strong with its letters, and the one of the minimum transmission angle dashed."""
     (links,) = scene.parts
     assert isinstance(links, Chain), "a chain alone"
     *thin, least = np.array(links.joints).T
     for chain in thin:
         axes.plot(chain.real, chain.imag, color=links.color, linewidth=0.6, alpha=0.55, zorder=2)
     look: Any = {"color": LEAST, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 3}
-    words = f"least transmission angle {math.degrees(angle):.5g}° (input {math.degrees(at.phi[-1]):.5g}°)"
+    words = f"minimum transmission angle {math.degrees(angle):.5g}° (input {math.degrees(at.phi[-1]):.5g}°)"
     axes.plot(least.real, least.imag, **look, label=words)
     _angle_arc(axes, *(complex(point) for point in least[1:4]))
     scene_axes.draw(axes, scene, HIGHLIGHTED)
@@ -206,7 +206,7 @@ def _zone(axes: list[Axes], start: float, end: float) -> None:
 
 
 def _poor_transmission(axes: Axes, design: FlatbedPress) -> None:
-    """Where the least transmission angle of a chain falls below its limit."""
+    """Where the minimum transmission angle of a chain falls below its limit."""
     limit = design.spec.limits.transmission_angle
     for chain in ("bed", "cylinder"):
         least, place = (math.degrees(design.raw(f"min_transmission_angle_{chain}{end}")) for end in ("", "_at"))

@@ -49,7 +49,7 @@ def follower_discs(design: Any) -> tuple[DiscCam, ...]:
 
 
 def _limit(design: Any) -> float:
-    """Greatest pressure angle that the file allows [deg]; of strokes with limits of their own the greater."""
+    """Maximum pressure angle that the file allows [deg]; of strokes with limits of their own the greater."""
     of_strokes = getattr(design.spec, "pressure_limits", None)
     return float(design.spec.limits.pressure_angle if of_strokes is None else max(of_strokes()))
 
@@ -187,7 +187,7 @@ def _notes(cam: DiscCam, shaft: float) -> list[str]:
         bore,
         *([key.removeprefix(", ")] if key else []),
         f"profile from R {cam.min_radius:.5g} to R {cam.max_radius:.5g} mm",
-        f"least convex radius of the pitch curve {least:.5g} mm"
+        f"minimum convex radius of the pitch curve {least:.5g} mm"
         if math.isfinite(least)
         else "pitch curve never convex",
         "table: radius of the roller's centre [mm]",

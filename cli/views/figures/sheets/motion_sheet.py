@@ -241,7 +241,7 @@ def gripper(design: Any) -> list[Course]:
 
 
 def five_bar(design: Any) -> list[Course]:
-    """Both coordinates of a path that one turn closes."""
+    """Both coordinates of a path that one revolution closes."""
     return of_motion(design) if design.is_path and design.period_turns == 1 else []
 
 

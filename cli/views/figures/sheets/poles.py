@@ -26,7 +26,7 @@ def draw(design: ThreeGearFourBar) -> Figure:
     places = design.dwell_crank_angles[:_MOST] or [design.speed_ratio_min_at]
     made = panels.page(f"{design.spec.name}: instant centres", 0.5 * len(places) + 0.1)
     grid = made.add_gridspec(len(places), 1)
-    words = "standstill" if design.dwell_crank_angles else "least speed"
+    words = "standstill" if design.dwell_crank_angles else "minimum speed"
     for row, phi in enumerate(places):
         axes = made.add_subplot(grid[row])
         panels.drawing(axes, f"Poles at the {words}, crank angle {math.degrees(phi):.5g}°")

@@ -1,4 +1,4 @@
-"""Circular timing diagram of a press or a gripper: what every part does over a turn of the machine."""
+"""Circular timing diagram of a press or a gripper: what every part does over a revolution of the machine."""
 
 from __future__ import annotations
 

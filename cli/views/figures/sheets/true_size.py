@@ -38,7 +38,7 @@ def drawing(design: Any, index: int, scale: Scale) -> Figure:
     """One cam, a mm of it being 1/N mm of paper.
 
     Raises
-        DesignFileError - where the paper is too small; it names the least that is large enough
+        DesignFileError - where the paper is too small; it names the minimum that is large enough
     """
     from matplotlib.figure import Figure
 

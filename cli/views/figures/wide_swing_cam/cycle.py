@@ -108,7 +108,7 @@ def _legend(axes: Axes, drawing: Axes, columns: int = 1) -> None:
 
 
 def cycle_panel(axes: Axes, design: WideSwingDesign) -> None:
-    """The rocker's angle over a turn of the cam, the strokes and rests shaded and named."""
+    """The rocker's angle over a revolution of the cam, the strokes and rests shaded and named."""
     import numpy as np
 
     cycle = design.cycle

@@ -152,7 +152,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.set_ylim(bottom=0.0)
     lowest = design.spec.operating_speed_min
     if lowest is not None:
-        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=_DOTTED, label="least working speed")
+        axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=_DOTTED, label="minimum working speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
     panels.legend_under_heading(axes, "Torque on the rocker axis", 2)
 

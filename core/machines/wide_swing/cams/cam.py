@@ -164,7 +164,7 @@ class WideSwingCam:
 
     @property
     def min_radius(self) -> float:
-        """Least pitch radius [mm]."""
+        """Minimum pitch radius [mm]."""
         return min(self.middle_radius, self.end_radius)
 
     @property
@@ -257,7 +257,7 @@ class WideSwingCam:
 
     @cached_property
     def loop_margin(self) -> float:
-        """Least of (dTheta/dtheta) rho^2/(1 - cos phi) over the stroke: the profile exists where it is positive.
+        """Minimum of (dTheta/dtheta) rho^2/(1 - cos phi) over the stroke: the profile exists where it is positive.
 
         h = (1 - lambda) e/s + lambda (1 + A), at mid-swing 6 q lambda^2/rho_mid
         """
@@ -317,7 +317,7 @@ class WideSwingCam:
 
     @cached_property
     def min_curvature_radius(self) -> float:
-        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
+        """Minimum radius of the pitch curve where it bulges from the body and the roller touches it [mm].
 
         Raises
             NoSolution - where it touches nothing
@@ -384,7 +384,7 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
         swing : float [rad]
         speed_ratio_peak : float - below LEAST_SPEED_RATIO, to which it grows with the swing
     Returns
-        error : NoSolution - names the least swing
+        error : NoSolution - names the minimum swing
     Example
         >>> print(too_small_swing(math.radians(1e-9), 1e-11).fix)
         set swing to at least 1.001e-08 deg

@@ -1,4 +1,4 @@
-"""The closed contour of a wide-swing cam over one turn: its own stroke, a rest, the other stroke, a rest.
+"""The closed contour of a wide-swing cam over one revolution: its own stroke, a rest, the other stroke, a rest.
 
 In its own stroke the cam guides the rocker; in the other stroke the rocker comes back, guided by the other cam, and
 this one only has to keep clear of the roller. During the rests the contour is an arc about the cam axis.
@@ -46,7 +46,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class ClosedCam:
-    """Contour of a cam over one turn, in lengths of mm and the frame of `PitchCurve`: mid-stroke on the -x axis.
+    """Contour of a cam over one revolution, in lengths of mm and the frame of `PitchCurve`: mid-stroke on the -x axis.
 
     z = e^{i theta}(-1 + lambda e^{i psi}) a, psi(theta): the law, +gamma/2, the law backwards, -gamma/2
 
@@ -56,7 +56,7 @@ class ClosedCam:
         other : float [rad] - cam angle of the stroke that the other cam guides
         clearance : float [mm] - room between the roller and the free sector
     Raises
-        NoSolution - for angles that do not leave room in a turn, and a profile that does not exist
+        NoSolution - for angles that do not leave room in a revolution, and a profile that does not exist
     Notes
         The clearance grows from nothing at both ends of the free sector, so that the contour has no corner there.
     Example
@@ -76,7 +76,9 @@ class ClosedCam:
     def __post_init__(self) -> None:
         self.cam.require_profile()
         if self.other <= 0.0 or min(self.after, self.before) < 0.0:
-            raise NoSolution("the sectors of a closed cam must be 0 or more, its strokes above 0, and fill one turn")
+            raise NoSolution(
+                "the sectors of a closed cam must be 0 or more, its strokes above 0, and fill one revolution"
+            )
 
     @property
     def own(self) -> float:
@@ -91,13 +93,13 @@ class ClosedCam:
 
     @cached_property
     def starts(self) -> tuple[float, float, float, float, float]:
-        """Cam angles at which the four sectors start, and a whole turn [rad]."""
+        """Cam angles at which the four sectors start, and a whole revolution [rad]."""
         second = self.own + self.after
         return 0.0, self.own, second, second + self.other, _TURN
 
     @cached_property
     def sectors(self) -> tuple[float, float, float, float]:
-        """Polar angles of driven profile, arc, free sector, arc on the cam [rad]; their sum is one turn.
+        """Polar angles of driven profile, arc, free sector, arc on the cam [rad]; their sum is one revolution.
 
         own - 2 xi, after, other + 2 xi, before; xi the profile correction at the ends of the stroke
         """
@@ -106,7 +108,7 @@ class ClosedCam:
 
     @property
     def rest_radius(self) -> float:
-        """Pitch radius during both rests [mm]; the greatest of an external, the least of an internal profile."""
+        """Pitch radius during both rests [mm]; the maximum of an external, the minimum of an internal profile."""
         return self.cam.end_radius
 
     # Points
@@ -147,7 +149,7 @@ class ClosedCam:
         return replace(still, theta=t - 0.5 * self.own, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
 
     def pitch(self, t: Reals) -> Points:
-        """Roller centres in the cam's frame at cam angles from 0 to a turn [mm]."""
+        """Roller centres in the cam's frame at cam angles from 0 to a revolution [mm]."""
         return self._by_sector(t, self.pitch_of)
 
     def pitch_of(self, sector: int, t: Reals) -> Points:
@@ -260,7 +262,7 @@ class ClosedCam:
     def largest_clearance(self) -> float:
         """Clearance from which on the free sector's contour crosses itself [mm]; 0 where the roller alone is too large.
 
-        least (R - r_p)/share of the clearance there, R the curvature radius where the roller's path bulges
+        minimum (R - r_p)/share of the clearance there, R the curvature radius where the roller's path bulges
         """
         roller = self.cam.roller_radius
 
@@ -276,7 +278,7 @@ class ClosedCam:
 
     @cached_property
     def least_radius(self) -> float:
-        """Least distance of the contour from the cam axis [mm]."""
+        """Minimum distance of the contour from the cam axis [mm]."""
         slot = self.cam.middle_radius - self.cam.sense * self.cam.roller_radius
 
         def nearness(t: Reals) -> Reals:

@@ -316,7 +316,7 @@ class OscillatingCam:
 
     @property
     def min_radius(self) -> float:
-        """Least pitch radius [mm]."""
+        """Minimum pitch radius [mm]."""
         return min(self.middle_radius, self.end_radius)
 
     @property
@@ -349,7 +349,7 @@ class OscillatingCam:
 
     @cached_property
     def min_curvature_radius(self) -> float:
-        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
+        """Minimum radius of the pitch curve where it bulges from the body and the roller touches it [mm].
 
         Raises
             NoSolution - for a loop, or where the roller touches nothing

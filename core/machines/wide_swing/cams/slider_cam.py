@@ -179,7 +179,7 @@ class SliderCam:
 
     @property
     def min_radius(self) -> float:
-        """Least pitch radius [mm]."""
+        """Minimum pitch radius [mm]."""
         return min(half.min_radius for half in self.halves)
 
     @property
@@ -237,7 +237,7 @@ class SliderCam:
 
     @property
     def min_curvature_radius(self) -> float:
-        """Least radius of the pitch curve where it bulges and the roller touches it [mm]."""
+        """Minimum radius of the pitch curve where it bulges and the roller touches it [mm]."""
         return min(half.min_curvature_radius for half in self.halves)
 
     def split(self, k: Reals) -> tuple[tuple[WideSwingCam, Mask, Reals], ...]:

@@ -154,7 +154,7 @@ def drive_balancing_ratio(
     Raises
         NoSolution - when a speed or g is negative
     Notes
-        Assumes that both peaks fall together, so it is the least favourable case. g = 0 gives the ratio on the rocker
+        Assumes that both peaks fall together, so it is the minimum favourable case. g = 0 gives the ratio on the rocker
         axis: below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
     Example
         >>> drive_balancing_ratio(np.array([1.0]), 0.25).tolist()

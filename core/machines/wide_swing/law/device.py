@@ -1,4 +1,4 @@
-"""Unloading devices of a wide-swing rocker: geometry, energy, sizing, and the least pivot ratio that can be built.
+"""Unloading devices of a wide-swing rocker: geometry, energy, sizing, and the minimum pivot ratio that can be built.
 
 A tension device (pneumatic cylinder of constant force, or spring) joins a pin on the rocker at radius r_d to a
 base pin at a_d from the pivot; pins and pivot are collinear at mid-swing, where the device is shortest.
@@ -187,7 +187,7 @@ class DeviceGeometry:
 
 
 def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_EXTENSION_RATIO) -> float:
-    """Least pivot ratio at which a cylinder of given extended over retracted length turns with the rocker.
+    """Minimum pivot ratio at which a cylinder of given extended over retracted length turns with the rocker.
 
     lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1)
 
@@ -218,7 +218,7 @@ def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_
 def least_pivot_ratio_spring(
     swing: float, stretch_ratio: float, arm: float, closed_length: float, end_fittings: float = 0.0
 ) -> float:
-    """Least pivot ratio at which a spring of given closed length fits between the pins at mid-swing.
+    """Minimum pivot ratio at which a spring of given closed length fits between the pins at mid-swing.
 
     lambda = 1 + (l_0 + l_k + S_0)/r_d with the mounting stretch S_0 = epsilon r_d D(lambda, gamma)
 
@@ -258,7 +258,7 @@ def least_pivot_ratio_spring(
 def least_pivot_ratio_spring_material(
     swing: float, stretch_ratio: float, stretch_capacity: float, end_fittings_ratio: float = 0.0
 ) -> float:
-    """Least pivot ratio of a spring whose closed length follows from the stretch that its wire bears.
+    """Minimum pivot ratio of a spring whose closed length follows from the stretch that its wire bears.
 
     l_0 = S (1 + eps)/eta;  q = 1 + 1/kappa, kappa = eps + (1 + eps)/eta, mu = (l_k/r_d)/kappa
     lambda = [h + sqrt(h^2 - (q^2 - 1)((q + mu)^2 - 1))]/(q^2 - 1), h = q (q + mu) - cos(gamma/2)

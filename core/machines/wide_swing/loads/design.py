@@ -3,7 +3,7 @@
 The input angle is that of the cam, from the start of the working stroke; torques are positive in the sense of that
 stroke. With `cycle` the whole turn is computed, with `cycle_angle` the working stroke alone. In a stroke its own cam
 guides the rocker, and in the rest after it that cam's arc holds it against the device. A cam on a crank-rocker swings
-home on the profile of its stroke: the whole turn is that of the crank, without a rest.
+home on the profile of its stroke: the whole revolution is that of the crank, without a rest.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def contact_loss_of_loads(design: WideSwingLoads) -> Iterator[Check]:
 
 
 def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
-    """GL611, of a whole turn."""
+    """GL611, of a whole revolution."""
     return vibration_checks.resonance(design) if design.whole else iter(())
 
 
@@ -170,7 +170,7 @@ class SwingRest:
 
     @cached_property
     def forces(self) -> tuple[float, float]:
-        """Greatest and least force on the arc [N]; what the file lets act may vary over the rest."""
+        """Maximum and minimum force on the arc [N]; what the file lets act may vary over the rest."""
         end, breaks = self.start + self.width, self.stroke.loads.machine.breaks
         joints = [angle for angle in breaks if self.start < angle < end]
         wanted = [(self.force, True), (self.force, False)]
@@ -179,7 +179,7 @@ class SwingRest:
 
     @cached_property
     def pressed(self) -> dict[str, float]:
-        """Greatest force, pressure and depth of the shear, and the least force: on an arc both go with the force."""
+        """Maximum force, pressure and depth of the shear, and the minimum force: on an arc both go with the force."""
         greatest, least = self.forces
         found = {"force": max(abs(greatest), abs(least)), "least_force": least}
         contact = self.stroke.contact_of(np.array([greatest]), np.array([self.relative_radius]))
@@ -222,11 +222,13 @@ def contact_stroke_table(design: WideSwingLoads, samples: int | None = None) -> 
 
 
 def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table:
-    """Harmonics of the rocker's motion over a whole turn."""
+    """Harmonics of the rocker's motion over a whole revolution."""
     if not design.whole:
         if design.spec.slider is not None:
-            raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
-        message = "harmonics are those of a whole turn"
+            raise NoSolution(
+                "harmonics are those of a whole revolution, and here the stroke alone is known", key="loads"
+            )
+        message = "harmonics are those of a whole revolution"
         raise MissingSection(message, key="cycle_angle", fix="give cycle in place of cycle_angle")
     return tables.harmonics(design, samples)
 
@@ -246,7 +248,7 @@ class SwingVibrating(Vibrating):
 
     @cached_property
     def motions(self) -> list[tuple[float, float]]:
-        """Both strokes of a turn, or the working stroke."""
+        """Both strokes of a revolution, or the working stroke."""
         return super().motions if self.design.whole else [(0.0, self.design.cam.cycle_angle)]
 
 
@@ -269,7 +271,7 @@ class Pressing:
 
     @cached_property
     def force(self) -> float:
-        """Greatest force of the roller on any of the cams [N]; from geometry alone where nothing acts besides."""
+        """Maximum force of the roller on any of the cams [N]; from geometry alone where nothing acts besides."""
         if self.loads.own_forces:
             return max(self._all("force"))
         design = self.loads.design
@@ -278,7 +280,7 @@ class Pressing:
 
     @cached_property
     def least_force(self) -> float:
-        """Least force of the roller where it touches a cam [N]."""
+        """Minimum force of the roller where it touches a cam [N]."""
         return min(self._all("least_force"))
 
     @cached_property
@@ -290,17 +292,17 @@ class Pressing:
 
     @cached_property
     def pressure(self) -> float | None:
-        """Greatest pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
+        """Maximum pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
         return max(self._all("pressure")) if self.exists else None
 
     @property
     def hardest_rest(self) -> SwingRest | None:
-        """The rest in which the pressure is greatest; None where that is in a stroke."""
+        """The rest in which the pressure is largest; None where that is in a stroke."""
         return next((rest for rest in self.rests if rest.pressed["pressure"] == self.pressure), None)
 
     @cached_property
     def shear_depth(self) -> float | None:
-        """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
+        """Maximum depth of the maximum shear stress [mm]; with a drive, that where the pressure is greatest."""
         if not self.exists:
             return None
         if self.loads.spec.drive is None:
@@ -356,17 +358,17 @@ class WideSwingLoads(LoadsDesign):
 
     @property
     def whole(self) -> bool:
-        """Whether the file gives the whole turn."""
+        """Whether the file gives the whole revolution."""
         return self.spec.cycle is not None or self.spec.drive is not None
 
     @property
     def cost(self) -> float:
-        """Each stroke with its rests takes as long to judge as a whole turn of other machines."""
+        """Each stroke with its rests takes as long to judge as a whole revolution of other machines."""
         return (2 if self.spec.cycle is not None else 1) * super().cost
 
     @cached_property
     def strokes(self) -> tuple[SwingStroke, ...]:
-        """The working stroke, and what brings the rocker back where the whole turn is known."""
+        """The working stroke, and what brings the rocker back where the whole revolution is known."""
         from gearlink.core.machines.wide_swing.loads.stroke import SwingStroke
         from gearlink.core.machines.wide_swing.strokes import strokes_of
 
@@ -425,11 +427,9 @@ class WideSwingLoads(LoadsDesign):
         given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
         if self.whole or given is None:
             return
-        message = f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
+        message = f"{given} needs the whole revolution of the cam: give cycle in place of cycle_angle"
         if self.spec.slider is not None:
-            message = (
-                f"{given} needs the whole turn of the cam, and with slider the stroke alone is known: leave it out"
-            )
+            message = f"{given} needs the full revolution of the cam; with slider only the stroke is known: omit it"
         raise MissingSection(message, key=f"loads.{given}")
 
     def _require_own_directions(self) -> None:
@@ -450,7 +450,7 @@ class WideSwingLoads(LoadsDesign):
 
     @property
     def dwell_zones(self) -> list[tuple[float, float]]:
-        """Both rests of a whole turn."""
+        """Both rests of a whole revolution."""
         if self.spec.cycle is None:
             return []
         working, far, back, near = self.design.motion.cycle_angles
@@ -481,7 +481,7 @@ class WideSwingLoads(LoadsDesign):
         return self.machine.sources.any or self.machine.friction is not None or bool(others)
 
     def _greatest(self, name: str, *, curved: bool = False) -> float:
-        """Greatest value over the strokes of a method of theirs, where the roller touches."""
+        """Maximum value over the strokes of a method of theirs, where the roller touches."""
         import numpy as np
 
         return max(
@@ -503,12 +503,12 @@ class WideSwingLoads(LoadsDesign):
 
     @property
     def roller_speed_max(self) -> float:
-        """Greatest speed of the roller where it touches [1/min]."""
+        """Maximum speed of the roller where it touches [1/min]."""
         return self._greatest("roller_speed") / _RPM
 
     @property
     def entrainment_speed_max(self) -> float:
-        """Greatest entrainment speed where the roller touches [mm/s]."""
+        """Maximum entrainment speed where the roller touches [mm/s]."""
         return self._greatest("entrainment", curved=True)
 
     cam_torque_max: float = placed("input_torque_max")

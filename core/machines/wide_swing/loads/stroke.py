@@ -28,7 +28,7 @@ Wanted: TypeAlias = "dict[str, tuple[Callable[[Reals], Reals], bool]]"
 
 
 def _extremes(wanted: Wanted, parts: Parts) -> dict[str, Extreme]:
-    """Greatest or least values of functions over parts of a stroke, each part searched in one go."""
+    """Maximum or minimum values of functions over parts of a stroke, each part searched in one go."""
     found = [extremes_over(list(wanted.values()), *part, samples=128) for part in parts]
     return {
         name: (max if greatest else min)((of_part[i] for of_part in found), key=lambda extreme: extreme.value)
@@ -123,13 +123,13 @@ class SwingStroke:
         return any(minimum_over(self.relative_radius, *part, samples=128).value <= 0.0 for part in self.curved_parts)
 
     def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
-        """Greatest value where the roller touches; `curved`: of what depends on the curvature there."""
+        """Maximum value where the roller touches; `curved`: of what depends on the curvature there."""
         parts = self.curved_parts if curved else self.parts
         return max(maximum_over(f, *part, samples=128).value for part in parts)
 
     @cached_property
     def pressed(self) -> dict[str, Extreme]:
-        """Greatest force, pressure and depth of the shear, and the least force, where the roller touches.
+        """Maximum force, pressure and depth of the shear, and the minimum force, where the roller touches.
 
         Notes
             Searched together, so that the machine under its loads is computed once for all of them.
@@ -147,7 +147,7 @@ class SwingStroke:
 
     @cached_property
     def shear_depth_at_greatest_pressure(self) -> float:
-        """Depth of the greatest shear stress where the pressure is greatest [mm]."""
+        """Depth of the maximum shear stress where the pressure is largest [mm]."""
         place = self.pressed["pressure"].place
         return float(self._contact(np.array([place])).shear_depth[0])
 

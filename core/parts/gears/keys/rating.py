@@ -60,7 +60,7 @@ class RoughnessSpec(Spec):
 
 
 class LubricantSpec(Spec):
-    """The oil: its viscosity at 40 deg C, and for the safety against scuffing what is known of it besides."""
+    """The oil: its viscosity at 40 deg C, and further data for the safety against scuffing."""
 
     vg: Viscosity | None = Field(None, description="viscosity class ISO VG, the viscosity at 40 deg C")
     viscosity_40: Viscosity | None = Field(None, description="viscosity at 40 deg C, in place of vg")
@@ -181,7 +181,7 @@ class RatingSpec(Spec):
     reduced_mass: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "kg/mm"})] | None = Field(
         None, description="m_red, in place of the one of system and bore"
     )
-    contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per turn")
+    contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per revolution")
     face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; left out: none")
     long_life: Annotated[float, Field(ge=0.85, le=1, json_schema_extra={"unit": "1"})] = Field(
         0.85, description="factor of the strength at 1e10 load cycles; 1 only for best material and experience"

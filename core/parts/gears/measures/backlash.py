@@ -84,7 +84,7 @@ class MeshPlay:
 
 @dataclass(frozen=True, kw_only=True)
 class Backlash:
-    """The least and the greatest backlash.
+    """The minimum and the maximum backlash.
 
     Parameters
         pair : GearPair
@@ -99,23 +99,23 @@ class Backlash:
 
     @cached_property
     def _ends(self) -> tuple[MeshPlay, MeshPlay]:
-        """Least and greatest; a larger centre distance takes backlash away from a ring and its pinion."""
+        """Minimum and maximum; a larger centre distance takes backlash away from a ring and its pinion."""
         away = self.pair.signs[1] * self.distance_allowance
         least = MeshPlay(self.pair, -away, self.upper[0] + self.upper[1])
         return least, MeshPlay(self.pair, away, self.lower[0] + self.lower[1])
 
     @property
     def circumferential(self) -> Pair:
-        """j_wt [mm], least and greatest."""
+        """j_wt [mm], minimum and greatest."""
         return self._ends[0].circumferential, self._ends[1].circumferential
 
     @property
     def normal(self) -> Pair:
-        """j_bn [mm], least and greatest."""
+        """j_bn [mm], minimum and greatest."""
         return self._ends[0].normal, self._ends[1].normal
 
     @property
     def angle(self) -> tuple[Pair, Pair]:
-        """Free turn of gear 1 and of gear 2 [rad], each least and greatest."""
+        """Free turn of gear 1 and of gear 2 [rad], each minimum and greatest."""
         least, greatest = self._ends[0].angle, self._ends[1].angle
         return (least[0], greatest[0]), (least[1], greatest[1])

@@ -124,7 +124,7 @@ def chord(pair: GearPair, gear: int) -> tuple[float, float]:
     s_c = d_n sin(s_n/d_n),  h_c = r_a - r + d_n/2 (1 - cos(s_n/d_n)),  d_n = d/cos^2(beta)
 
     Notes
-        Exact for spur gears; for helical ones within 1.7e-5 of the least distance of both flank helices.
+        Exact for spur gears; for helical ones within 1.7e-5 of the minimum distance of both flank helices.
     Example
         >>> gear = GearPair(module=10.0, teeth=(12, 40), given_shift=(0.3, 0.0), tip="none")
         >>> [round(each, 4) for each in chord(gear, 0)]

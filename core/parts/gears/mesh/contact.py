@@ -110,7 +110,7 @@ class PathOfContact:
 
     @cached_property
     def lost(self) -> Pair:
-        """What the path loses at A and E because a flank ends before the mate's tip reaches it [mm]."""
+        """What the path loses at A and E because a flank ends before the mating gear's tip reaches it [mm]."""
         return self._lost(0, self.start), self._lost(1, self.pair.interference_margin[0])
 
     def _lost(self, gear: int, root_end: float) -> float:

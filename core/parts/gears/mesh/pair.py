@@ -198,7 +198,7 @@ class GearPair(PitchPair):
 
     @cached_property
     def tip_clearance(self) -> Pair:
-        """c_1 = a_w - r_a1 - r_f2 and c_2 = a_w - r_f1 - r_a2 [mm], between a gear's tip and the mate's root."""
+        """c_1 = a_w - r_a1 - r_f2 and c_2 = a_w - r_f1 - r_a2 [mm], between a gear's tip and the mating gear's root."""
         a, tip, root = self.center_distance, self.tip_radius, self.root_radius
         return a - tip[0] - root[1], a - root[0] - tip[1]
 
@@ -265,7 +265,7 @@ class GearPair(PitchPair):
 
     @cached_property
     def interference_margin(self) -> Pair:
-        """How far the tip of a gear stays short of the mate's base tangent point on the line of action [mm].
+        """How far the tip of a gear stays short of the mating gear's base tangent point on the line of action [mm].
 
         a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) for external pairs; negative where the tip meets the mate beyond its
         involute.
@@ -275,7 +275,7 @@ class GearPair(PitchPair):
 
     @cached_property
     def specific_sliding(self) -> Pair:
-        """1 - (w_mate rho_mate)/(w rho) at the root end of the active flank, contact at the mate's tip [1]."""
+        """1 - (w_mate rho_mate)/(w rho) at the root end of the active flank, contact at the mating gear's tip [1]."""
         return self._specific_sliding_of(0), self._specific_sliding_of(1)
 
     def _specific_sliding_of(self, gear: int) -> float:

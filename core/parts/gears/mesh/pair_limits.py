@@ -63,7 +63,7 @@ def _require_teeth(pair: GearPair) -> None:
 
 
 def least_distance(pair: PitchPair) -> float:
-    """The least centre distance [mm]: |r_b1 + r_b2|."""
+    """The minimum centre distance [mm]: |r_b1 + r_b2|."""
     return abs(pair.base_radius[0] + pair.base_radius[1])
 
 
@@ -87,7 +87,7 @@ def require_distance(pair: GearPair, distance: float) -> None:
     raise NoSolution(
         (
             f"centre distance {distance:.6g} mm does not suit gears of {pair.teeth[0]} and "
-            f"{pair.teeth[1]} teeth of module {pair.module:g} mm: the least is the {sum_of} of the "
+            f"{pair.teeth[1]} teeth of module {pair.module:g} mm: the minimum is the {sum_of} of the "
             f"base radii, {safely_above(least)} mm"
         ),
         fix="change it or the teeth",

@@ -19,7 +19,7 @@ class InternalInterference:
     Parameters
         pair : GearPair - with a ring as gear 2
     Notes
-        Tip fouling is exact: 320 pairs followed through a whole turn agreed in sign. Radial assembly covers every
+        Tip fouling is exact: 320 pairs followed through a whole revolution agreed in sign. Radial assembly covers every
         phase of the teeth: 80 pairs pushed in at 12 phases agreed.
     Example
         >>> close = InternalInterference(GearPair(module=1.0, teeth=(43, -50), given_shift=(0.0, -0.06)))

@@ -1,7 +1,7 @@
 """The corner of a tip in the root of its mate: whether its path, outside the path of contact, cuts into a fillet.
 
 In the frame of the gear with the fillet, its centre the origin, the x axis to the pitch point when contact is there,
-the mate A turned by psi from where its corner stands deepest (signs of ISO 21771, s that of the gear's teeth):
+the mating gear A turned by psi from where its corner stands deepest (signs of ISO 21771, s that of the gear's teeth):
 
     corner = s (a_w - r_aA exp(i psi)) exp(-i z_A (delta - psi)/z),  delta = inv(alpha_aA) - inv(alpha_wt)
     fillet at s beside - eta_b - inv(alpha_wt),  r^2 = (a_w - r_aA)^2 + 4 a_w r_aA sin^2(psi/2)
@@ -26,13 +26,13 @@ _STEPS = 12
 _OPEN = 0.01
 """Gap between two steps that a closer look does not close, in modules."""
 _TURNS = 8
-"""Turns of the mate in which a corner is looked for in the tool, nearer to each other at the end of contact."""
+"""Turns of the mating gear in which a corner is looked for in the tool, nearer to each other at the end of contact."""
 _LESS = 0.97
-"""Of the tool's rounding, so that nothing between two turns matters."""
+"""Of the tool's rounding, so that nothing between two revolutions matters."""
 
 
 class CornerGap(NamedTuple):
-    """How far a tip's corner keeps off the mate's fillet along the circle of some radius [mm]; negative in it.
+    """How far a tip's corner keeps off the mating gear's fillet along the circle of some radius [mm]; negative in it.
 
     Of a rack: along the line in some depth.
     """
@@ -75,7 +75,7 @@ def places_towards(start: Any, end: Any) -> list[Any]:
 
 
 def least_gap(gap: Callable[[float], float], places: list[float], near: float) -> tuple[float, float]:
-    """The least gap and its place; a valley between places is gone through where its gap is below `near`.
+    """The minimum gap and its place; a valley between places is gone through where its gap is below `near`.
 
     Example
         >>> least_gap(lambda b: (b - 0.3) ** 2 - 0.01, places_towards(0.0, 1.0), 0.1)[0]
@@ -92,7 +92,7 @@ def least_gap(gap: Callable[[float], float], places: list[float], near: float) -
 
 @dataclass(frozen=True)
 class TipCorner:
-    """The corner of the mate's tip beside the root fillet of a gear, where contact ends on the flank above it.
+    """The corner of the mating gear's tip beside the root fillet of a gear, where contact ends on the flank above it.
 
     Parameters
         pair : GearPair
@@ -102,7 +102,7 @@ class TipCorner:
     Example
         >>> pair = GearPair(module=1.0, teeth=(32, 63), pressure_angle=math.radians(10.0), given_shift=(0.587, 0.427),
         ...                 tip="none")
-        >>> least = TipCorner(pair, 0).least
+        >>> minimum = TipCorner(pair, 0).minimum
         >>> round(least.gap, 6), round(least.place, 4)
         (-0.00878, 15.4182)
 
@@ -224,14 +224,14 @@ class TipCorner:
 
     @cached_property
     def least(self) -> CornerGap:
-        """The least gap; that of the flank's end at most, where the corner leaves it."""
+        """The minimum gap; that of the flank's end at most, where the corner leaves it."""
         _, start, end = self._fillet
         gap, place = least_gap(self._gap, places_towards(start, end), near_of(self.pair.module))
         return CornerGap(gap, self._fillet[0](place)[0])
 
     @property
     def cut(self) -> CornerGap | None:
-        """The least gap where it may be negative: of a corner that comes near and is not in the tool all the way."""
+        """The minimum gap where it may be negative: of a corner that comes near and is not in the tool all the way."""
         if not self.comes_near or (not self.pair.internal and self.stays_in_tool):
             return None
         return self.least

@@ -31,11 +31,11 @@ class TipCorners(TipCorner):
 
     @property
     def _form(self) -> Any:
-        """r_Ff of the gear alone: where a tool cuts into flanks, that of the mate is another search."""
+        """r_Ff of the gear alone: where a tool cuts into flanks, that of the mating gear is another search."""
         return self.pair.form_radius_of(self.gear)
 
     def may_cut(self, judged: Any) -> Any:
-        """Where the steps of the search for the least gap pass a valley in which the corner could be in the fillet.
+        """Where the steps of the search for the minimum gap pass a valley in which the corner could be in the fillet.
 
         Parameters
             judged : (N,) array - pairs whose contact ends on the flank; of others nothing is said
@@ -50,7 +50,7 @@ class TipCorners(TipCorner):
         return found & near
 
     def least_gaps(self, judged: Any) -> Any:
-        """`TipCorner.least` of each pair that is judged [mm]; infinite where the corner stays in the tool."""
+        """`TipCorner.minimum` of each pair that is judged [mm]; infinite where the corner stays in the tool."""
         near, found = self._leaves_tool(judged), np.full(judged.shape, np.inf)
         if near.any():
             some, places = self._those(near)
@@ -88,7 +88,7 @@ class TipCorners(TipCorner):
         return (gaps[:-2] >= inside) & (inside <= gaps[2:]) & (inside < near_of(self.pair.module))
 
     def _least_between(self, low: Any, high: Any) -> Any:
-        """The least gaps between places, by golden section."""
+        """The minimum gaps between places, by golden section."""
         one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
         at_one, at_other = self._gaps(one), self._gaps(other)
         least = np.minimum(at_one, at_other)

@@ -162,7 +162,7 @@ class RootContour:
 
     @property
     def is_pointed(self) -> bool:
-        """Whether the tip has no room for the least rounding, or lies too near to the base circle."""
+        """Whether the tip has no room for the minimum rounding, or lies too near to the base circle."""
         radius = _LEAST_ROUNDING
         inside = not self.ring and self.tip - TIP_ROUNDING <= self.base
         return inside or bool(np.angle(self._tip_corner(radius)[1]) > math.pi / self.teeth)
@@ -187,7 +187,7 @@ class RootContour:
         return roll, complex(self.base * (1.0 - 1j * sign * at) * np.exp(1j * (start + sign * roll)))
 
     def load_patch(self, radius: float) -> tuple[float, float]:
-        """Least and greatest roll angle of the load on the flank about a radius."""
+        """Minimum and maximum roll angle of the load on the flank about a radius."""
         low, high = sorted((self.roll_at(self.form), self.tip_corner[1]))
         middle = min(max(self.roll_at(radius), low), high)
         # arc length of the involute: base roll^2/2

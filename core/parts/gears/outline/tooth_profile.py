@@ -268,7 +268,7 @@ def half_tooth(profile: ToothProfile, chord_error: float) -> Points:
 
     Parameters
         profile : ToothProfile
-        chord_error : float [mm] - greatest distance of a chord from its curve
+        chord_error : float [mm] - maximum distance of a chord from its curve
     Returns
         points : (N,) array [mm] - counter-clockwise, from the x axis to the polar angle pi/z
     Raises
@@ -309,7 +309,7 @@ def outline(profile: ToothProfile, chord_error: float, teeth: int | None = None,
 
     Parameters
         profile : ToothProfile
-        chord_error : float [mm] - greatest distance of a chord from its curve
+        chord_error : float [mm] - maximum distance of a chord from its curve
         teeth : int or None - how many pitches, counter-clockwise; None: all of them, closed
         first : float [rad] - polar angle of the middle of the first space
     Returns

@@ -176,7 +176,7 @@ class RackMesh:
 
     @cached_property
     def backlash_circumferential(self) -> Pair | None:
-        """j_wt on the reference circle, least and greatest [mm]: -(E_1 + E_2)/cos(beta) +- 2 A_a tan(alpha_t).
+        """j_wt on the reference circle, minimum and maximum [mm]: -(E_1 + E_2)/cos(beta) +- 2 A_a tan(alpha_t).
 
         Notes
             Exact: the flank of a rack has the same direction everywhere.
@@ -191,14 +191,14 @@ class RackMesh:
 
     @property
     def backlash_normal(self) -> Pair | None:
-        """j_bn, least and greatest [mm]: j_wt cos(alpha_t) cos(beta_b)."""
+        """j_bn, minimum and maximum [mm]: j_wt cos(alpha_t) cos(beta_b)."""
         found = self.backlash_circumferential
         turned = math.cos(self.pair.transverse_pressure_angle) * math.cos(self.pair.base_helix_angle)
         return None if found is None else (found[0] * turned, found[1] * turned)
 
     @property
     def backlash_angle(self) -> tuple[Pair, None] | None:
-        """Free turn of the gear while the rack stands, least and greatest [rad]."""
+        """Free turn of the gear while the rack stands, minimum and maximum [rad]."""
         found, r = self.backlash_circumferential, self.pair.reference_radius[0]
         return None if found is None else ((found[0] / r, found[1] / r), None)
 

@@ -76,7 +76,7 @@ class CornerInRack:
 
     @cached_property
     def least(self) -> CornerGap:
-        """The least gap along the rack, and how far below the datum line [mm]."""
+        """The minimum gap along the rack, and how far below the datum line [mm]."""
         module, end = self.pair.module, math.pi / 2.0 - self.pair.pressure_angle
         gap, place = least_gap(self._gap, places_towards(0.0, end), near_of(module))
         return CornerGap(gap, module * self._rounding(place)[1])

@@ -76,7 +76,7 @@ class Conditions:
         web : (float, float) or None - b_s/b, s_R/m; None: solid
         system, planets : where the pair stands in a planetary gear
         reduced_mass : float or None [kg/mm]
-        contacts : (float, float) - load contacts per turn
+        contacts : (float, float) - load contacts per revolution
         shaft, misalignment, modification : of the face load factor; F_betax in um
         face_given : bool - the file says something of the face
         long_life : float - factor at 1e10 load cycles

@@ -22,7 +22,7 @@ _STEEL = 206000.0
 _LIGHT = 100.0
 """Line load [N/mm] below which the stiffness falls."""
 _ROOTS_SHARE = 1.0 / 3.0
-"""The greatest h/b of K_Fbeta."""
+"""The maximum h/b of K_Fbeta."""
 
 
 @dataclass(frozen=True, kw_only=True)

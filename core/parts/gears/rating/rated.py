@@ -110,7 +110,7 @@ class Rated:
 
     @cached_property
     def load_cycles(self) -> Pair:
-        """N_L = 60 n L_h times the load contacts per turn, of the load itself."""
+        """N_L = 60 n L_h times the load contacts per revolution, of the load itself."""
         return self.cycles_at(0, Point()), self.cycles_at(1, Point())
 
     # Flank
@@ -122,7 +122,7 @@ class Rated:
 
     @property
     def softer_limit(self) -> float:
-        """The lesser sigma_Hlim of the pair, for the lubricant film."""
+        """The lesser sigma_Hlim of the pair, for the lubricant animation."""
         return min(self.contact_limits)
 
     @cached_property
@@ -183,7 +183,7 @@ class Rated:
     def _brinell(self, gear: int) -> float:
         found = self.steels[gear].brinell
         if found is None:
-            raise NoSolution(f"gear {gear + 1} is hardened by its mate: its HBW is needed", key="rating.brinell")
+            raise NoSolution(f"gear {gear + 1} is hardened by its mating gear: its HBW is needed", key="rating.brinell")
         return min(max(found, _SOFTENED[0]), _SOFTENED[1])
 
     @cached_property
@@ -425,7 +425,7 @@ class Rated:
 
     @cached_property
     def static_safety(self) -> tuple[Both, Both]:
-        """Static limit over the greatest stress of the spectrum, of flanks and roots."""
+        """Static limit over the maximum stress of the spectrum, of flanks and roots."""
 
         def least(rows: tuple[tuple[float, float, LimitLine], ...]) -> float | None:
             return min((line.static / stress for _, stress, line in rows), default=None)

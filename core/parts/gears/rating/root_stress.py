@@ -26,7 +26,7 @@ _DEEP_GRADE = 4
 _BOTH_WAYS = 0.7
 """Y_d of teeth that are bent both ways, those of idlers."""
 _OVERHANG = 2.0
-"""Modules by which a gear may be wider than its mate and still carry with all its width."""
+"""Modules by which a gear may be wider than its mating gear and still carry with all its width."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 _SOUGHT = (0.1, 0.9)
 """Of the fillet's parameter: at its joints the integral is off."""
 _EACH = 4
-"""Every fourth node stands in the table, and those of the greatest stresses."""
+"""Every fourth node stands in the table, and those of the maximum stresses."""
 
 
 class Peak(NamedTuple):
-    """A greatest stress, over F_t/(b m), and its place on the fillet [module]."""
+    """A maximum stress, over F_t/(b m), and its place on the fillet [module]."""
 
     factor: float
     place: complex
@@ -114,7 +114,7 @@ class TrueRoot:
         return found
 
     def _peak(self, stress: Reals, sign: float) -> Peak:
-        """The greatest stress away from the joints, between the nodes by the polynomial of each panel."""
+        """The maximum stress away from the joints, between the nodes by the polynomial of each panel."""
         places = self.contour.pieces(self.load_radius)
         breaks = next(breaks for name, _, breaks in places if name == "fillet")
         low, high = (breaks[0] + share * (breaks[-1] - breaks[0]) for share in _SOUGHT)
@@ -135,12 +135,12 @@ class TrueRoot:
 
     @cached_property
     def tension(self) -> Peak:
-        """The greatest tension, in the fillet of the loaded flank."""
+        """The maximum tension, in the fillet of the loaded flank."""
         return self._peak(self.stresses[0], 1.0)
 
     @cached_property
     def compression(self) -> Peak:
-        """The greatest compression, in the other fillet; its place in the mirror."""
+        """The maximum compression, in the other fillet; its place in the mirror."""
         return self._peak(self.stresses[1], -1.0)
 
 

@@ -1,4 +1,4 @@
-"""Which pairs carry a load for a life: the least face width by the rating, and the smallest centre distance."""
+"""Which pairs carry a load for a life: the minimum face width by the rating, and the smallest centre distance."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _R20 += (80.0, 90.0)
 DISTANCES = (*_R20, *(10.0 * each for each in _R20), 1000.0)
 """Centre distances that are tried [mm]: preferred numbers of the series R20."""
 _QUICK = (0.5, 0.75, 1.0)
-"""Of the greatest width, where a centre distance is tried before shifts are shared."""
+"""Of the maximum width, where a centre distance is tried before shifts are shared."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ class Carried:
         viscosity : float [mm^2/s] - at 40 deg C
         quality : str
         crowned : bool - the helix is crowned
-        width_ratio : float - greatest b/d_1
+        width_ratio : float - maximum b/d_1
         required : Required
     """
 
@@ -95,7 +95,7 @@ class Carried:
 
 
 class Carrying(NamedTuple):
-    """A pair that carries a load: its candidate, the least whole face width [mm], and its least safeties."""
+    """A pair that carries a load: its candidate, the minimum whole face width [mm], and its minimum safeties."""
 
     candidate: Candidate
     width: float
@@ -104,10 +104,10 @@ class Carrying(NamedTuple):
 
 
 def least_width(pair: GearPair, carried: Carried) -> tuple[float, float, float] | None:
-    """The least whole face width that carries a load [mm], and the lesser safeties S_H and S_F; None without one.
+    """The minimum whole face width that carries a load [mm], and the lesser safeties S_H and S_F; None without one.
 
     Notes
-        The safety rises with the width until the load stands on one end: widths are tried from the least up, then
+        The safety rises with the width until the load stands on one end: widths are tried from the minimum up, then
         every one between the last that does not carry and the first that does.
     """
     most = math.floor(carried.width_ratio * 2.0 * pair.reference_radius[0])

@@ -37,8 +37,8 @@ class PairTask:
         ratio : float - z_2/z_1, positive
         distance : float [mm] - centre distance
         modules : normal modules to try [mm]
-        shift_sum : (float, float) - least and greatest x_1 + x_2 (ISO signs, of a ring too)
-        tolerance : float - greatest relative error of the ratio
+        shift_sum : (float, float) - minimum and maximum x_1 + x_2 (ISO signs, of a ring too)
+        tolerance : float - maximum relative error of the ratio
         helix_angle, pressure_angle : float [rad]
         internal : bool - gear 2 is a ring
         least_teeth : int - of gear 1

@@ -182,13 +182,13 @@ class Diagonal:
         return Split(first, f"no undercut for x1 from {low:.4g} to {high:.4g}")
 
     def equal_roots(self, strength: Strength) -> Split:
-        """x_1 of equal root stress over what is permissible; where there is none, of the least greatest.
+        """x_1 of equal root stress over what is permissible; where there is none, of the minimum greatest.
 
         Raises
             NoSolution - where no share has root sections
         Notes
             The ratio is not monotone: none to three roots. A scan of the shares without undercut finds them; of
-            several the one of the least stress is taken.
+            several the one of the minimum stress is taken.
         """
         low, high = self.without_undercut
 
@@ -216,7 +216,7 @@ class Diagonal:
         best = min(range(len(grid)), key=lambda k: greatest(grid[k]))
         ends = grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]
         first, _ = maximum(lambda x: -greatest(x), *ends)
-        return Split(first, "no share of equal root stress: the least greatest one")
+        return Split(first, "no share of equal root stress: the minimum maximum one")
 
     def split(self, name: str, strength: Strength) -> Split:
         """The share of one of SPLITS.

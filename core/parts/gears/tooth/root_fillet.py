@@ -161,7 +161,7 @@ class RackCutRoot:
     def form_radius(self) -> float:
         """r_Ff, where fillet and involute meet outermost; at least the base radius.
 
-        Of a protuberance the least that it can leave: one that is higher than its rounding cuts away more.
+        Of a protuberance the minimum that it can leave: one that is higher than its rounding cuts away more.
         """
         if not self.undercut and self.tool.residual_undercut == 0.0:
             return self.form_radius_uncut

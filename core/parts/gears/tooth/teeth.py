@@ -37,7 +37,7 @@ def rim_radius(root_radius: float, module: float, given: float | None = None) ->
 def min_shift_no_undercut(
     teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: GearFunctions = SCALARS
 ) -> float:
-    """Least profile shift at which a rack cutter does not undercut the tooth root.
+    """Minimum profile shift at which a rack cutter does not undercut the tooth root.
 
     x_min = h - z sin^2(alpha_t)/(2 cos(beta))
 
@@ -161,7 +161,7 @@ def span_contact_radius(
 def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0) -> int:
     """Number of teeth whose span measurement touches the flanks nearest to the circle r + x m.
 
-    R_k = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2), |R_k - (r + x m)| least
+    R_k = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2), |R_k - (r + x m)| minimum
 
     Parameters
         teeth : int - number of teeth z

@@ -88,7 +88,7 @@ class TrainMaterial(Spec):
     )
     contact_factors: Factor | _Factors = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
     bending_factors: Factor | _Factors = Field(
-        1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given; Y_d of an idler comes besides"
+        1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given; Y_d of an idler is applied in addition"
     )
 
     def of(self, places: Any) -> MaterialSpec:

@@ -215,7 +215,7 @@ class Meshed(GearQuantities, Design):
         return found[::-1] if swapped and isinstance(found, tuple) else found
 
     def _swapped(self, mesh: str) -> bool:
-        """Whether a ring stands before its mate: the first gear of its mesh, the second of its pair."""
+        """Whether a ring stands before its mating gear: the first gear of its mesh, the second of its pair."""
         return mesh in self._rings_first
 
     def _roles(self, mesh: str) -> Roles:
@@ -240,7 +240,7 @@ class Meshed(GearQuantities, Design):
 
     @property
     def output_play(self) -> tuple[float, float] | None:
-        """Free turn of the last gear while the first and all links stand [rad], least and greatest.
+        """Free turn of the last gear while the first and all links stand [rad], minimum and greatest.
 
         sum over the meshes of j_phi z/z_last, j_phi the free turn of the second gear of a mesh, z its teeth
 
@@ -359,7 +359,7 @@ def _below_each_other(name: str, tables: Mapping[str, Table]) -> Table:
 
 
 def _in_order(table: Table, place: Place) -> Table:
-    """The gears in the order of the file's lists, where a ring stands before its mate."""
+    """The gears in the order of the file's lists, where a ring stands before its mating gear."""
     if place.gears[0] < place.gears[1]:
         return table
     item, symbol, pinion, ring, *rest = table.data

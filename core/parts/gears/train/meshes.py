@@ -53,7 +53,7 @@ class Train:
         teeth : of the gears in order, rings negative
         distances : float or None [mm], for each mesh - working centre distances of the machine; None: without backlash
     Notes
-        k of a gear is the least of its meshes', y - (x_1 + x_2): the shorter of the tips that its mates ask for.
+        k of a gear is the minimum of its meshes', y - (x_1 + x_2): the shorter of the tips that its mates ask for.
     Source
         ISO 21771 for the tip shortening of a mesh
     """

@@ -52,7 +52,9 @@ class TrainRating(RatingSpec):
     )
     roughness: TrainRoughness = TrainRoughness.model_construct()
     bore: Bore | Annotated[list[Bore], _MANY] = Field(0.0, description="bore; of a ring the outside diameter")
-    contacts: Contacts | Annotated[list[Contacts], _MANY] = Field(1.0, description="load contacts of a tooth per turn")
+    contacts: Contacts | Annotated[list[Contacts], _MANY] = Field(
+        1.0, description="load contacts of a tooth per revolution"
+    )
     mean_stress: MeanStress | Annotated[list[MeanStress], _MANY] | None = Field(
         None, description="Y_M; left out: 1, of an idler or planet 0.7"
     )

@@ -156,7 +156,7 @@ class Mesh:
         return (self._action(0) + self._action(1)) / (2.0 * math.pi)
 
     def _left_at_root(self, gear: int) -> Reals:
-        """What the mate's tip leaves of the line of action, as `GearPair` has it."""
+        """What the mating gear's tip leaves of the line of action, as `GearPair` has it."""
         return self.teeth[gear] * math.tan(self.pressure_angle) - self._action(1 - gear)
 
     def findings(self) -> Iterator[Findings]:

@@ -67,7 +67,7 @@ def make_reading(
 def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, float, float]) -> list[float]:
     """Coupler, rocker and transmission angle, then pairs (coupler, rocker) of rates up to the order.
 
-    The rocker angle of an inverse reading is short of half a turn.
+    The rocker angle of an inverse reading is short of half a revolution.
     """
     if not (0 <= order <= 3):
         raise ValueError(f"order is {order}; the rates go from 0 to 3")

@@ -1,4 +1,4 @@
-"""How near the coupler joint of a four-bar passes its crank pivot, and how far it goes, over a turn of the crank.
+"""How near the coupler joint of a four-bar passes its crank pivot, and how far it goes, over a revolution of the crank.
 
 Frame: crank pivot A, rocker pivot D, crank pin B, coupler joint C; links crank = AB, coupler = BC, rocker = CD,
 frame = AD. Crank angles count from A->D, counter-clockwise.
@@ -22,7 +22,7 @@ class Approach(NamedTuple):
 def joint_to_crank_pivot(
     crank: float, coupler: float, rocker: float, frame: float, assembly: int = 1
 ) -> tuple[Approach, Approach]:
-    """Least and greatest distance of the coupler joint C from the crank pivot A over a turn of the crank.
+    """Minimum and maximum distance of the coupler joint C from the crank pivot A over a revolution of the crank.
 
     AC = max(b - a, c - d) ... min(a + b, c + d)
 
@@ -32,7 +32,7 @@ def joint_to_crank_pivot(
     Returns
         nearest, farthest : Approach
     Raises
-        NoSolution - when the crank cannot make a full turn or the linkage has a change point
+        NoSolution - when the crank cannot make a full revolution or the linkage has a change point
     Notes
         The triangles ABC and ACD share the side AC, so that no other distances close; each bound is reached. In a
         crank-rocker the bounds are the dead centres, b - a and a + b; in a drag link C passes the line AD

@@ -51,7 +51,7 @@ def solve(linkage: FourBar, crank_angle: ArrayLike, over: tuple[float, float] | 
     Returns
         sweep : NewtonSweep - angles continuous in the crank angle
     Raises
-        NoSolution - where an anchor or a position does not exist, or is a dead point
+        NoSolution - where an anchor or a position does not exist, or is a dead centre
     Notes
         Anchors are the closed form's; positions are roots of the loop that `start_is_safe` makes unique. A start that
         is not safe is taken at half the distance.
@@ -132,10 +132,10 @@ def polish(linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, r
         sweep : NewtonSweep
     Raises
         NoSolution - when the loop is not closed within 16 eps of the sum of lengths after 20 iterations (no
-            position exists, or a dead point is too near), or the assembly changed sides
+            position exists, or a dead centre is too near), or the assembly changed sides
     Notes
         Stops where max(b |d_b|, c |d_c|) <= 16 eps max(length)/sin(gamma), or where the step no longer shrinks: near
-        a dead point the noise of the step is eps/gamma. `start_is_safe` tells beforehand.
+        a dead centre the noise of the step is eps/gamma. `start_is_safe` tells beforehand.
     Example
         >>> sweep = polish(FourBar(18.0, 50.0, 100.0, 121.4), 0.0, 1.26, 2.65)
         >>> round(float(np.degrees(sweep.rocker_angle)), 6), int(sweep.iterations)

@@ -145,7 +145,7 @@ class FourBar:
             the crank angle psi + pi (psi the rocker angle here), it gives the crank angle here less pi as its
             rocker angle, and the coupler angle here as its own
         Notes
-            The frame is turned by half a turn and the coupler runs from C to B. With assembly s the inverse
+            The frame is turned by half a revolution and the coupler runs from C to B. With assembly s the inverse
             reading has sign sin(crank angle - coupler angle) = s: +1 puts B left of the vector A->C. In a
             drag link this is the same assembly as C left of B->D; elsewhere it is the caller's choice.
         Example
@@ -214,11 +214,11 @@ def solve(
         velocity, acceleration, jerk : float [rad/s, rad/s2, rad/s3] - motion of the crank; the defaults give
             the derivatives with respect to the crank angle
     Returns
-        state : FourBarState - both angles are continuous in the crank angle, over any number of turns: where
+        state : FourBarState - both angles are continuous in the crank angle, over any number of revolutions: where
             the crank is shorter than the frame neither winds, where it is longer both go round with it
             (drag link). For 0 <= crank angle <= 2 pi, nu lies within [-pi, pi]
     Raises
-        NoSolution - when the linkage does not close there, or rates are wanted at a dead point
+        NoSolution - when the linkage does not close there, or rates are wanted at a dead centre
     Notes
         Closed form. Condition eps/dev for angles and eps/dev^2 for rates, dev = min(gamma, pi - gamma); no
         loss at a dead centre on the line of the frame of a crank that turns fully.
@@ -253,7 +253,7 @@ def solve_inverse(
         velocity, acceleration, jerk : float [rad/s, rad/s2, rad/s3] - motion of the rocker
     Returns
         state : FourBarInverseState - angles continuous in the rocker angle; in a drag link the crank angle
-            is the very one that `solve` was given, whole turns included
+            is the very one that `solve` was given, whole revolutions included
     Raises
         NoSolution - when the linkage does not close there, or rates are wanted where crank and coupler align
     Example

@@ -78,7 +78,7 @@ def solve(
     Returns
         sweep : FourBarSweep - angles continuous in the crank angle as in `position.solve`
     Raises
-        NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead point
+        NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead centre
     Example
         >>> sweep = solve(FourBar(18.0, 50.0, 100.0, 121.4), np.radians([45.0, 90.0]), order=1)
         >>> np.round(np.degrees(sweep.rocker_angle), 6).tolist()
@@ -158,7 +158,7 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
 
 
 def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
-    """Distance of the transmission angle from a dead point, min(gamma, pi - gamma) [rad].
+    """Distance of the transmission angle from a dead centre, min(gamma, pi - gamma) [rad].
 
     Example
         >>> dead_point_distance(np.radians([30.0, 170.0])).round(6).tolist()
@@ -169,7 +169,7 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
 
 
 def least_transmission_angle(crank: Reals, coupler: Reals, rocker: Reals, frame: Reals) -> Reals:
-    """Least transmission angle over the turn [rad], as `FourBar.min_transmission_angle`; NaN where the crank stops.
+    """Minimum transmission angle over the turn [rad], as `FourBar.min_transmission_angle`; NaN where the crank stops.
 
     tan^2(gamma/2) = (x - (b - c))(x + (b - c))/((b + c - x)(b + c + x)),   x = |d - a| and d + a
 

@@ -63,7 +63,7 @@ def dead_center_extended(crank: float, rod: float, offset: float = 0.0) -> float
     Returns
         angle : float [rad] - of the sign of the offset; the crank's direction is -pi/2 less this angle
     Raises
-        NoSolution - when the crank cannot make a full turn
+        NoSolution - when the crank cannot make a full revolution
     Example
         >>> round(math.degrees(dead_center_extended(154.21159203908383, 520.0, 50.0)), 9)
         4.252999348
@@ -85,7 +85,7 @@ def dead_center_folded(crank: float, rod: float, offset: float = 0.0) -> float:
     Returns
         angle : float [rad] - of the sign of the offset; the crank's direction is pi/2 less this angle
     Raises
-        NoSolution - when the crank cannot make a full turn
+        NoSolution - when the crank cannot make a full revolution
     Example
         >>> round(math.degrees(dead_center_folded(154.21159203908383, 520.0, 50.0)), 9)
         7.856416254
@@ -140,7 +140,7 @@ class SliderCrank:
         """The slider-crank of a given crank.
 
         Raises
-            NoSolution - when the crank cannot make a full turn
+            NoSolution - when the crank cannot make a full revolution
         Example
             >>> SliderCrank.of_crank(50.0, 200.0).stroke
             100.0
@@ -291,7 +291,7 @@ def _check_crank(crank: float, rod: float, offset: float) -> None:
         raise NoSolution(f"crank {crank:g} mm: its length must be positive")
     if not e <= difference:
         raise NoSolution(
-            f"crank {crank:.6g} mm cannot make a full turn with rod {rod:.6g} mm and offset {offset:.6g} mm: "
+            f"crank {crank:.6g} mm cannot make a full revolution with rod {rod:.6g} mm and offset {offset:.6g} mm: "
             f"it must not exceed rod less offset, {safely_below(rod - e)} mm"
         )
 

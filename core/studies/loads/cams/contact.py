@@ -18,7 +18,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 
 _PHI = 0.5 * (1.0 + math.sqrt(5.0))
 SHEAR_DEPTH = _PHI**-0.5
-"""Depth of the greatest shear stress of a line contact over its half width."""
+"""Depth of the maximum shear stress of a line contact over its half width."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class LineContact:
 
     @cached_property
     def shear_depth(self) -> Reals:
-        """Depth of the greatest shear stress, Phi^(-1/2) b [mm]."""
+        """Depth of the maximum shear stress, Phi^(-1/2) b [mm]."""
         return np.asarray(SHEAR_DEPTH * self.half_width)
 
 

@@ -142,14 +142,14 @@ class CamLoadsDesign(LoadsDesign):
         return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
 
     def _radius(self, name: str, phi: Reals) -> Reals:
-        """Relative radius of a roller that is pressed [mm]; its own where it is not, by which no least is found."""
+        """Relative radius of a roller that is pressed [mm]; its own where it is not, by which no minimum is found."""
         import numpy as np
 
         roller = self.roller_on_cam(name, phi)
         return np.where(self.contact_force(name, phi) > 0.0, roller.relative_radius, roller.radius)
 
     def _each_pressed(self, course: str) -> list[Extreme | None] | None:
-        """The greatest value of each roller; None for one that presses on an undercut, and all without a width."""
+        """The maximum value of each roller; None for one that presses on an undercut, and all without a width."""
         if self.section.roller is None:
             return None
         pairs = zip(self.own_rollers, self._each(course), strict=True)
@@ -163,32 +163,32 @@ class CamLoadsDesign(LoadsDesign):
 
     @cached_property
     def force_extremes(self) -> list[tuple[Extreme, Extreme]]:
-        """Least and greatest force of each roller [N]."""
+        """Minimum and maximum force of each roller [N]."""
         return list(zip(self._each("contact_force", False), self._each("contact_force"), strict=True))
 
     @property
     def contact_force_max(self) -> list[float]:
-        """Greatest contact force of each roller [N]."""
+        """Maximum contact force of each roller [N]."""
         return [high.value for _, high in self.force_extremes]
 
     @property
     def contact_force_min(self) -> list[float]:
-        """Least contact force of each roller [N]."""
+        """Minimum contact force of each roller [N]."""
         return [low.value for low, _ in self.force_extremes]
 
     @cached_property
     def pressure_extremes(self) -> list[Extreme | None] | None:
-        """Greatest Hertzian pressure of each roller [N/mm^2]; None where its cam is undercut, and without a width."""
+        """Maximum Hertzian pressure of each roller [N/mm^2]; None where its cam is undercut, and without a width."""
         return self._each_pressed("hertz_pressure")
 
     @property
     def hertz_pressure_max(self) -> list[float | None] | None:
-        """Greatest pressure of each roller and its cam [N/mm^2]."""
+        """Maximum pressure of each roller and its cam [N/mm^2]."""
         return _values(self.pressure_extremes)
 
     @cached_property
     def shear_depth(self) -> list[float | None] | None:
-        """Greatest depth of the greatest shear stress [mm]."""
+        """Maximum depth of the maximum shear stress [mm]."""
         return _values(self._each_pressed("shear_depth"))
 
     def roller_speed(self, name: str, phi: Reals) -> Reals:
@@ -204,12 +204,12 @@ class CamLoadsDesign(LoadsDesign):
 
     @property
     def roller_speed_max(self) -> list[float]:
-        """Greatest speed of each roller [1/min]."""
+        """Maximum speed of each roller [1/min]."""
         return [each.value / _RPM for each in self._each("roller_speed")]
 
     @property
     def roller_acceleration_max(self) -> list[float]:
-        """Greatest angular acceleration of each roller [rad/s^2]."""
+        """Maximum angular acceleration of each roller [rad/s^2]."""
         return [each.value for each in self._each("roller_acceleration")]
 
     def entrainment(self, name: str, phi: Reals) -> Reals:
@@ -219,7 +219,7 @@ class CamLoadsDesign(LoadsDesign):
 
     @property
     def entrainment_speed_max(self) -> list[float]:
-        """Greatest entrainment speed of each roller [mm/s]."""
+        """Maximum entrainment speed of each roller [mm/s]."""
         return [each.value for each in self._each("entrainment_speed")]
 
     def traction(self, name: str, phi: Reals) -> Reals:
@@ -236,7 +236,7 @@ class CamLoadsDesign(LoadsDesign):
 
     @cached_property
     def traction_needed(self) -> list[float | None] | None:
-        """Greatest share of the contact force that drives each roller round; None without a roller, and for one that
+        """Maximum share of the contact force that drives each roller round; None without a roller, and for one that
         leaves its cam: then nothing drives it."""
         roller = self.section.roller
         if roller is None:
@@ -255,12 +255,12 @@ class CamLoadsDesign(LoadsDesign):
 
     @cached_property
     def cam_torque_max(self) -> float:
-        """Greatest torque on the cams, counter-clockwise [N m]."""
+        """Maximum torque on the cams, counter-clockwise [N m]."""
         return self.extreme_of("cam_torque").value
 
     @cached_property
     def cam_torque_min(self) -> float:
-        """Least torque on the cams, counter-clockwise [N m]."""
+        """Minimum torque on the cams, counter-clockwise [N m]."""
         return self.extreme_of("cam_torque", False).value
 
     @cached_property
@@ -270,7 +270,7 @@ class CamLoadsDesign(LoadsDesign):
 
     @property
     def preload_needed(self) -> float | None:
-        """Least preload that keeps both rollers of a positive drive on their cams [N]; None elsewhere."""
+        """Minimum preload that keeps both rollers of a positive drive on their cams [N]; None elsewhere."""
         return None
 
     def side_force(self, phi: Reals) -> Reals:

@@ -51,7 +51,7 @@ def test_tips_come_free_at_seven_to_nine_teeth_more(pinion):
 
 
 def least_corner_gap(mesh, steps=6000):
-    """Least angle between the pinion's tip corner and the ring's flank as the pinion turns, where the two overlap.
+    """Minimum angle between the pinion's tip corner and the ring's flank as the pinion turns, where the two overlap.
 
     Ring's axis at 0, pinion's at the centre distance; the flanks touch at the pitch point at turn 0 and lean forward
     outwards, so that the pinion's tooth lies ahead of them and a corner behind the ring's flank is inside its tooth.

@@ -375,7 +375,7 @@ def test_only_what_is_asked_for_is_computed():
     [
         (
             lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=270.0),
-            r"least is the sum of the base radii, 270\.7",
+            r"minimum is the sum of the base radii, 270\.7",
         ),
         (lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=math.nan), "does not suit"),
         (lambda: GearPair.from_shift(2.0, (8, 8), (-0.8, -0.8)), r"sum must be at least -0\.327"),

@@ -1,4 +1,4 @@
-"""The corner of a tip in its mate's fillet, against drawn teeth that are turned in mesh."""
+"""The corner of a tip in its mating gear's fillet, against drawn teeth that are turned in mesh."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def drawn_fillet(pair: GearPair, gear: int) -> Points:
 
 
 def rolled(pair: GearPair, gear: int) -> float:
-    """The least gap of the mate's corners to a fillet along circles, of drawn teeth in many places [mm]."""
+    """The minimum gap of the mating gear's corners to a fillet along circles, of drawn teeth in many places [mm]."""
     mate, mesh = 1 - gear, MeshGeometry(pair)
     first = list(mesh.first_space)
     if pair.internal:  # of a ring the middle of a tooth is told

@@ -2,7 +2,7 @@
 
 Tolerances
 * against a rack tool rolled over a fine grid of positions: 2e-7 module; the grid steps by 2e-4 rad of roll and leaves
-  (r step)^2/(8 times the least radius of curvature, about 0.2 module) for the gears tried.
+  (r step)^2/(8 times the minimum radius of curvature, about 0.2 module) for the gears tried.
 * closed forms (form radius, thickness): 64 ulp of the radius; the undercut's root is a bracketed one to the last bit.
 * chords: the error asked for, and a tenth more, since middles of the parameter stand in for the farthest points.
 """

@@ -19,7 +19,7 @@ from gearlink.core.parts.gears.tooth.tools import RackTool
 
 
 def rolled(rack: RackMesh) -> float:
-    """The least gap of the tip's corners to the rounding along the rack, of drawn teeth in many places [mm]."""
+    """The minimum gap of the tip's corners to the rounding along the rack, of drawn teeth in many places [mm]."""
     pair, (own, height) = rack.pair, RackGeometry(rack).first_space
     curve, low, high = rack.profile.pieces()[1]
     rounding = curve(np.linspace(low, high, 4001))

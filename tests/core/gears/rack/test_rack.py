@@ -90,7 +90,7 @@ def test_a_shifted_rack_would_cut_into_the_teeth() -> None:
 
 @pytest.mark.parametrize("keys", SHAPES)
 def test_sliding_is_that_of_the_bodies_velocities(keys: dict[str, Any]) -> None:
-    """zeta = 1 - speed of the mate over that of the gear, both along the flank at the contact."""
+    """zeta = 1 - speed of the mating gear over that of the gear, both along the flank at the contact."""
     rack = gear(keys).rack
     mesh, r = RackGeometry(rack), rack.pair.reference_radius[0]
     along = mesh.direction * 1j

@@ -144,5 +144,5 @@ def test_the_drawing_names_what_a_workshop_needs() -> None:
     table = design(spec([24, 55], [0.2, 0.1], **keys)).table("drawing")
     rows = {row[0]: row[2:4] for row in table.rows()}
     assert rows["number of teeth"] == [24, 55]
-    assert rows["span measurement, greatest"][0] > rows["span measurement, least"][0]
-    assert rows["theoretical backlash, least"][0] > 0.0
+    assert rows["span measurement, maximum"][0] > rows["span measurement, minimum"][0]
+    assert rows["theoretical backlash, minimum"][0] > 0.0

@@ -1,4 +1,4 @@
-"""Shifts, tools, helix, measures, backlash and strength of the meshes inside gear-linkages.
+"""Shifts, tools, helix, measures, backlash and strength of the meshes inside geared linkages.
 
 Tolerances
 * a mesh against the gear pair of the same data: 1e-12.
@@ -214,7 +214,7 @@ def _base(module, z, helix):
 
 
 def _free_turn(module, teeth, shifts, helix, distance, tips):
-    """Angle by which gear 2 turns between its flanks, gear 1 held with a tooth towards it."""
+    """Angle by which gear 2 revolutions between its flanks, gear 1 held with a tooth towards it."""
     (z1, z2), external = teeth, teeth[1] > 0
     low = max(abs(distance - tips[1]), _base(module, z1, helix) * (1.0 + 1e-12))
     radius, pitch = np.linspace(low, tips[0], 20_001), 2.0 * math.pi / abs(z2)

@@ -60,7 +60,7 @@ def test_gripper_against_the_reference(gripper: Any) -> None:
 
 
 def test_gripper_lifts_off_where_its_own_check_says(gripper: Any) -> None:
-    """At that speed the least force is nothing: two ways to the same speed."""
+    """At that speed the minimum force is nothing: two ways to the same speed."""
     speed = gripper.lift_off_speed
     at_it = factory.design("swing_gripper", command="loads", loads=GRIPPER["spec"], speed=speed)
     assert min(at_it.contact_force_min) == pytest.approx(0.0, abs=1e-6 * max(at_it.contact_force_max))
@@ -79,7 +79,7 @@ def test_torque_of_the_gripper_by_power_and_by_the_contacts(gripper: Any) -> Non
 
 
 def test_an_undercut_cam_has_no_pressure() -> None:
-    """A roller larger than the least curvature of the pitch curve, 124 mm: the other roller keeps its pressure."""
+    """A roller larger than the minimum curvature of the pitch curve, 124 mm: the other roller keeps its pressure."""
     whole = factory.design("loaded_gripper", command="loads")
     undercut = factory.design("loaded_gripper", command="loads", cam__roller__radius=150.0)
     assert undercut.hertz_pressure_max[0] is None

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.commands import studio
+from gearlink.cli.studio import command as studio
 
 
 @pytest.mark.parametrize(

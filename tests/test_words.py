@@ -1,0 +1,104 @@
+"""The words of the field in all texts that users read: of the program, README, docs and comments of designs."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+WORDS = {
+    r"\bgreatest\b(?! common)": "maximum",
+    r"(?<!at )(?<!--)\bleast\b(?! squares|-| common)": "minimum",
+    r"\bas made\b": "as manufactured",
+    r"\b(come|comes|coming|bring|brings|brought|way|is) home\b": "return",
+    r"\bway back\b": "return stroke",
+    r"\bfilms?\b(?![\"(]| thickness)": "animation",
+    r"\byours to choose\b": "required",
+    r"\bmay be left out\b": "optional",
+    r"\b(to spare|in hand)\b": "margin, reserve",
+    r"\bthinnest shaft\b": "minimum shaft radius",
+    r"\bdead points?\b": "dead centre",
+    r"\b(worked|mended) (design|file)s?\b": "example",
+    r"\bremed(y|ies)\b": "fix",
+    r"(?<!Also: )\bgear-linkages?\b": "geared linkage",
+    r"\bthe mate\b": "the mating gear",
+    r"\bbesides\b": "in addition",
+    r"\b(is|are|was|were) wanted\b": "required",
+    r"\b(one|per|each|every|whole|full|half a|of a) turn\b": "revolution",
+    r"\bmakes? good\b": "compensates",
+}
+"""What is not written, as a pattern, and the word of the field in its place."""
+
+GENERATED = {"nomenclature.md", "validation.md", "benchmarks.md"}
+KEYS = re.compile(r"`[^`]*`|https?:\S+|\]\([^)]*\)|\b[\w-]+[._/][\w./_-]+\b")
+"""Keys, names of quantities, files and addresses, which are fixed."""
+
+
+def _literals(path: Path) -> Iterator[str]:
+    """The prose among the strings of a module, without docstrings of functions and modules."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    docs = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.Module, ast.FunctionDef, ast.ClassDef))
+        and node.body
+        and isinstance(node.body[0], ast.Expr)
+    }
+    for node in ast.walk(tree):
+        if (
+            isinstance(node, ast.Constant)
+            and isinstance(node.value, str)
+            and id(node) not in docs
+            and " " in node.value
+        ):
+            yield node.value
+
+
+def _strings(data: object) -> Iterator[str]:
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, dict):
+        for value in data.values():
+            yield from _strings(value)
+    elif isinstance(data, list):
+        for value in data:
+            yield from _strings(value)
+
+
+@cache
+def _texts() -> dict[str, list[str]]:
+    """Every text that a user reads, by the file that it stands in."""
+    found = {}
+    for top in ("core", "cli"):
+        for path in sorted((ROOT / top).rglob("*.py")):
+            found[str(path.relative_to(ROOT))] = list(_literals(path))
+    for path in sorted((ROOT / "cli" / "texts").glob("*.json")):
+        strings = _strings(json.loads(path.read_text(encoding="utf-8")))
+        found[str(path.relative_to(ROOT))] = [text for text in strings if " " in text]
+    for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+        if path.name not in GENERATED:
+            text = re.sub(r"(?ms)^```.*?^```", "", path.read_text(encoding="utf-8"))
+            found[str(path.relative_to(ROOT))] = [KEYS.sub("", text)]
+    for path in sorted((ROOT / "designs").rglob("*.yaml")):
+        comments = re.findall(r"(?m)(?:^|\s)#(.*)$", path.read_text(encoding="utf-8"))
+        found[str(path.relative_to(ROOT))] = [KEYS.sub("", text) for text in comments]
+    return found
+
+
+@pytest.mark.parametrize("pattern", WORDS)
+def test_texts_have_the_words_of_the_field(pattern: str) -> None:
+    word = re.compile(pattern, re.IGNORECASE)
+    found = [
+        f"{file}: {text[max(0, hit.start() - 40) : hit.end() + 30]!r}"
+        for file, texts in _texts().items()
+        for text in texts
+        for hit in word.finditer(text)
+    ]
+    assert not found, f"{len(found)} times, write {WORDS[pattern]!r}:\n" + "\n".join(found)
