@@ -619,7 +619,7 @@ def _served(name: str, design: Any) -> tuple[AnyCam, bool]:
     """The cam of a stroke, and whether its mirror image is meant."""
     if name == "main_cam":
         return design.cam, False
-    return design.return_cam or design.cam, design.spec.layout == "twin-cam"
+    return design.return_cam or design.cam, design.spec.layout != "twin-rocker"
 
 
 def _swing_findings(cam: AnyCam, design: Any) -> tuple[str, ...]:

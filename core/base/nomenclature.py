@@ -196,6 +196,10 @@ _SWING = {
         "way at the output radius in the rests, per mm of the profile",
         "own derivation",
     ),
+    "shaft_distance": Term("O1O2", "mm", "distance of two parallel cam shafts", "dissertation figure 2"),
+    "roller_arm_angle": Term("psi", "deg", "angle between the arms of the two rollers", "dissertation figure 2"),
+    "cam_gap": Term("", "mm", "room between the circles of two cams on parallel shafts", "own derivation"),
+    "cam_shaft_gap": Term("", "mm", "minimum room between a cam and the shaft of the other", "own derivation"),
     "dwell_force": Term("F_d", "N", "maximum force of a roller on its cam during the rests", "own derivation"),
     "sectors_external": Term(
         "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"

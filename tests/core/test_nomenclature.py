@@ -123,6 +123,7 @@ TWO_SOURCES = {
         "equivalent force",
         "five_bar_ratio span_teeth",
         "input_length reference_center_distance",
+        "reference_radius rocker_radius",
         "follower_length tip_clearance",
         "point_radius reference_radius",
     )

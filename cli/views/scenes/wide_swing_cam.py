@@ -149,9 +149,11 @@ def _cams(cycle: Cycle) -> list[Part]:
             Chain(joints=joints, color=GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
+    if design.spec.layout == "twin-cam-parallel":  # the second cam is on a shaft of its own
+        return [*_cam(cycle, design.cam, -cycle.cam_turn(), BLUE), *_roller(cycle, design.cam.rocker_radius)]
     other = design.return_cam or design.cam
     back = _cam(cycle, other, cycle.cam_turn(back=True), RED, mirrored=True)
-    if design.spec.layout == "twin-cam":
+    if design.spec.layout != "twin-rocker":
         main = _cam(cycle, design.cam, -cycle.cam_turn(), BLUE)
         arms = dict.fromkeys((design.cam.rocker_radius, other.rocker_radius))
         if design.spec.slider is not None:

@@ -141,7 +141,7 @@ def placed_clearance(loads: WideSwingLoads) -> Iterator[Check]:
     section, design = loads.section, loads.design
     cam, swing = cam_axis(design.section), design.motion.swing
     reach = design.section.center_distance
-    toward = 0.0 if design.spec.layout == "twin-cam" else math.pi  # direction from D to O
+    toward = 0.0 if design.spec.layout != "twin-rocker" else math.pi  # direction from D to O
     unloader = design.spec.unloader
     if section.device_direction is not None and unloader.type != "gravity":
         aside = toward - math.radians(section.device_direction)

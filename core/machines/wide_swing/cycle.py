@@ -26,7 +26,7 @@ class WholeCycle:
     def __init__(self, design: WideSwingDesign) -> None:
         self.design = design
         self.angles = design.motion.cycle_angles
-        self.external_working = design.spec.layout == "twin-cam"
+        self.external_working = design.spec.layout != "twin-rocker"
 
     @cached_property
     def main(self) -> ClosedCam:

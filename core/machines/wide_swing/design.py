@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.cycle import WholeCycle
     from gearlink.core.machines.wide_swing.impact import FlankImpact
     from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw, MarchedLaw
+    from gearlink.core.machines.wide_swing.parallel import ParallelShafts
     from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
@@ -84,6 +85,8 @@ IMPACT = {
     "impact_force": "impact.force",
 }
 GAIN = {"end_position_gain": "end_position_gain"}
+SHAFTS = {name: f"shafts.{name}" for name in ("shaft_distance", "roller_arm_angle", "cam_gap", "cam_shaft_gap")}
+OF_BOTH = ("rocker_radius", "max_radius", "min_radius")
 CYCLE = {
     "sectors_external": "cycle.sectors_external",
     "sectors_internal": "cycle.sectors_internal",
@@ -101,6 +104,7 @@ CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
 PATHS = (
     QUANTITIES
     | IMPACT
+    | SHAFTS
     | GAIN
     | MOTION
     | PLACES
@@ -300,7 +304,7 @@ def main_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table
 
 def return_cam_table(design: WideSwingDesign, samples: int | None = None) -> Table:
     """The cam of the return stroke: a mirror image (twin-cam), or the external profile of the twin-rocker."""
-    mirror = -1.0 if design.spec.layout == "twin-cam" else 1.0
+    mirror = -1.0 if design.spec.layout != "twin-rocker" else 1.0
     return _cam(design, "return_cam", design.return_cam or design.even_cam, mirror, samples)
 
 
@@ -572,6 +576,7 @@ _LAW_CHECKS = (
     "transmission-angle",
 )
 _CYCLE_CHECKS = ("acceleration-step", "closed-contour", "profile-planes")
+_BESIDE = ("flank-impact", "cam-clearance")
 _CAM_CHECKS = (
     "profile-exists",
     "pressure-angle",
@@ -669,15 +674,21 @@ class WideSwingDesign(Design):
             raise NoSolution("this is a result of a cam that turns evenly", key="drive", fix="leave out drive")
         if self.spec.slider is not None:
             raise NoSolution("this is a result of a cam of a rocker alone", key="slider", fix="leave out slider")
-        return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius, "working")
+        layout: Layout = "twin-rocker" if self.spec.layout == "twin-rocker" else "twin-cam"
+        return self._even(layout, self.motion.cycle_angle, self.section.rocker_radius, "working")
 
     @cached_property
     def return_cam(self) -> WideSwingCam | None:
         """A return cam of another shape: the external profile of the twin-rocker, or one of another cam angle."""
         if self.spec.slider is not None:
             return None
-        if self.spec.layout == "twin-cam" and self.motion.return_angle == self.motion.cycle_angle:
+        second = self.section.second
+        alike = self.spec.layout != "twin-rocker" and self.motion.return_angle == self.motion.cycle_angle
+        if second is None and alike:
             return None
+        if second is not None and second.center_distance is not None:
+            other = self._even("twin-cam", self.motion.return_angle, None, "return")
+            return replace(other, center_distance=second.center_distance)
         return self._even("twin-cam", self.motion.return_angle, None, "return")
 
     def _even(self, layout: Layout, angle: float, rocker_radius: float | None, phase: str) -> WideSwingCam:
@@ -717,6 +728,19 @@ class WideSwingDesign(Design):
         with at_key("cycle_angle"):
             return SliderCam(law, angle, section.center_distance, section.roller_radius)
 
+    @cached_property
+    def shafts(self) -> ParallelShafts:
+        """Both shafts of a twin-cam-parallel."""
+        from gearlink.core.machines.wide_swing.parallel import ParallelShafts
+
+        return ParallelShafts(self)
+
+    def check_cam_clearance(self) -> Iterator[Check]:
+        """GL541."""
+        from gearlink.core.machines.wide_swing.parallel import cam_clearance
+
+        return cam_clearance(self)
+
     @property
     def aimed_cam(self) -> SliderCam | OscillatingCam:
         """The cam of a rocker with a slider, whose roller passes the line of centres beside mid-swing."""
@@ -732,7 +756,7 @@ class WideSwingDesign(Design):
         """The cams that are checked, by the words that a message calls them."""
         if self.return_cam is None:
             return {"cam": self.cam}
-        if self.spec.layout == "twin-cam":
+        if self.spec.layout != "twin-rocker":
             return {"cam": self.cam, "return cam": self.return_cam}
         return {"internal profile": self.cam, "external profile": self.return_cam}
 
@@ -886,6 +910,12 @@ class WideSwingDesign(Design):
         if name in NEED_ZONE:
             with self._profile_key:
                 self.cam.require_profile()
+        if name in OF_BOTH and self.section.second is not None:
+            return [getattr(cam, name) for cam in self.shafts.cams]
+        if name.startswith("shaft_gears."):
+            from gearlink.core.parts.gears.checks import gear_quantity
+
+            return gear_quantity(self.shafts.gears, name.rpartition(".")[2])
         value_of = attrgetter(PATHS[name])
         if "cam." not in PATHS[name]:
             return value_of(self)
@@ -954,7 +984,7 @@ class WideSwingDesign(Design):
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
             checks += (
-                *(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn, "flank-impact")),
+                *(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn, *_BESIDE)),
                 "force-reserve",
             )
         if spec.method == "iteration":
@@ -979,6 +1009,12 @@ class WideSwingDesign(Design):
                 *(name for name in shown if name not in (*OF_EVEN_CAM, *NEED_PROFILE)),
             ]
         section = self.section
+        if section.second is not None:
+            shown += SHAFTS
+            if self.spec.gears is not None:
+                from gearlink.core.machines.wide_swing.parallel import OF_GEARS
+
+                shown += OF_GEARS
         if section.roller_clearance is not None:
             shown += [name for name in IMPACT if name != "impact_force" or section.contact_stiffness is not None]
         if self.spec.output_radius is not None:
@@ -1010,4 +1046,6 @@ class WideSwingDesign(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-        return tuple(PATHS)
+        from gearlink.core.machines.wide_swing.parallel import OF_GEARS
+
+        return (*PATHS, *OF_GEARS)

@@ -42,7 +42,8 @@ def motion(design: WideSwingDesign) -> Motion:
     spec = design.spec
     if spec.cam is None:
         return working_stroke(design)
-    whole = spec.cycle is not None or spec.drive is not None
+    parallel = spec.layout == "twin-cam-parallel"  # of the second cam, on a shaft of its own, the machine has no joint
+    whole = (spec.cycle is not None and not parallel) or spec.drive is not None
     machine = _WithCams(design, whole)
     end, turns = (TURN, 1) if whole else (design.motion.cycle_angle, None)
     return Motion(
@@ -97,7 +98,7 @@ class _WithCams:
         self.design, self.spec, self.whole = design, design.spec, whole
         self.strokes = strokes_of(design)
         self.has_return_cam = self.spec.cycle is not None and self.spec.layout == "twin-cam"
-        self.side = -1.0 if self.spec.layout == "twin-cam" else 1.0
+        self.side = -1.0 if self.spec.layout != "twin-rocker" else 1.0
         """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
         if self.spec.drive is not None:
             phases: tuple[float, ...] = (self.strokes[0].width, 0.0, self.strokes[1].width, 0.0)

@@ -20,9 +20,11 @@ from gearlink.core.base.spec import (
     Share,
     SignedLength,
     Spec,
+    Teeth,
     TolerancedSpec,
     also,
 )
+from gearlink.core.parts.gears.keys.pair import PairKeys
 
 
 def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **words: str) -> NoReturn:
@@ -168,6 +170,21 @@ def _refuse_reserve(device: Pneumatic | SpringDevice | GravityDevice, given: str
         )
 
 
+class SecondShaft(Spec):
+    """The shaft of the return cam, beside that of the working cam."""
+
+    direction: Annotated[float, Field(gt=-360, lt=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="from the rocker axis, counter-clockwise from the direction to the first shaft"
+    )
+    center_distance: Length | None = Field(None, description="from the rocker axis; left out: that of the first cam")
+
+
+class ShaftGears(PairKeys):
+    """The pair 1:1 between two parallel cam shafts; its centre distance is that of the shafts."""
+
+    teeth: Teeth | None = Field(None, description="teeth of both gears; left out: as many as the distance takes")
+
+
 class SwingCam(Spec):
     """The cam pair."""
 
@@ -177,6 +194,10 @@ class SwingCam(Spec):
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
     free_clearance: Distance = Field(
         0.5, description="room between a roller and the sector of a closed contour in which the other cam guides"
+    )
+    second: SecondShaft | None = Field(None, description="shaft of the return cam of a twin-cam-parallel")
+    planes: Literal["separate", "same"] = Field(
+        "separate", description="of the two cams of a twin-cam-parallel: beside each other, or in one plane"
     )
     roller_clearance: Distance | None = Field(
         None, description="clearance of the roller in its slot, both flanks together; then the blow at mid-swing"
@@ -271,6 +292,7 @@ class SwingLimits(LoadLimits):
     transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )
+    cam_gap: Distance = Field(0.0, description="minimum room of cams on parallel shafts")
     impact_speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] | None = Field(
         None, description="maximum speed of the roller's blow where it changes flanks; left out: not judged"
     )
@@ -280,8 +302,8 @@ class WideSwingSpec(TolerancedSpec):
     """Twin-cam or twin-rocker mechanism with spring or pneumatic unloading."""
 
     kind: Literal["wide-swing-cam"]
-    layout: Literal["twin-cam", "twin-rocker"] = Field(
-        description="twin-cam: external profile; twin-rocker: internal profile"
+    layout: Literal["twin-cam", "twin-rocker", "twin-cam-parallel"] = Field(
+        description="twin-cam: external profile; twin-rocker: internal profile; twin-cam-parallel: two shafts"
     )
     drive: SwingDrive | None = None
     cycle: SwingCycle | None = None
@@ -311,6 +333,7 @@ class WideSwingSpec(TolerancedSpec):
         20, description="its steps per half stroke"
     )
     cam: SwingCam | None = None
+    gears: ShaftGears | None = None
     slider: SwingSlider | None = None
     shaft: SwingShaft | None = None
     limits: SwingLimits = SwingLimits.model_construct()
@@ -338,6 +361,7 @@ class WideSwingSpec(TolerancedSpec):
             _refuse("cycle_angle", "cycle_angle and cycle exclude each other: give one")
         if self.drive is not None:
             self._agree_with_drive()
+        self._shafts_agree()
         if self.unloader.type == "gravity":
             for name in ("slider", "loads"):
                 if getattr(self, name) is not None:
@@ -348,6 +372,20 @@ class WideSwingSpec(TolerancedSpec):
         if self.slider is not None and self.cam is not None:
             self._cam_with_slider(self.cam)
         return self
+
+    def _shafts_agree(self) -> None:
+        parallel = self.layout == "twin-cam-parallel"
+        if parallel and self.cam is not None and self.cam.second is None:
+            words = "second: {direction: 110}, the shaft of the return cam"
+            _refuse("cam.second", "the key 'second' is missing", "GL106", help=words)
+        if not parallel and self.cam is not None and self.cam.second is not None:
+            _refuse("cam.second", "a second shaft is for layout: twin-cam-parallel alone")
+        if not parallel and self.gears is not None:
+            _refuse("gears", "gears between the shafts are for layout: twin-cam-parallel alone")
+        if parallel and self.gears is not None and self.cam is None:
+            _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
+        if parallel and self.loads is not None:
+            _refuse("loads", "the loads of cams on two shafts are not computed: leave out loads, or take twin-cam")
 
     def _cam_with_slider(self, cam: SwingCam) -> None:
         if self.layout != "twin-cam":

@@ -162,6 +162,6 @@ def strokes_of(design: WideSwingDesign) -> tuple[Stroke, ...]:
     main = Stroke("main", design.cam, 0.0, design)
     if design.spec.drive is not None:
         return main, WayHome("return", design.cam, design.cam.cycle_angle, design)
-    if design.spec.cycle is None:
+    if design.spec.cycle is None or design.spec.layout == "twin-cam-parallel":
         return (main,)
     return main, Stroke("return", design.return_cam or design.cam, sum(design.motion.cycle_angles[:2]), design)

@@ -28,7 +28,7 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
         return [("Cam of both strokes, turning back in the return", design.cam, 1.0)]
     if design.return_cam is None:
         return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
-    if design.spec.layout == "twin-cam":
+    if design.spec.layout != "twin-rocker":
         return [(working, design.cam, 1.0), ("Cam of the return stroke", design.return_cam, -1.0)]
     return [
         ("Internal profile, working stroke", design.cam, 1.0),

@@ -377,7 +377,7 @@ class WideSwingLoads(LoadsDesign):
     @property
     def has_return_cam(self) -> bool:
         """Whether a second cam turns the other way."""
-        return self.spec.cycle is not None and self.spec.layout == "twin-cam"
+        return self.spec.cycle is not None and self.spec.layout != "twin-rocker"
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:

@@ -1,0 +1,90 @@
+"""Twin cams on two parallel shafts.
+
+Tolerances: 1e-12 for lengths by the law of cosines; 2 mm for the gap of contours against a brute search over points
+of both, in steps of 3 deg.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.spec import WideSwingSpec
+
+CYLINDER = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0, "reserve": 0.24}
+CAM = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}
+CYCLE = {"working": 120.0, "far_dwell": 60.0, "return": 120.0, "near_dwell": 60.0}
+
+
+def design_of(direction: float = 110.0, other: float = 200.0, cam: dict[str, Any] | None = None, **more: Any) -> Any:
+    data = {"kind": "wide-swing-cam", "layout": "twin-cam-parallel", "swing": 120.0, "speed": 100.0, "inertia": 0.5}
+    section = CAM | {"second": {"direction": direction, "center_distance": other}} | (cam or {})
+    spec = WideSwingSpec.model_validate(
+        data | {"unloader": CYLINDER, "cam": section} | ({} if "cycle" in more else {"cycle_angle": 120.0}) | more
+    )
+    return WideSwingDesign(spec)
+
+
+def test_lengths() -> None:
+    shafts = design_of(110.0, 250.0).shafts
+    psi = math.radians(110.0)
+    expected = math.sqrt(200.0**2 + 250.0**2 - 2.0 * 200.0 * 250.0 * math.cos(psi))
+    assert shafts.shaft_distance == pytest.approx(expected, rel=1e-12)
+    first, second = shafts.cams
+    assert second.rocker_radius == pytest.approx(1.25 * first.rocker_radius, rel=1e-12)
+    assert second.max_radius == pytest.approx(1.25 * first.max_radius, rel=1e-12)
+    assert design_of(110.0, 250.0).raw("rocker_radius") == [first.rocker_radius, second.rocker_radius]
+
+
+@pytest.mark.parametrize(("direction", "planes", "status"), [(110.0, "separate", "pass"), (30.0, "separate", "fail")])
+def test_clearance(direction: float, planes: str, status: str) -> None:
+    (check,) = design_of(direction, cam={"planes": planes}).check("cam-clearance")
+    assert check.status == status
+
+
+@pytest.mark.parametrize("direction", [60.0, 109.0])
+def test_gap_of_contours_that_turn_against_each_other(direction: float) -> None:
+    design = design_of(direction, cycle=CYCLE, cam={"planes": "same"})
+    shafts, whole = design.shafts, design.cycle
+    near, far = shafts.shafts
+    first, second = (np.concatenate([p for _, p in cam.outline(120)]) for cam in (whole.main, whole.back))
+    apart, cuts = math.inf, False
+    for turn in np.radians(np.arange(0.0, 360.0, 3.0)):
+        one = near + first * np.exp(-1j * (turn - math.radians(60.0)))
+        # the second cam's own stroke begins after working stroke and rest, mirrored, about the direction of its shaft
+        two = far + far / abs(far) * np.conj(second * np.exp(-1j * (turn - math.radians(180.0 + 60.0))))
+        apart = min(apart, float(np.abs(one[:, None] - two[None, :]).min()))
+        cuts = cuts or bool(np.any(np.abs(one - far) < whole.back.least_radius))
+    found = shafts._contour_gap
+    # contours that cross come near each other, those that do not keep the gap
+    assert (found < 0.0) == (cuts or apart < 1.0)
+    if found >= 0.0:
+        assert found == pytest.approx(apart, abs=2.0)
+    elif not cuts:
+        assert shafts.cam_gap - 0.5 <= found
+
+
+def test_gears_between_the_shafts() -> None:
+    design = design_of(gears={"module": 4.0})
+    pair = design.shafts.gears
+    assert 4.0 * pair.teeth[0] <= design.shafts.shaft_distance < 4.0 * (pair.teeth[0] + 1)
+    assert pair.teeth[0] == pair.teeth[1]
+    assert sum(design.raw("shaft_gears.profile_shift")) >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"layout": "twin-cam"}, "twin-cam-parallel alone"),
+        ({"cam": {"second": None}}, "second"),
+        ({"loads": {}}, "leave out loads"),
+    ],
+)
+def test_contradictions(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        design_of(**changes)
