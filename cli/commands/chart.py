@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.shaped_design import Vibration
 
 
+_DEVICES = {"spring": "spring", "pneumatic": "cylinder"}
 _LINK_TOLERANCE = 1e-3
 _SMOOTH = 601
 
@@ -48,6 +49,8 @@ class Asked:
     curves: str = ""
     samples: int = 91
     design: str = ""
+    device: tuple[str, float | None, float | None] = ("", None, None)
+    """Type, stretch ratio and pivot ratio of a wide swing's device."""
 
 
 def run_chart(asked: Asked, options: Options) -> int:
@@ -57,9 +60,11 @@ def run_chart(asked: Asked, options: Options) -> int:
     if asked.name in OF_FILES:
         return _residual(asked, options)
     try:
-        chart = _chart_named(asked.name)
+        chart = _with_device(_chart_named(asked.name), asked)
         low, high = _range(asked.range, chart)
         curves = _curves(asked.curves, chart)
+        if asked.device[2] is not None and chart.parameter is not None and chart.parameter.name == "pivot_ratio":
+            curves = (asked.device[2],)
         if options.plot:
             require_folder(options.out)
         with patience(f"computing {asked.name}", quiet=options.quiet):
@@ -150,6 +155,37 @@ def _chart_named(name: str) -> DesignChart:
     raise DesignFileError([Diagnostic("GL115", f"no chart {named(name)}", "<command line>", key=name, help=remedy)])
 
 
+def _with_device(chart: DesignChart, asked: Asked) -> DesignChart:
+    """The chart for the device that the options name.
+
+    Raises
+        DesignFileError - for options that do not go together, or a chart that is about no device
+    """
+    device, stretch, ratio = asked.device
+    if (device, stretch, ratio) == ("", None, None):
+        return chart
+    if chart.kind != "wide-swing-cam":
+        raise _wrong("--device", device or chart.name, f"left out: the chart {chart.name} is about no unloading device")
+    if device not in ("", "pneumatic", "spring"):
+        raise _wrong("--device", device, "pneumatic or spring")
+    if (device == "spring") != (stretch is not None):
+        if device == "spring":
+            raise _wrong("--device", device, "beside a number of --stretch-ratio, as in 0.5")
+        raise _wrong("--stretch-ratio", f"{stretch:g}", "beside --device spring")
+    if ratio is not None and not ratio > 1.0:
+        raise _wrong("--pivot-ratio", f"{ratio:g}", "above 1")
+    if asked.curves and ratio is not None and chart.parameter is not None and chart.parameter.name == "pivot_ratio":
+        raise _wrong("--pivot-ratio", f"{ratio:g}", "left out beside --curves, which are pivot ratios")
+    given_keys = [("stretch_ratio", stretch)]
+    if chart.parameter is not None and chart.parameter.name != "pivot_ratio":
+        given_keys.append(("pivot_ratio", ratio))
+    given = tuple((key, value) for key, value in given_keys if value is not None)
+    title = (
+        f"{chart.title}, spring with mounting stretch {stretch:g} of its stroke" if device == "spring" else chart.title
+    )
+    return replace(chart, given=given, title=title)
+
+
 def _range(text: str, chart: DesignChart) -> tuple[float, float]:
     if not text:
         return chart.range
@@ -215,14 +251,18 @@ def _marked(chart: DesignChart, source: str, options: Options) -> Marked:
 
 
 def _located_swing(chart: DesignChart, design: Any) -> Marked:
-    """A wide swing's place in a chart of the unloading law, which is that of a cylinder and a rocker alone."""
-    spec = design.spec
-    if spec.unloader.type != "pneumatic" or spec.slider is not None:
-        key = "unloader.type" if spec.unloader.type != "pneumatic" else "slider"
-        raise NoSolution(f"the chart {chart.name} is about a cylinder that unloads a rocker alone", key=key)
+    """A wide swing's place in a chart of the law, or the profile, of a device and a rocker alone."""
+    spec, given = design.spec, dict(chart.given)
+    device = "spring" if "stretch_ratio" in given else "pneumatic"
+    if spec.unloader.type != device or spec.slider is not None:
+        key = "unloader.type" if spec.unloader.type != device else "slider"
+        raise NoSolution(f"the chart {chart.name} is about a {_DEVICES[device]} that unloads a rocker alone", key=key)
+    if chart.y.name == "curvature_ratio" and spec.layout != "twin-rocker":
+        raise NoSolution(f"the chart {chart.name} is about an internal profile: layout twin-rocker", key="layout")
     place = chart.place(design)
     assert place is not None, "a law has its peaks"
-    return Marked(spec.name, place, (design.quantity(chart.y.name),), 0.0)
+    name = "middle_radius_estimate" if chart.y.name == "curvature_ratio" else chart.y.name
+    return Marked(spec.name, place, (design.quantity(name),), 0.0)
 
 
 def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:

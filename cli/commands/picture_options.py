@@ -50,8 +50,11 @@ def _chart(
     range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
     curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",
     samples: Annotated[int, option("samples", help="rows of the table", most=1_000_000)] = 91,
+    device: Annotated[str, typer.Option("--device", metavar="TYPE", help="of a wide swing: pneumatic or spring")] = "",
+    stretch_ratio: Annotated[float | None, typer.Option("--stretch-ratio", min=0.0, help="of that spring")] = None,
+    pivot_ratio: Annotated[float | None, typer.Option("--pivot-ratio", min=1.0, help="of that device")] = None,
 ) -> None:
-    """Design charts of the three-gear four-bar with I = 1 over frame and gears, and of the unloading law over swing.
+    """Design charts of the three-gear four-bar with I = 1 over frame and gears, and of wide swings over the swing.
 
     The chart residual SPEC shows what vibration the laws of a file leave over the speed, beside usual laws.
 
@@ -59,7 +62,9 @@ def _chart(
     """
     from gearlink.cli.commands.chart import Asked, run_chart
 
-    raise typer.Exit(run_chart(Asked(name, range_, curves, samples, design or spec), options))
+    raise typer.Exit(
+        run_chart(Asked(name, range_, curves, samples, design or spec, (device, stretch_ratio, pivot_ratio)), options)
+    )
 
 
 @takes("out", "overrides", "quiet")

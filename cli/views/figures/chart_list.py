@@ -54,6 +54,8 @@ class DesignChart:
     module: str = "machines.three_gear.symmetric_sweep"
     kind: str = "three-gear-four-bar"
     peaked: bool = False
+    given: tuple[tuple[str, float], ...] = ()
+    """Names and values of what the function takes besides, by the options of the command."""
 
     def values(self, x: Any, parameter: float | None) -> Any:
         """A curve of the chart, in the units of its axes."""
@@ -61,9 +63,9 @@ class DesignChart:
 
         function: Callable[..., Any] = getattr(import_module(f"gearlink.core.{self.module}"), self.function)
         if self.parameter is None or parameter is None:
-            return function(x)
+            return function(x, **dict(self.given))
         x = np.radians(x) if self.x.unit == "deg" else x
-        y = function(x, math.radians(parameter) if self.parameter.unit == "deg" else parameter)
+        y = function(x, math.radians(parameter) if self.parameter.unit == "deg" else parameter, **dict(self.given))
         return np.degrees(y) if self.y.unit == "deg" else y
 
     def table(self, low: float, high: float, curves: Sequence[float], samples: int) -> Table:
@@ -101,6 +103,8 @@ class DesignChart:
 def _of(design: Any, axis: Axis) -> float | None:
     if axis.name == "swing":
         return float(design.spec.swing)
+    if axis.name == "curvature_ratio":
+        return float(design.middle_radius_estimate / design.cam.max_radius)
     if axis.name in _BY_QUANTITY:
         found = design.quantity(axis.name)
         return None if found is None else float(found.value)
@@ -119,7 +123,7 @@ def _axis(name: str, words: str, symbol: str) -> Axis:
     return Axis(name, term(name).unit, words, symbol)
 
 
-_SYMBOLS = {"pivot_ratio": "lambda"}
+_SYMBOLS = {"pivot_ratio": "lambda", "cycle_angle": "phi"}
 _BY_QUANTITY = ("tolerance_dwell_angle", "velocity_peak", "acceleration_peak", "energy_parameter")
 _WINDOW = _axis("tolerance_dwell_angle", "crank angle of the dwell", r"$\varphi_{tol}$")
 _BAND = _axis("dwell_tolerance", "tolerance ±", r"$\tau$")
@@ -246,22 +250,33 @@ CHARTS: dict[str, DesignChart] = {
             (-2.4, -1.8, -1.3),
             peaked=True,
         ),
-        _of_law(
-            "velocity-peak", "Peak velocity of the unloading law of a cylinder", "peak velocity", "$B$", "velocity_peak"
-        ),
+        _of_law("velocity-peak", "Peak velocity of the unloading law", "peak velocity", "$B$", "velocity_peak"),
         _of_law(
             "acceleration-peak",
-            "Peak acceleration of the unloading law of a cylinder",
+            "Peak acceleration of the unloading law",
             "peak acceleration",
             "$C$",
             "acceleration_peak",
         ),
         _of_law(
             "energy-parameter",
-            "Energy parameter of the unloading law of a cylinder",
+            "Energy parameter of the unloading law",
             "energy parameter",
             "$N$",
             "energy_parameter",
+        ),
+        DesignChart(
+            "curvature-ratio",
+            "Minimum curvature radius of an internal profile over its maximum radius",
+            "wide-swing dissertation, figure 6, (27)",
+            "curvature_ratio",
+            _SWING,
+            Axis("curvature_ratio", "1", "curvature radius (27) over maximum radius", r"$R/\rho_{max}$"),
+            Axis("cycle_angle", "deg", "cam angle of the stroke", r"$\varphi$"),
+            (40.0, 300.0),
+            (40.0, 60.0, 80.0, 100.0, 120.0),
+            "machines.wide_swing.charts",
+            "wide-swing-cam",
         ),
     )
 }

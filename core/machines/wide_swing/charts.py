@@ -1,8 +1,9 @@
-"""Design charts of the unloading law of a cylinder over the swing: peaks and energy parameter, over arrays."""
+"""Design charts of wide swings over the swing: peaks and energy parameter of the law, curvature of the profile."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import partial
 from typing import Literal
 
@@ -10,20 +11,39 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import Pneumatic
+from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
+from gearlink.core.machines.wide_swing.cams.contact import middle_radius_estimate
+from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring, least_pivot_ratio_pneumatic
 from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
 from gearlink.core.numerics.arrays import Reals
 
+Name = Literal["velocity_peak", "acceleration_peak", "energy_parameter"]
 
-def peaks(
-    name: Literal["velocity_peak", "acceleration_peak", "energy_parameter"], swing: ArrayLike, pivot_ratio: float
-) -> Reals:
+
+def _law(gamma: float, pivot_ratio: float | None, stretch_ratio: float | None) -> ElasticLaw:
+    """The law of a cylinder, or of a spring where there is a stretch ratio; without a pivot ratio the least of (3)."""
+    ratio = least_pivot_ratio_pneumatic(gamma) if pivot_ratio is None else pivot_ratio
+    return ElasticLaw(Pneumatic(ratio) if stretch_ratio is None else Spring(ratio, stretch_ratio), gamma)
+
+
+def _over(swing: ArrayLike, value: Callable[[float], float]) -> Reals:
+    def found(gamma: float) -> float:
+        try:
+            return value(gamma)
+        except NoSolution:
+            return math.nan
+
+    return np.array([found(float(gamma)) for gamma in np.atleast_1d(np.asarray(swing, dtype=float))])
+
+
+def peaks(name: Name, swing: ArrayLike, pivot_ratio: float, *, stretch_ratio: float | None = None) -> Reals:
     """B, C or N of the law over the swing at constant pivot ratio.
 
     Parameters
         name : which one
         swing : array [rad] - above 0, at most 340 deg
         pivot_ratio : float - lambda, above 1
+        stretch_ratio : float or None - of a spring; None: the law of a cylinder
     Returns
         peak : array [1] - not a number where there is no law
     Example
@@ -33,16 +53,38 @@ def peaks(
         [4.191240425]
 
     Source
-        wide-swing dissertation, chapter 2, (8), (10), (9)
+        wide-swing dissertation, chapter 2, (8), (10), (9); of springs (13), (15), (14)
+    """
+    return _over(swing, lambda gamma: float(getattr(_law(gamma, pivot_ratio, stretch_ratio), name)))
+
+
+def curvature_ratio(
+    swing: ArrayLike, cycle_angle: float, *, pivot_ratio: float | None = None, stretch_ratio: float | None = None
+) -> Reals:
+    """The source's estimate of the minimum curvature radius of an internal profile over its maximum radius.
+
+    (27)/rho_max
+
+    Parameters
+        swing : array [rad]
+        cycle_angle : float [rad] - phi_ud, cam angle of a stroke
+        pivot_ratio : float or None - None: the minimum of (3)
+        stretch_ratio : float or None - of a spring; None: the law of a cylinder
+    Returns
+        ratio : array [1] - not a number where B alpha is not above 1, or the profile does not exist
+    Example
+        >>> curvature_ratio(np.radians([120.0]), np.radians(60.0)).round(6).tolist()
+        [0.012907]
+
+    Source
+        wide-swing dissertation, figure 6
     """
 
     def value(gamma: float) -> float:
-        try:
-            return float(getattr(ElasticLaw(Pneumatic(pivot_ratio), gamma), name))
-        except NoSolution:
-            return math.nan
+        cam = WideSwingCam("twin-rocker", _law(gamma, pivot_ratio, stretch_ratio), cycle_angle, 1.0, 1e-3)
+        return middle_radius_estimate(cam) / cam.max_radius
 
-    return np.array([value(float(gamma)) for gamma in np.atleast_1d(np.asarray(swing, dtype=float))])
+    return _over(swing, value)
 
 
 velocity_peak = partial(peaks, "velocity_peak")

@@ -193,3 +193,15 @@ def test_iteration_that_does_not_converge() -> None:
     with pytest.raises(NoSolution, match="must be below 4; omit method") as error:
         slider_law(Pneumatic(2.6), math.radians(60.0), lambda a: 0.02 + 4.0 * (a - 0.5) ** 2, steps=40)
     assert error.value.key == "method"
+
+
+def test_chart_of_the_curvature_ratio() -> None:
+    from gearlink.core.machines.wide_swing import charts
+
+    # printed to six places in the derivation of the chart, with the minimum pivot ratio
+    swings = np.radians([90.0, 180.0, 300.0])
+    for cycle, printed in ((60.0, (0.006477, 0.023135, 0.030299)), (120.0, (0.001861, 0.039705, 0.062068))):
+        np.testing.assert_allclose(charts.curvature_ratio(swings, math.radians(cycle)), printed, rtol=0, atol=5e-7)
+    assert np.isnan(charts.curvature_ratio(np.radians([40.0]), math.radians(120.0))).all()
+    spring = charts.velocity_peak(np.radians([120.0]), 3.0, stretch_ratio=0.5)
+    assert spring[0] == pytest.approx(ElasticLaw(Spring(3.0, 0.5), math.radians(120.0)).velocity_peak, rel=1e-12)
