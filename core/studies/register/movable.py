@@ -35,7 +35,8 @@ class Movable:
         rollers : rollers that have play on their pins beside the pins of the links
         gears : by name
         radius : float [mm] - at which an error of the output in angle is measured by default; 0: the file must say
-        own : by key of the file - what an error of it adds to the output by itself [unit of the output per mm or deg]
+        places : by name, first and last input angle of a part of the cycle beside its whole range [rad]
+    own : by key of the file - what an error of it adds to the output by itself [unit of the output per mm or deg]
     """
 
     sizes: Errors = field(default_factory=dict)
@@ -45,4 +46,5 @@ class Movable:
     rollers: tuple[str, ...] = ()
     gears: Mapping[str, Turned] = field(default_factory=dict)
     radius: float = 0.0
+    places: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     own: Mapping[str, Course] = field(default_factory=dict)

@@ -177,9 +177,12 @@ class MotionRegister(RegisterDesign):
         return np.asarray(self.radius * self.movable.own[key].rates(self.motion, input_angle, 0)[0])
 
     def stretch(self, at: str) -> tuple[float, float]:
-        """The whole range of the input, or its period."""
+        """The whole range of the input, or its period; or a part of it that the kind names."""
+        places = self.movable.places
+        if at in places:
+            return places[at]
         if at != "range":
-            raise no_such_place(at, ("range",))
+            raise no_such_place(at, ("range", *places))
         return self.motion.input.start, self.motion.input.end
 
     def cycle_degrees(self, samples: int | None) -> Reals:

@@ -16,7 +16,7 @@ from gearlink.core.studies.tolerance.laws import Law, normal_between
 from gearlink.core.studies.tolerance.spec import Tolerance, ToleranceSource
 
 MOST_COORDINATES = 64
-CAM_PROFILE = "cam.profile"
+CAM_PROFILE, ROLLER_ARM = "cam.profile", "links.roller_arm"
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def is_play(key: str) -> bool:
 def is_of_parts(key: str, entry: ToleranceSource) -> bool:
     """Whether a source names a part and not a key of the file: play, runout, a centre distance, a cam's profile."""
     runout = key.startswith("gears.") and entry.form in ("grade", "eccentricity")
-    return is_play(key) or runout or key.startswith("centers.") or key == CAM_PROFILE
+    return is_play(key) or runout or key.startswith("centers.") or key in (CAM_PROFILE, ROLLER_ARM)
 
 
 def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatter:

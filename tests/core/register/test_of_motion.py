@@ -286,3 +286,36 @@ def test_a_rocker_on_a_cam_in_closed_form() -> None:
 def test_a_cam_error_needs_a_cam() -> None:
     with pytest.raises(NoSolution, match="no cam lies on the way"):
         _ = register("slider_crank_tolerances", cam_error=0.01).worst
+
+
+def test_far_dwell_of_a_wide_swing_is_the_roller_on_its_arc() -> None:
+    from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.spec import WideSwingSpec
+
+    sources = {name: {"plus_minus": 0.01} for name in ("cam.profile", "centers.cam", "links.roller_arm")}
+    data = {
+        "kind": "wide-swing-cam",
+        "layout": "twin-cam",
+        "swing": 120.0,
+        "cycle": {"working": 120.0, "far_dwell": 60.0, "return": 120.0, "near_dwell": 60.0},
+        "speed": 100.0,
+        "inertia": 0.5,
+        "unloader": {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0, "reserve": 0.24},
+        "cam": {"center_distance": 200.0, "roller_radius": 8.0},
+        "output_radius": 300.0,
+        "register": {"at": "dwell"},
+        "tolerance": {"sources": sources},
+    }
+    spec = WideSwingSpec.model_validate(data)
+    design = KINDS["wide-swing-cam"].class_for("register", spec)(spec)
+    found = {one.key: abs(float(one.gain[0])) for one in design.contributions(design.input_angles, 1)}
+    a, r, half = 200.0, WideSwingDesign(spec).cam.rocker_radius, math.radians(60.0)
+    # rho^2 = a^2 + r^2 - 2 a r cos phi, differentiated, at the output radius
+    scale = 300.0 / (a * r * math.sin(half))
+    rho = math.sqrt(a * a + r * r - 2.0 * a * r * math.cos(half))
+    expected = {
+        "cam.profile": scale * rho,
+        "centers.cam": scale * (a - r * math.cos(half)),
+        "links.roller_arm": scale * abs(r - a * math.cos(half)),
+    }
+    assert found == pytest.approx(expected, rel=1e-9)
