@@ -17,9 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import typer
 from factory import DESIGNS, each_kind
 from matplotlib.figure import Figure
 
+from gearlink.cli.app import app
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.core.base.kinds import FILES
 
@@ -109,10 +111,13 @@ def test_figures_of_the_readme_are_those_of_the_script_and_small() -> None:
 
 def test_the_readme_has_every_kind_and_is_a_page() -> None:
     text = (ROOT / "README.md").read_text()
-    assert re.findall(r"^\|.*?\| `([\w-]+)` \|", text, re.MULTILINE) == sorted(
-        FILES, key=lambda kind: text.index(f"`{kind}`")
-    )
+    assert set(re.findall(r"^\|.*?\| `([\w-]+)` \|", text, re.MULTILINE)) == set(FILES)
     assert text.count("\n") < 200
+
+
+def test_the_page_of_the_commands_has_all_of_them() -> None:
+    text = (ROOT / "docs" / "commands.md").read_text()
+    assert [name for name in typer.main.get_command(app).commands if not re.search(rf"\b{name}\b", text)] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
