@@ -55,7 +55,7 @@ class DesignChart:
     kind: str = "three-gear-four-bar"
     peaked: bool = False
     given: tuple[tuple[str, float], ...] = ()
-    """Names and values of what the function takes besides, by the options of the command."""
+    """Names and values of the other arguments of the function, by the options of the command."""
 
     def values(self, x: Any, parameter: float | None) -> Any:
         """A curve of the chart, in the units of its axes."""
