@@ -183,7 +183,8 @@ CAM_CLEARANCE = Rule(
     "A cam comes into the shaft of the other; of cams in one plane also into the other cam or its roller.",
     "Bodies would collide; a cam and a shaft cannot take the same place.",
     "Put the cams into planes: separate, turn cam.second.direction away, or make the centre distances larger.",
-    "|O1 O2| - (rho_max - r_p) - shaft_radius >= limits.cam_gap; in one plane the minimum distance of both contours over "
+    "|O1 O2| - (rho_max - r_p) - shaft_radius >= limits.cam_gap; in one plane the minimum distance of "
+    "both contours over "
     "a revolution, and roller against the circle of the other cam",
     "wide-swing dissertation, figure 2; own derivation",
     ("cam-clearance",),
