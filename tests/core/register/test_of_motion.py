@@ -308,7 +308,7 @@ def test_far_dwell_of_a_wide_swing_is_the_roller_on_its_arc() -> None:
     }
     spec = WideSwingSpec.model_validate(data)
     design: Any = MotionRegister(spec)
-    found = {one.key: abs(float(one.gain[0])) for one in design.contributions(design.input_angles, 1)}
+    found = {one.source: abs(float(one.gain[0])) for one in design.contributions(design.input_angles, 1)}
     a, r, half = 200.0, WideSwingDesign(spec).cam.rocker_radius, math.radians(60.0)
     # rho^2 = a^2 + r^2 - 2 a r cos phi, differentiated, at the output radius
     scale = 300.0 / (a * r * math.sin(half))

@@ -94,7 +94,7 @@ def test_weak_device_lifts_off_below_the_design_speed() -> None:
     assert design.unloading.size.reserve < 0.0
     (check,) = design.check("force-reserve")
     assert check.status == "fail"
-    need = float(check.message.split("unloader.force ")[1].split()[0])
+    need = float(check.advice.split("unloader.force to ")[1].split()[0])
     (better,) = design_of(CYLINDER | {"force": need}, cam=section).check("force-reserve")
     assert better.status == "pass"
 
@@ -114,7 +114,7 @@ def test_reservoir() -> None:
     more = CYLINDER | {"force": 1200.0, "bore": 63.0}
     (check,) = design_of(more | {"reservoir": 2.0}).check("device-pressure")
     assert check.status == "warn"
-    least = float(check.message.split("reservoir at least ")[1].split()[0])
+    least = float(check.advice.split("reservoir to at least ")[1].split()[0])
     (better,) = design_of(more | {"reservoir": least}).check("device-pressure")
     assert better.status == "pass"
     with pytest.raises(NoSolution, match="at least"):

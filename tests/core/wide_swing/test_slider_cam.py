@@ -229,7 +229,7 @@ def test_pressure_angle_of_the_cam_that_swings_is_that_of_its_curve(middle_angle
     arm = here.pitch + 200.0 * np.exp(1j * here.cam_angle)  # from the rocker's axis to the roller
     slope = np.abs((way * np.conj(arm)).real / (np.abs(way) * np.abs(arm)))
     # the normal of the curve against the way of the roller, square to its arm; differences over 2e-6 of the stroke
-    np.testing.assert_allclose(np.abs(np.sin(here.pressure_angle)), np.sqrt(1.0 - slope**2), atol=1e-6)
+    np.testing.assert_allclose(np.abs(np.sin(here.pressure_angle)), np.sqrt(1.0 - slope**2), rtol=0, atol=1e-6)
 
 
 def test_way_home_of_rocker_and_slider() -> None:
