@@ -115,6 +115,7 @@ _GRIPPER = {
     "return_angle": Term("D_r", "deg", "cylinder angle of the return", "swing-gripper paper 2"),
     "near_dwell_angle": Term("", "deg", "cylinder angle of the near dwell", "swing-gripper paper 2"),
     "handover_angle": Term("theta_A", "deg", "cylinder angle of the handover", "swing-gripper paper 2"),
+    "finger_lift": Term("", "mm", "way of the finger tips where the release window ends"),
     "fit_harmonics": Term("H", "1", "harmonics of the series through a measured profile"),
     "fit_rms": Term("", "mm", "root of the mean square by which a measured profile misses its series"),
     "fit_max": Term("", "mm", "maximum distance by which a measured profile misses its series"),

@@ -151,6 +151,17 @@ def stop_settling(design: SwingGripper) -> Iterator[Check]:
     yield codes.STOP_SETTLING.check(status, what, margin, limit, "deg", at=at, fix=fix, aside=aside)
 
 
+def finger_release(design: SwingGripper) -> Iterator[Check]:
+    """GL423: the fingers are half open where the release window ends."""
+    if design.spec.fingers is None:
+        return
+    opened, half = math.degrees(design.fingers.opened), 0.5 * design.spec.fingers.open_angle
+    status: Status = "fail" if opened < half else "pass"
+    what, at = "opening of the fingers where the release ends", f"{short(design.fingers.release_degrees)} deg"
+    fix = "lower fingers.open.from or fingers.open.over" if status == "fail" else ""
+    yield codes.FINGER_RELEASE.check(status, what, opened, half, "deg", at=at, fix=fix)
+
+
 def handover(design: SwingGripper) -> Iterator[Check]:
     """GL503: speed, place and release window."""
     yield _backward_check(design) if runs_backwards(design) else _speed_check(design)
@@ -347,6 +358,7 @@ _WAYS = {
     "pressure-angle": (*_ROLLERS, *_LINKAGE),
     "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
     "lift-off": either("cam.return_roller.angle", step=1.0),
+    "finger-release": (down("fingers.open.from", step=0.5), down("fingers.open.over", step=0.5)),
     "stop-settling": (down("stop.restitution", step=0.05), down("stop.clearance", step=0.01)),
 }
 _QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}

@@ -45,6 +45,17 @@ STOP_SETTLING = Rule(
     ("stop-settling",),
     ("stop.restitution", "stop.clearance", "spring"),
 )
+FINGER_RELEASE = Rule(
+    "GL423",
+    "fingers hold the sheet beyond the handover",
+    "Where the release window ends the fingers are open by less than half of their angle.",
+    "Both grippers then hold the sheet while their speeds part: it tears, or slips out of register.",
+    "Let the fingers open earlier (fingers.open.from) or faster (fingers.open.over).",
+    "eta(handover + release.window) >= fingers.open_angle/2",
+    "own derivation",
+    ("finger-release",),
+    ("fingers.open.from", "fingers.open.over"),
+)
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",

@@ -26,6 +26,7 @@ from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithSh
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from gearlink.core.machines.swing_gripper.fingers import FingerCam
     from gearlink.core.machines.swing_gripper.forces import LeverSpring
     from gearlink.core.machines.swing_gripper.handover_geometry import TipPath
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
@@ -123,6 +124,13 @@ def return_cam_table(design: SwingGripper, samples: int | None = None) -> Table:
     if design.cams.return_cam is None:
         raise MissingSection("the table needs cam.return_roller: arm, angle, radius", key="cam.return_roller")
     return design.cams.return_cam.table("return_cam", samples)
+
+
+def finger_cam_table(design: SwingGripper, samples: int | None = None) -> Table:
+    """The cam of the fingers, point for point, over its turn seen from the arm."""
+    if design.spec.fingers is None:
+        raise MissingSection("the table needs the section fingers", key="fingers")
+    return design.fingers.cam.table("finger_cam", samples)
 
 
 def forces_table(design: SwingGripper, samples: int | None = None) -> Table:
@@ -636,7 +644,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline((*_LAW, *_PHASES, *_LOOP, *_EXTREMES), _LAW_CHECKS, ("motion",)),
     }
-    extra_tables = ("forces", "newton", "handover_window", "tip", LAW_TABLE)
+    extra_tables = ("finger_cam", "forces", "newton", "handover_window", "tip", LAW_TABLE)
 
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
@@ -664,6 +672,18 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     def closure(self) -> Closure:
         """What keeps the rollers on their cams."""
         return Closure(self.spec, self.motion, self.cams)
+
+    @cached_property
+    def fingers(self) -> FingerCam:
+        """What opens the fingers."""
+        from gearlink.core.machines.swing_gripper.fingers import FingerCam
+
+        return FingerCam(self.spec, self.motion)
+
+    @property
+    def finger_lift(self) -> float | None:
+        """Way of the finger tips at the end of the release window [mm]; None without fingers."""
+        return None if self.spec.fingers is None else self.fingers.lift
 
     @cached_property
     def stop(self) -> Stop:
@@ -734,7 +754,18 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
-        return (*_LAW, *_PHASES, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque", *_STOP)
+        return (
+            *_LAW,
+            *_PHASES,
+            *_LOOP,
+            *_EXTREMES,
+            "cam_center",
+            *_CAM,
+            *_CLOSURE,
+            "spring_torque",
+            *_STOP,
+            "finger_lift",
+        )
 
     def varied(self, spec: SwingGripperSpec) -> SwingGripper:
         """The design of another file; law and linkage are kept where it differs in the cams alone."""
@@ -760,10 +791,12 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     table_motion, table_newton, table_forces = motion_table, newton_table, forces_table
     table_main_cam, table_return_cam = main_cam_table, return_cam_table
+    table_finger_cam = finger_cam_table
     table_handover_window, table_tip = handover_window_table, tip_table
 
     check_transmission_angle, check_conditioning = checks.transmission_angle, checks.conditioning
     check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step
+    check_finger_release = checks.finger_release
     check_stop_settling = checks.stop_settling
     check_phase_allotment = checks.phase_allotment
     check_jerk_step, check_handover = checks.jerk_step, checks.handover
@@ -781,6 +814,10 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         outline, spec = self.outlines[command], self.spec
         if command == "cam":
             return self._of_cams(outline)
+        if spec.fingers is not None:
+            outline = outline._replace(
+                quantities=(*outline.quantities, "finger_lift"), checks=(*outline.checks, "finger-release")
+            )
         if spec.limits.return_acceleration is not None:
             outline = outline._replace(checks=(*outline.checks, "phase-allotment"))
         if spec.cam is None:

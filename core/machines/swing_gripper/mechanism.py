@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,6 +40,14 @@ def motion(design: SwingGripper) -> Motion:
 def without_cams(design: SwingGripper) -> Motion:
     """The motion of linkage and arm alone, which there is whatever the cams are."""
     return _motion(design, {})
+
+
+def rocker_too(design: SwingGripper) -> Motion:
+    """The motion of the linkage alone with both outputs: the arm, and the cam rocker from where it is at the bite."""
+    found = without_cams(design)
+    start = float(design.linkage.motion(np.zeros(1), 0).input_angle[0])
+    rocker = found.outputs[0]._replace(name="Cam rocker AC", course=turned("input").less(start))
+    return replace(found, outputs=(*found.outputs, rocker))
 
 
 def _motion(design: SwingGripper, cams: dict[str, DiscCam]) -> Motion:

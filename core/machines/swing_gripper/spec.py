@@ -253,6 +253,47 @@ class ArmStop(Spec):
     )
 
 
+class FingersOpen(Spec):
+    """Where the fingers open."""
+
+    from_: Phase = Field(alias="from", description="cylinder angle at which they begin to open")
+    over: Phase = Field(description="cylinder angle that they take")
+    law: MotionLaw = Field("cycloidal", description="rest-to-rest law")
+
+
+class FingersClose(Spec):
+    """Where the fingers close again."""
+
+    to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="cylinder angle at which they are closed"
+    )
+    over: Phase = Field(description="cylinder angle that they take")
+    law: MotionLaw = Field("cycloidal", description="rest-to-rest law")
+
+
+class FingerSection(Spec):
+    """Fingers at the tip, opened by a roller lever on the arm and a cam about E that turns with the cylinder."""
+
+    lever: Length = Field(description="pivot of the roller lever to roller centre")
+    pivot: Length = Field(description="E to the pivot of the roller lever, along the arm")
+    angle: Angle = Field(description="from the arm to the roller lever, fingers closed")
+    roller_radius: Length = Field(description="radius of the roller")
+    length: Length = Field(description="length of the fingers")
+    open_angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] = Field(
+        description="angle by which lever and fingers turn"
+    )
+    open: FingersOpen
+    close: FingersClose
+
+    @model_validator(mode="after")
+    def _one_after_the_other(self) -> FingerSection:
+        opened, closing = self.open.from_ + self.open.over, self.close.to - self.close.over
+        if opened > closing:
+            text = "the fingers are open from {opened} deg and begin to close at {closing} deg: let them close later"
+            _refuse("close", text, opened=f"{opened:g}", closing=f"{closing:g}")
+        return self
+
+
 class GripperLimits(LoadLimits):
     """Limits of the checks."""
 
@@ -302,6 +343,7 @@ class SwingGripperSpec(TolerancedSpec):
     inertia: Inertia | None = None
     spring: ClosingSpring | None = None
     stop: ArmStop | None = None
+    fingers: FingerSection | None = None
     limits: GripperLimits = GripperLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.swing_gripper.loads_spec:GripperLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

@@ -233,10 +233,10 @@ def press(design: Any) -> list[Course]:
 
 
 def gripper(design: Any) -> list[Course]:
-    """The gripper's arm."""
-    from gearlink.core.machines.swing_gripper.mechanism import without_cams
+    """The gripper's arm, and the cam rocker, whose law makes the cam; both from the bite."""
+    from gearlink.core.machines.swing_gripper.mechanism import rocker_too
 
-    found = _courses(without_cams(design), design.shaft_speed, 4.0)
+    found = _courses(rocker_too(design), design.shaft_speed, 4.0)
     return [replace(each, over="cylinder angle [deg]") for each in found]
 
 
