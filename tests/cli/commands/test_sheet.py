@@ -74,8 +74,9 @@ def test_a_bed_whose_cam_cannot_be_is_shown_without_it() -> None:
     assert all(np.array_equal(one, other) for one, other in zip(bed.rates, bare.rates, strict=True))
 
 
-def test_jerk_of_the_gripper_joins_its_acceleration() -> None:
-    (course,) = motion_sheet.courses(design(worked("swing_gripper")))
+@pytest.mark.parametrize("number", [0, 1], ids=["arm", "cam rocker"])
+def test_jerk_of_the_gripper_joins_its_acceleration(number: int) -> None:
+    course = motion_sheet.courses(design(worked("swing_gripper")))[number]
     x = np.radians(course.x)
     for lower, upper in zip(course.rates, course.rates[1:], strict=False):
         middle = 0.5 * (upper[1:] + upper[:-1])
@@ -116,7 +117,7 @@ def test_extremes_of_a_bed_are_its_quantities() -> None:
 def test_extremes_at_joints_of_a_law() -> None:
     """A plateau is marked where it begins; a modified sine is steepest an eighth of its rise from each end; a jump
     counts with the value before it."""
-    (course,) = motion_sheet.courses(design(worked("swing_gripper")))
+    course, _rocker = motion_sheet.courses(design(worked("swing_gripper")))
     assert course.extreme(1, greatest=True)[0] == pytest.approx(100.0, abs=1e-6)
     assert course.extreme(2, greatest=True)[0] == pytest.approx(275.0, abs=1e-5)
     assert course.extreme(2, greatest=False)[0] == pytest.approx(185.0, abs=1e-5)
