@@ -107,7 +107,7 @@ def _studio(
 
     The page is served on the loopback address of this machine alone; its button Save writes the file.
 
-    Needs NiceGUI: pip install 'gearlink-design[studio]'
+    Needs NiceGUI: pip install 'nicegui>=3.18'
 
     Example: gearlink studio press.yaml --open
     """

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     Scope = dict[str, Any]
     App = Callable[[Scope, Any, Any], Awaitable[None]]
 
-INSTALL = "pip install 'gearlink-design[studio]'"
+INSTALL = "pip install 'nicegui>=3.18'"
 
 
 def run_studio(source: str, options: Options, *, port: int = 0, show: bool = False) -> int:

@@ -32,4 +32,4 @@ def test_without_the_extra_it_says_how_to_install_it(
     monkeypatch.setattr(studio, "find_spec", lambda _: None)
     found = gearlink("studio", str(designs / "candy_feed.yaml"))
     assert found.status == 2
-    assert "pip install 'gearlink-design[studio]'" in found.err
+    assert "pip install 'nicegui>=3.18'" in found.err
