@@ -156,7 +156,7 @@ class StudioPage:
             self._editor = ui.codemirror("", language="YAML", on_change=self._typed).classes("editor")
             self._numbers = ui.column().classes("scrolls")
             with ui.column().classes("scrolls") as self._right:
-                self._film = ui.element("div").classes("animation w-full")
+                self._film = ui.element("div").classes("film").classes("w-full")
                 self._key = (
                     ui.select([], label="a wish may change").props("dense options-dense").style("min-width: 16em")
                 )

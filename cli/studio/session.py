@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Remedy
 
 _AT_ONCE = 48
-"""Pictures of a animation while the hand moves."""
+"""Pictures of an animation while the hand moves."""
 _QUICK = 0.02
 """Results of further commands that take longer are computed beside the page [s]."""
 _REST = 0.35

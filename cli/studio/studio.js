@@ -1,7 +1,7 @@
 "use strict";
 // The drawing of the studio: the film takes new states, and its joints can be dragged; numbers are put in their places.
 const studio = { player: null, held: null, waiting: false, next: null, ghost: null };
-studio.film = (id, data, ghost) => {  // without a ghost the one that is there stays, null takes it away
+studio.animation = (id, data, ghost) => {  // without a ghost the one that is there stays, null takes it away
   const root = document.getElementById(id);
   if (!root) return;
   if (!data) { root.hidden = true; return; }

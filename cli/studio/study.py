@@ -154,7 +154,7 @@ def _study(text: str, file: str) -> Study:
 def moving(
     text: str, file: str, commands: Sequence[str], count: int, reach: Reach | None, held: float | None
 ) -> tuple[Any, Any]:
-    """The findings of some commands, and a animation of few pictures; None where nothing moves."""
+    """The findings of some commands, and an animation of few pictures; None where nothing moves."""
     study = _study(text, file)
     checks = {command: study.checks(command, advised=False) for command in commands}
     return checks, film(text, file, count, reach, held)

@@ -123,6 +123,6 @@ def _xy(points: Points) -> list[float]:
 
 
 def _rounded(values: Reals, places: int) -> list[float]:
-    # A sum with 0.0 revolutions -0.0 into 0.0.
+    # A sum with 0.0 makes 0.0 of -0.0.
     rounded: list[float] = (np.round(values, places) + 0.0).tolist()
     return rounded

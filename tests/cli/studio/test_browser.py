@@ -233,13 +233,18 @@ def test_text_is_typed_with_its_error_at_its_line(window: Browser, tmp_path: Pat
     with _opened(window, path) as page:
         page.rests()
         before = page.quantities()
-        window.run("document.querySelector('.cm-content').focus()")
-        for keys in (["End"], list("x")):
-            window.press(*keys)
-        page.until(lambda: page.quantities() == before and page.text("#problem") == "")  # a comment
-        window.run("document.querySelector('[data-action=undo]').focus()")
+        type_in = (
+            "const e = document.querySelector('.cm-content'); e.focus();"
+            "getSelection().selectAllChildren(e); getSelection().collapseToEnd();"
+            "document.execCommand('insertText', false, arguments[0]);"
+        )
+        window.run(type_in, "limits: {gear_gapp: 1}")
+        page.until(lambda: ":5:10: error GL105" in page.text("#problem"))
+        window.wait("return document.querySelector('.cm-line.wrong')?.textContent.startsWith('limits')")
+        assert page.quantities() == before
         page.click("[data-action=undo]")
-        page.until(lambda: "measuredx" not in page.text(".cm-content"))
+        page.until(lambda: page.text("#problem") == "" and "gear_gapp" not in page.text(".cm-content"))
+        assert path.read_text() == FEED
 
 
 def test_a_joint_is_dragged_and_a_wish_is_met(window: Browser, tmp_path: Path) -> None:
