@@ -42,7 +42,7 @@ def test_no_test_package() -> None:
 
 
 def test_every_library_has_a_least_version() -> None:
-    """`make test-minimum` tries them; the reader refuses a requirement without a lower bound."""
+    """`make test-least` tries them; the reader refuses a requirement without a lower bound."""
     found = least_versions()
     assert len(found) == len(PROJECT["project"]["dependencies"]) + 1
     assert "numpy==2.0" in found

@@ -58,5 +58,5 @@ def test_a_finding_has_the_side_of_its_rule_unless_it_is_told_another() -> None:
 )
 def test_a_limit_that_is_just_met_is_shown_on_its_side(gearlink: Any, arguments: tuple[str, ...], line: str) -> None:
     command, name, *rest = arguments
-    ended = gearlink(command, DESIGNS / f"{name}.yaml", *rest)
+    ended = gearlink(command, DESIGNS / f"{name}.yaml", *rest, "--all")
     assert line in [" ".join(each.split()) for each in ended.out.splitlines()]

@@ -65,8 +65,9 @@ def _strings(data: object) -> Iterator[str]:
     if isinstance(data, str):
         yield data
     elif isinstance(data, dict):
-        for value in data.values():
-            yield from _strings(value)
+        for key, value in data.items():
+            if key != "also":  # words that users may type in place of the field's
+                yield from _strings(value)
     elif isinstance(data, list):
         for value in data:
             yield from _strings(value)
@@ -84,7 +85,7 @@ def _texts() -> dict[str, list[str]]:
         found[str(path.relative_to(ROOT))] = [text for text in strings if " " in text]
     for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
         if path.name not in GENERATED:
-            text = re.sub(r"(?ms)^```.*?^```", "", path.read_text(encoding="utf-8"))
+            text = re.sub(r"(?ms)^```.*?^```|^\* Also:.*?$", "", path.read_text(encoding="utf-8"))
             found[str(path.relative_to(ROOT))] = [KEYS.sub("", text)]
     for path in sorted((ROOT / "designs").rglob("*.yaml")):
         comments = re.findall(r"(?m)(?:^|\s)#(.*)$", path.read_text(encoding="utf-8"))

@@ -81,7 +81,7 @@ def test_duffing(stretch: float) -> None:
 
 def test_swing_outside_its_range() -> None:
     for function in (pendulum_peaks, touching_pins_energy_parameter):
-        with pytest.raises(NoSolution, match="at most 300 deg"):
+        with pytest.raises(NoSolution, match="at most 340 deg"):
             function(6.0)
-    with pytest.raises(NoSolution, match="at most 300 deg"):
+    with pytest.raises(NoSolution, match="at most 340 deg"):
         pendulum_displacement(np.array([0.5]), -1.0)

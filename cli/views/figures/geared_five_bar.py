@@ -143,7 +143,7 @@ def _structural_error(axes: Axes, design: GearedFiveBar) -> None:
         axes.axhline(side * greatest, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=words)
     for i, place in enumerate(design.structural_error_at or ()):
         look: Any = {"color": style.GREY, "linewidth": 0.6, "linestyle": style.DOTTED}
-        axes.axvline(math.degrees(place), **look, label=None if i else "greatest")
+        axes.axvline(math.degrees(place), **look, label=None if i else "maximum")
     panels.legend_above(axes, 3)
 
 

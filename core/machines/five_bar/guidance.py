@@ -161,8 +161,8 @@ def circumcenter(points: Sequence[complex] | Points) -> complex:
     Raises
         NoSolution - for points on a line
     Example
-        >>> circumcenter([1.0 + 0j, 1j, -1.0 + 0j])
-        0j
+        >>> abs(circumcenter([1.0 + 0j, 1j, -1.0 + 0j])) < 1e-15
+        True
     """
     first, second, third = (complex(each) for each in points)
     if first == second:

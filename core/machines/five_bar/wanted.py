@@ -137,7 +137,7 @@ def structural_error(bar: FunctionFiveBar, start: float, wanted: Wanted) -> Stru
     Example
         >>> bar = FunctionFiveBar(1.0, 0.110143, 1.18548, 0.320633, 0.503643, 2.0, 0.375818)
         >>> log = Wanted("log", (1.0, 2.0), math.radians(60.0), math.radians(90.0))
-        >>> round(math.degrees(structural_error(bar, 1.343624, log).maximum), 6)
+        >>> round(math.degrees(structural_error(bar, 1.343624, log).greatest), 6)
         0.005921
 
     Source

@@ -71,7 +71,10 @@ class MeasuredCamSpec(DesignSpec):
     """A measured cam profile and the follower that runs on it."""
 
     kind: Literal["measured-cam"]
-    follower: Annotated[OscillatingFollower | TranslatingFollower, Field(discriminator="type")]
+    follower: Annotated[
+        OscillatingFollower | TranslatingFollower,
+        Field(discriminator="type", description="the follower that runs on the cam"),
+    ]
     roller_radius: Length = Field(description="radius of the roller")
     sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")
     profile: Profile

@@ -318,7 +318,7 @@ def words_of(name: str) -> str:
         return _WHOLE[rest].format(output)
     where, rest = ("input of the ", rest.removesuffix("_at")) if rest.endswith("_at") else ("", rest)
     what, _, side = rest.rpartition("_")
-    return f"{where}{'greatest' if side == 'max' else 'least'} {_WORDS.get(what, what)} of {output}"
+    return f"{where}{'maximum' if side == 'max' else 'minimum'} {_WORDS.get(what, what)} of {output}"
 
 
 _CLOSED = 1e-9

@@ -235,7 +235,7 @@ def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
         thousand random crank-rockers and drag links had one maximum and one minimum each.
     Example
         >>> found = speed_extremes(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60))
-        >>> round(found.maximum, 9), round(math.degrees(found.least_angle), 6)
+        >>> round(found.greatest, 9), round(math.degrees(found.least_angle), 6)
         (0.758734009, 276.311226)
 
     Source
@@ -257,7 +257,7 @@ def acceleration_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
     Example
         >>> d = 3.951703805053557
         >>> b = math.sqrt((1 + d * d) / 2)
-        >>> round(acceleration_extremes(FourBar(1.0, b, b, d), GearTrain(40, 72, 40)).maximum, 12)
+        >>> round(acceleration_extremes(FourBar(1.0, b, b, d), GearTrain(40, 72, 40)).greatest, 12)
         1.51406659722
 
     Source

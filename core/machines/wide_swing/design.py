@@ -959,7 +959,7 @@ class WideSwingDesign(Design):
             more = (
                 *_CAM_CHECKS,
                 "force-reserve",
-                "flank-impact",
+                *_BESIDE,
                 *(("side-change",) if spec.slider is not None else ()),
             )
         more += _CYCLE_CHECKS if spec.cycle is not None and spec.cam is not None else ()

@@ -71,7 +71,7 @@ def _rack_lines(rack: RackMesh) -> Iterator[Row]:
         return
     allowances = ((0.0, 0.0),) * 2 if rack.data.allowances is None else rack.data.allowances
     heights = [rack.height_over_pin(diameter, each) for each in allowances[1]]
-    names = ("nominal",) if rack.data.allowances is None else ("greatest", "least")
+    names = ("nominal",) if rack.data.allowances is None else ("maximum", "minimum")
     for name, height in zip(names, heights, strict=False):
         yield f"datum line to ball top, {name}", "M_R", None, height, "mm"
 
@@ -81,7 +81,7 @@ def _rack_mesh(rack: RackMesh) -> Iterator[Row]:
     allowance = rack.data.distance_allowance
     yield "its allowance, plus and minus", "A_a", allowance, allowance, "mm"
     yield "contact ratio", "eps_alpha", rack.contact_ratio, rack.contact_ratio, ""
-    for play, name in zip(rack.backlash_normal or (), ("least", "greatest"), strict=False):
+    for play, name in zip(rack.backlash_normal or (), ("minimum", "maximum"), strict=False):
         yield f"theoretical backlash, {name}", "j_bn", play, play, "mm"
 
 
@@ -164,7 +164,7 @@ def _limits(words: str, symbol: str, nominal: Any, limits: Any) -> Iterator[Row]
     if limits is None:
         yield f"{words}, nominal", symbol, *nominal, "mm"
         return
-    for end, name in ((1, "greatest"), (0, "least")):
+    for end, name in ((1, "maximum"), (0, "minimum")):
         one, other = (None if each is None else each[end] for each in limits)
         yield f"{words}, {name}", symbol, one, other, "mm"
 
@@ -193,6 +193,6 @@ def _mesh(data: GearData) -> Iterator[Row]:
     yield "working pressure angle", "alpha_wt", *(_degrees(pair.working_pressure_angle),) * 2, "deg"
     yield "contact ratio", "eps_alpha", pair.contact_ratio, pair.contact_ratio, ""
     if data.backlash is not None:
-        for end, name in ((0, "least"), (1, "greatest")):
+        for end, name in ((0, "minimum"), (1, "maximum")):
             play = data.backlash.normal[end]
             yield f"theoretical backlash, {name}", "j_bn", play, play, "mm"

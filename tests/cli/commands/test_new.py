@@ -153,7 +153,7 @@ def test_every_key_that_is_there_says_unit_meaning_and_whose_choice_it_is(gearli
         unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
         assert found[4].startswith(unit), line
         assert key.words.rstrip(".")[1:] in found[4], line
-        assert key.section or found[4].endswith(("; required", "; may be left out")) or "; default " in found[4]
+        assert key.section or found[4].endswith(("; required", "; optional")) or "; default " in found[4]
 
 
 def test_the_first_wide_swing_is_the_plain_one(gearlink: Any) -> None:

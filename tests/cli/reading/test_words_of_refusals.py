@@ -70,7 +70,7 @@ def test_a_set_beside_a_key_whose_refusal_does_not_name_it_leaves_the_file_its_p
         (
             "loads loaded_feed",
             "loads.speed=0",
-            "a speed of 0 1/min: give 1e-06 1/min or more, or -1e-06 1/min or less for a revolution the other way",
+            "no loads of motion at a speed of 0 1/min",
         ),
         (
             "loads loaded_feed",
@@ -82,7 +82,7 @@ def test_a_set_beside_a_key_whose_refusal_does_not_name_it_leaves_the_file_its_p
             "loads.forces=[{on: output, torque: {table: [[0, 1], [30, 1], [20, 2]]}}]",
             "the angles of a table must ascend: table[2] is at 20 deg, after 30 deg",
         ),
-        ("swing wide_swing_cycle", "cycle.near_dwell=10", "change near_dwell by +100 deg"),
+        ("swing wide_swing_cycle", "cycle.near_dwell=10", "260 deg (required 360 deg, one revolution of the cam)"),
     ],
 )
 def test_a_refusal_names_values_units_and_what_is_allowed(gearlink: Any, words: str, change: str, message: str) -> None:

@@ -45,7 +45,7 @@ def test_where_there_is_none_is_none(limits: list[float], lower: float) -> None:
 def test_another_user_of_the_solver_may_have_set_its_threads() -> None:
     code = (
         "import highspy, numpy as np\n"
-        "from gearlink.core.numerics.linear_program import minimum\n"
+        "from gearlink.core.numerics.linear_program import least\n"
         "other = highspy.Highs(); other.setOptionValue('output_flag', False)\n"
         "other.setOptionValue('threads', 3); other.addVar(0, 1); other.run()\n"
         "print(least(np.ones(1), np.ones((1, 1)), np.ones(1), np.full(1, 0.25), np.ones(1)))\n"
@@ -58,7 +58,7 @@ def test_the_solver_prints_nothing() -> None:
     """Results go to standard output: with the solver's name among them they were no JSON."""
     code = (
         "import numpy as np\n"
-        "from gearlink.core.numerics.linear_program import minimum\n"
+        "from gearlink.core.numerics.linear_program import least\n"
         "least(np.ones(1), np.ones((1, 1)), np.ones(1), np.full(1, 0.25), np.ones(1))\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -125,7 +125,7 @@ def test_drawing_has_a_table_for_each_mesh():
 
 def test_negative_backlash_fails_for_its_mesh():
     found = drive(allowances={"upper": [0.0, 0.1, -0.3], "lower": [-0.01, 0.05, -0.4]}).check("backlash")
-    assert [(check.status, check.fix.split()[0]) for check in found] == [
+    assert [(check.status, check.message.split()[0]) for check in found] == [
         ("fail", "crank-idler"),
         ("pass", "idler-output"),
     ]

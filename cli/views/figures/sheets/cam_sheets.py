@@ -126,10 +126,10 @@ def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:
     panels.drawing(axes, "To scale")
     roller = panels.cam_outline(axes, cam, style.BLACK)
     theta = np.linspace(0.0, _TURN, 361)
-    for radius, words in ((cam.min_radius, "least"), (cam.max_radius, "greatest")):
+    for radius, words in ((cam.min_radius, "minimum"), (cam.max_radius, "maximum")):
         circle = radius * np.exp(1j * theta)
         axes.plot(circle.real, circle.imag, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED)
-        way = np.exp(1j * math.radians(235.0 if words == "least" else 305.0)) * radius
+        way = np.exp(1j * math.radians(235.0 if words == "minimum" else 305.0)) * radius
         shape = {"arrowstyle": "-|>", "color": style.GREY, "linewidth": 0.9}
         axes.annotate("", (way.real, way.imag), (0.0, 0.0), arrowprops=shape, zorder=6)
         axes.annotate(f"R {radius:.5g}", (0.62 * way.real, 0.62 * way.imag), fontsize=8, ha="center",

@@ -102,7 +102,7 @@ class TipCorner:
     Example
         >>> pair = GearPair(module=1.0, teeth=(32, 63), pressure_angle=math.radians(10.0), given_shift=(0.587, 0.427),
         ...                 tip="none")
-        >>> minimum = TipCorner(pair, 0).minimum
+        >>> least = TipCorner(pair, 0).least
         >>> round(least.gap, 6), round(least.place, 4)
         (-0.00878, 15.4182)
 
