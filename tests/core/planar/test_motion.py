@@ -211,6 +211,7 @@ def test_the_play_of_a_pin_is_that_of_a_pivot_beyond_it(pin: str) -> None:
         assert played.raw(name) == pytest.approx(moved.raw(name), rel=1e-10), name
 
 
+@pytest.mark.slow
 def test_samples_follow_the_keys_of_the_file_and_the_play() -> None:
     """A yield of the four-bar with a require line on its own output, twice the same."""
     tolerance = {
@@ -240,6 +241,7 @@ def test_poles_are_where_a_link_stands_still() -> None:
     assert np.abs(((pole - c) * np.conj(c - 110.0)).imag / 90.0).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_the_band_is_that_of_the_first_output() -> None:
     """Links that may be longer alone: the rocker's band over the cycle, with its nominal angle."""
     tolerance = {"seed": 3, "samples": 16, "sources": {"links.crank[2]": {"plus_minus": 0.05}}}
