@@ -1,4 +1,4 @@
-"""A geared five-bar that generates a function over an interval with the minimum maximum error."""
+"""A geared five-bar that generates a function over an interval with the smallest maximum error."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MARGIN = math.radians(0.01)  # of the transmission angle against rounding
 
 @dataclass(frozen=True, slots=True)
 class Round:
-    """A round of the search: starts so far, and the minimum maximum error so far [rad], NaN before one is found."""
+    """A round of the search: starts so far, and the smallest maximum error so far [rad], NaN before one is found."""
 
     starts: int
     error: float
@@ -221,7 +221,7 @@ Slopes: TypeAlias = tuple[Reals, Reals]
 
 
 class Levelling:
-    """A five-bar on its way to the minimum maximum error over an interval.
+    """A five-bar on its way to the smallest maximum error over an interval.
 
     max_s |psi(phi0 + dphi s) - psi_wanted(s) - psi0| -> min over ln b, ln c, ln e, ln d, t20, phi0 and psi0
 

@@ -24,7 +24,7 @@ class SliderCrankBalance(Spec):
     """A counterweight on the crank."""
 
     reciprocating_share: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] | Literal["best"] = Field(
-        0.5, description="share of the reciprocating mass that it balances; best: minimum maximum shaking force"
+        0.5, description="share of the reciprocating mass that it balances; best: smallest maximum shaking force"
     )
 
 

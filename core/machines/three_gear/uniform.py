@@ -150,7 +150,7 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
 
 
 def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float) -> Lay:
-    """The stretch of the minimum maximum speed, wherever in the turn the sheet may arrive.
+    """The stretch of the smallest maximum speed, wherever in the turn the sheet may arrive.
 
     About a minimum of W, with equal speeds at both ends; where none has such ends, up to the maximum speed.
 

@@ -216,7 +216,7 @@ class Diagonal:
         best = min(range(len(grid)), key=lambda k: greatest(grid[k]))
         ends = grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]
         first, _ = maximum(lambda x: -greatest(x), *ends)
-        return Split(first, "no share of equal root stress: the minimum maximum one")
+        return Split(first, "no share of equal root stress: the smallest maximum one")
 
     def split(self, name: str, strength: Strength) -> Split:
         """The share of one of SPLITS.
