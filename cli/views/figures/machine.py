@@ -85,7 +85,7 @@ def _line(axes: Axes, design: Any) -> None:
         _relation(axes, design, rows, relation, margin)
     style.curves(axes, "machine angle [deg]", "")
     axes.set_xlim(0.0, dial)
-    axes.set_ylim(-0.08, len(members))
+    axes.set_ylim(-0.08, len(members) + 0.12)
     style.numbers_at(axes, list(range(0, int(dial) + 1, 30 * design.cycle_turns)))
     axes.set_yticks([bottom + 0.5 for bottom in rows.values()], labels, fontsize=8)
     axes.tick_params(axis="y", length=0)

@@ -13,7 +13,7 @@ from gearlink.cli.views.scenes.loops import builder
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_LABELS = ("place", "velocity", "acceleration")
+_LABELS = ("position", "velocity", "acceleration")
 _SHOWN = 0.125
 """Share of the loop: where it begins links often lie in line."""
 _COLORS = (style.BLUE, style.GREEN, style.PURPLE)
@@ -25,7 +25,7 @@ def draw(command: str, design: Any) -> Figure:
     made = panels.page(f"{design.spec.name}: {command}")
     grid = made.add_gridspec(4, 1, height_ratios=(2.2, 1.0, 1.0, 1.0))
     build, mechanism = builder(design.kind), made.add_subplot(grid[0])
-    panels.drawing(mechanism, "Mechanism an eighth of a loop after the first input, lightly half a loop later")
+    panels.drawing(mechanism, "Mechanism after an eighth of the cycle, pale half a cycle later")
     scene = build(design, np.array([_SHOWN, _SHOWN + 0.5]))
     scene_axes.draw(mechanism, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])))
     scene_axes.lightly(mechanism, scene, 1)

@@ -81,18 +81,20 @@ class Pneumatic(Spec):
     @classmethod
     def _no_rate(cls, data: Any) -> Any:
         if isinstance(data, dict) and "rate" in data:
-            _refuse("rate", "a cylinder has no rate: give its force, or type: spring")
+            _refuse("rate", "a cylinder has no rate\ngive its force, or type: spring")
         return data
 
     @model_validator(mode="after")
     def _one_size(self) -> Pneumatic:
         _refuse_reserve(self, "force")
         if self.bore is not None and self.pressure is not None:
-            _refuse("bore", "bore and pressure exclude each other: give one, the other is a result")
+            _refuse("bore", "bore and pressure exclude each other\ngive one: the other is a result")
         if self.bore is not None and self.bore <= self.rod_diameter:
-            _refuse("bore", "the bore must be larger than rod_diameter", "GL108")
+            size = f"{self.bore:g} mm"
+            words = "bore {size}: it must be above rod_diameter, {rod}\nraise bore, or reduce rod_diameter"
+            _refuse("bore", words, "GL108", size=size, rod=f"{self.rod_diameter:g} mm")
         if self.reservoir is not None and self.bore is None and self.pressure is None:
-            _refuse("reservoir", "a reservoir needs the size of the cylinder: give pressure or bore")
+            _refuse("reservoir", "a reservoir needs the size of the cylinder\ngive pressure or bore")
         return self
 
 
@@ -123,7 +125,7 @@ class SpringDevice(Spec):
     @classmethod
     def _no_force(cls, data: Any) -> Any:
         if isinstance(data, dict) and "force" in data:
-            _refuse("force", "a spring has no constant force: give its rate, or type: pneumatic")
+            _refuse("force", "a spring has no constant force\ngive its rate, or type: pneumatic")
         return data
 
     @field_validator("stretch_ratio")
@@ -139,9 +141,9 @@ class SpringDevice(Spec):
     def _one_length(self) -> SpringDevice:
         _refuse_reserve(self, "rate")
         if self.free_length is not None and self.stretch_ratio is not None:
-            _refuse("free_length", "free_length and stretch_ratio exclude each other: give one")
+            _refuse("free_length", "free_length and stretch_ratio exclude each other\ngive one")
         if self.closed_length is not None and self.stretch_capacity is not None:
-            _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other: give one")
+            _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other\ngive one")
         return self
 
 
@@ -358,7 +360,7 @@ class WideSwingSpec(TolerancedSpec):
         if self.slider is None and self.inertia == 0.0:
             _refuse("inertia", "inertia must be above 0 where no slider carries the mass", "GL108")
         if self.cycle is not None and self.cycle_angle is not None:
-            _refuse("cycle_angle", "cycle_angle and cycle exclude each other: give one")
+            _refuse("cycle_angle", "cycle_angle and cycle exclude each other\ngive one")
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
@@ -379,9 +381,15 @@ class WideSwingSpec(TolerancedSpec):
             words = "second: {direction: 110}, the shaft of the return cam"
             _refuse("cam.second", "the key 'second' is missing", "GL106", help=words)
         if not parallel and self.cam is not None and self.cam.second is not None:
-            _refuse("cam.second", "a second shaft is for layout: twin-cam-parallel alone")
+            _refuse(
+                "cam.second",
+                "a second shaft belongs to layout: twin-cam-parallel\nremove cam.second, or give that layout",
+            )
         if not parallel and self.gears is not None:
-            _refuse("gears", "gears between the shafts are for layout: twin-cam-parallel alone")
+            _refuse(
+                "gears",
+                "gears between the shafts belong to layout: twin-cam-parallel\nremove gears, or give that layout",
+            )
         if parallel and self.gears is not None and self.cam is None:
             _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
         if parallel and self.loads is not None:

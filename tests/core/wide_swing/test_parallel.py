@@ -80,7 +80,7 @@ def test_gears_between_the_shafts() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"layout": "twin-cam"}, "twin-cam-parallel alone"),
+        ({"layout": "twin-cam"}, "belongs to layout: twin-cam-parallel"),
         ({"cam": {"second": None}}, "second"),
         ({"loads": {}}, "leave out loads"),
     ],

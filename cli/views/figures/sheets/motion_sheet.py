@@ -206,7 +206,7 @@ def _humps(values: Reals) -> Any:
 def _per_angle(course: Course, order: int) -> str:
     """The label of a panel: what it shows and per which angle."""
     if order == 0:
-        return f"{_NAMES[0]} [{'deg' if course.unit == 'rad' else course.unit}]"
+        return f"position [{'deg' if course.unit == 'rad' else course.unit}]"
     power = ("", "", "²", "³")[order]
     if course.per == "mm":
         per = unit_of(course.unit, order, "mm").replace("^2", "²").replace("^3", "³")

@@ -88,7 +88,7 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
     assert spring is not None, "drawn only where the file has a spring"
     closing = design.closing_torque
     axes.axhline(closing, color=style.BLACK, linewidth=0.9, linestyle="--", label=f"spring {closing:.5g} N m")
-    least_label = f"minimum wanted {spring.reserve:g} N m"
+    least_label = f"minimum required {spring.reserve:g} N m"
     axes.axhline(spring.reserve, color=_HANDOVER, linewidth=1.0, linestyle=":", label=least_label)
     axes.axhspan(min(0.0, axes.get_ylim()[0]), spring.reserve, color=_HANDOVER, alpha=0.07, linewidth=0)
     speed = design.lift_off_speed
