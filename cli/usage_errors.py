@@ -115,7 +115,7 @@ def _line(param: Any, word: str, command: Any) -> str:
 
 def _elsewhere(word: str, tree: Any) -> str:
     if word == "html":
-        return "use `gearlink report SPEC` for a page, `gearlink animate SPEC --format html` for a animation"
+        return "use `gearlink report SPEC` for a page, `gearlink animate SPEC --format html` for an animation"
     takers = {
         path: _line(param, word, command)
         for path, command in _leaves(tree)

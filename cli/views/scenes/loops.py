@@ -1,4 +1,4 @@
-"""Which kinds move, the scene of a design over its loop, and how many pictures a animation of it wants."""
+"""Which kinds move, the scene of a design over its loop, and how many pictures an animation of it wants."""
 
 from __future__ import annotations
 

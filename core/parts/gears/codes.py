@@ -218,7 +218,7 @@ SCUFFING = Rule(
     "GL216",
     "safety against scuffing too small",
     "The mean temperature of the flanks comes too near to that at which the oil fails in the test.",
-    "The animation breaks down, flanks weld and tear.",
+    "The oil film breaks down, flanks weld and tear.",
     "Take an oil of a higher load stage or viscosity, a tip relief, smoother flanks, or a lower oil temperature.",
     "S_intS = theta_intS/theta_int >= limits.safety_scuffing (1.8)",
     "ISO/TR 13989-2, ISO/TS 6336-21; within 0.5 % of a printed report",

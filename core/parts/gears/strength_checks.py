@@ -93,7 +93,7 @@ def _origin(data: GearData) -> str:
 
 def pitting(data: GearData, limits: Any) -> Iterator[Check]:
     """GL210 of both gears."""
-    called, note = "pitting safety S_H", f"nominal: {_contact_inputs(data)}"
+    called, note = "pitting safety S_H", f"with {_contact_inputs(data)}"
     yield from _safety(PITTING, data, data.safety_pitting, limits.safety_pitting, called, note)
 
 
@@ -102,7 +102,7 @@ def bending(data: GearData, limits: Any) -> Iterator[Check]:
     if data.load is not None:
         yield from _out_of_range(data)
     ring = shaped_root(data)
-    called, note = "tooth root safety S_F", f"nominal: {_bending_inputs(data)}" + (f"; {ring}" if ring else "")
+    called, note = "tooth root safety S_F", f"with {_bending_inputs(data)}" + (f"; {ring}" if ring else "")
     yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, called, note)
 
 
@@ -115,10 +115,11 @@ def _safety(
         aside = "idler bent both ways, Y_d 0.7" if _both_ways(data, gear) and rule is BENDING else ""
         status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
         what, fix = f"{data.called(gear)}: {called}", "take a greater face width, a larger module or a better material"
+        said = note
         if status != "pass" and (shared := _uneven(rule, data, gear)):
             uneven, fix = shared
-            note = f"{note}; {uneven}"
-        yield rule.check(status, what, safety, least, recommended=1.0, aside=aside, fix=fix, note=note)
+            said = f"{note}; {uneven}"
+        yield rule.check(status, what, safety, least, recommended=1.0, aside=aside, fix=fix, note=said)
 
 
 def _both_ways(data: GearData, gear: int) -> bool:
@@ -231,7 +232,7 @@ def resonance(data: GearData, _limits: Any) -> Iterator[Check]:
 
 
 def scuffing(data: GearData, limits: Any) -> Iterator[Check]:
-    """GL216: the oil animation breaks down."""
+    """GL216: the oil film breaks down."""
     found = None if data.rated is None else data.rated.scuffing
     if found is None:
         return
@@ -261,7 +262,7 @@ def damage(data: GearData, limits: Any) -> Iterator[Check]:
                 aside += f", life {short(life)} h of {rated.conditions.life:g} h required"
             note = ""
             if still is not None and still < safety:
-                bad, note = True, f"the maximum load exceeds its static limit, safety {short(still)}"
+                bad, note = True, f"static safety at the maximum load: {short(still)} (limit >= {safety:g})"
             called, fix = f"damage of the {what} of {data.called(gear)}", "widen the gears, or take a better material"
             yield DAMAGE.check("fail" if bad else "pass", called, used, 1.0, aside=aside, fix=fix, note=note)
 
@@ -271,7 +272,14 @@ def face_load(data: GearData, _limits: Any) -> Iterator[Check]:
     if data.rated is None:
         return
     factor = data.rated.at_load.face_contact
-    what, fix = "face load factor K_Hb", "set rating.face.modification to crowning"
+    given = data.rated.conditions
+    if given.misalignment is not None:
+        fix = "reduce rating.face.misalignment"
+    elif given.modification == "none":
+        fix = "set rating.face.modification to crowning"
+    else:
+        fix = "take a smaller face width, a stiffer shaft or a better grade"
+    what = "face load factor K_Hb"
     yield FACE_LOAD.check("warn" if factor > _MOST_UNEVEN else "pass", what, factor, _MOST_UNEVEN, fix=fix)
 
 

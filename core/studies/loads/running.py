@@ -166,7 +166,7 @@ class Running:
         """The motor's torque of the maximum magnitude at its own shaft [N m]; negative where the load drives it.
 
         Notes
-            Its torque falls with its speed, so that the maximum is that at the minimum speed or at the greatest.
+            Its torque falls with its speed, so that the maximum is that at the minimum speed or at the maximum.
         """
         if self.motor is None:
             return None

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _POINTS = 0.68
-"""Width of a line in points for a pixel of its width in a animation."""
+"""Width of a line in points for a pixel of its width in an animation."""
 _REACH, _REACH_POINTS = 0.042, 11.5
 """Distance of letters from their points, in sizes of the drawing and in points."""
 _SHORT = 5
@@ -32,7 +32,7 @@ AHEAD = 1e-5
 
 
 def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> None:
-    """A position of a scene with its letters; what only a animation needs is left out.
+    """A position of a scene with its letters; what only an animation needs is left out.
 
     Parameters
         ahead : Scene or None - the same a moment later: then arrows show in which sense gears and input turn

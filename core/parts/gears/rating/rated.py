@@ -122,7 +122,7 @@ class Rated:
 
     @property
     def softer_limit(self) -> float:
-        """The lesser sigma_Hlim of the pair, for the lubricant animation."""
+        """The lesser sigma_Hlim of the pair, for the lubricant film."""
         return min(self.contact_limits)
 
     @cached_property

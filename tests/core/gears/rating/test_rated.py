@@ -343,7 +343,7 @@ def test_damage_and_static_limit_on_both_sides() -> None:
     assert "fail" not in statuses(rated(rating=blow), "damage")
     blow["spectrum"][0]["share"] = 1e-9
     blow["spectrum"][1]["share"] = 1.0 - 1e-9
-    assert "exceeds its static limit" in rated(rating=blow).check("damage")[0].note[0]
+    assert "static safety at the maximum load" in rated(rating=blow).check("damage")[0].note[0]
 
 
 def test_load_on_one_end_warns_above_2() -> None:
@@ -359,6 +359,15 @@ def test_a_failing_safety_says_what_helps() -> None:
     assert "gear 1: pitting safety S_H" in first.message
     assert "K_Hb = 1.49 takes 18 % of the safety" in first.note[0]
     assert first.fix.endswith(f"crowning, which gives a safety of {crowned:.3g}")
+
+
+def test_a_remedy_names_nothing_that_the_file_has() -> None:
+    narrow = {"grade": 9, "face": {"modification": "crowning"}}
+    (found,) = rated(rating=narrow, face_width=120).check("face-load")
+    assert found.status == "warn"
+    assert "crowning" not in found.fix
+    for each in rated(rating=narrow, face_width=120, load={"torque": 3000}).check("pitting"):
+        assert each.note[0].count("K_Hb =") == 1
 
 
 WRONG: list[tuple[dict[str, Any], str, str]] = [
