@@ -10,6 +10,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+from sources import tree
 
 ROOT = Path(__file__).parents[1]
 MACHINES = sorted(path.name for path in (ROOT / "core/machines").iterdir() if (path / "__init__.py").exists())
@@ -147,15 +148,23 @@ def test_each_package_says_what_stands_there() -> None:
 _NESTED = (ast.FunctionDef, ast.ClassDef)
 
 
-@cache
 def _tree(module: str) -> ast.Module:
-    return ast.parse(MODULES[module].read_text(encoding="utf-8"))
+    return tree(MODULES[module])
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """What stands in a module, a class or a function, without the expressions: six sevenths of all nodes."""
+    for name in ("body", "orelse", "finalbody", "handlers", "cases"):
+        inner = getattr(node, name, ())
+        for each in inner if isinstance(inner, list) else ():
+            yield each
+            yield from _statements(each)
 
 
 def test_a_function_fits_a_screen() -> None:
     """A module is a subject, whatever its length; a function has fewer than 50 lines, but for those in it."""
     for name in MODULES:
-        for node in ast.walk(_tree(name)):
+        for node in _statements(_tree(name)):
             if isinstance(node, ast.FunctionDef):
                 body = [each for each in node.body[bool(ast.get_docstring(node)) :] if not isinstance(each, _NESTED)]
                 lines = sum((each.end_lineno or 0) - each.lineno + 1 for each in body)

@@ -8,8 +8,10 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
+from sources import tree
 
 ROOT = Path(__file__).parents[1]
 
@@ -27,7 +29,7 @@ WORDS = {
     r"\bdead points?\b": "dead centre",
     r"\b(worked|mended) (design|file)s?\b": "example",
     r"\bremed(y|ies)\b": "fix",
-    r"(?<!Also: )\bgear-linkages?\b": "geared linkage",
+    r"(?<!also: )\bgear-linkages?\b": "geared linkage",
     r"\bthe mate\b": "the mating gear",
     r"\bbesides\b": "in addition",
     r"\b(is|are|was|were) wanted\b": "required",
@@ -43,22 +45,21 @@ KEYS = re.compile(r"`[^`]*`|https?:\S+|\]\([^)]*\)|\b[\w-]+[._/][\w./_-]+\b")
 
 def _literals(path: Path) -> Iterator[str]:
     """The prose among the strings of a module, without docstrings of functions and modules."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    docs = {
-        id(node.body[0].value)
-        for node in ast.walk(tree)
-        if isinstance(node, (ast.Module, ast.FunctionDef, ast.ClassDef))
-        and node.body
-        and isinstance(node.body[0], ast.Expr)
-    }
-    for node in ast.walk(tree):
-        if (
-            isinstance(node, ast.Constant)
-            and isinstance(node.value, str)
-            and id(node) not in docs
-            and " " in node.value
-        ):
-            yield node.value
+    docs, left = set[int](), list[Any]([tree(path)])  # what is above comes before what is in it
+    while left:
+        node = left.pop()
+        kind = type(node)
+        if kind is ast.Constant:
+            if isinstance(node.value, str) and " " in node.value and id(node) not in docs:
+                yield node.value
+        elif kind is not ast.Name:
+            if kind in (ast.Module, ast.FunctionDef, ast.ClassDef):
+                docs.update(id(each.value) for each in node.body[:1] if isinstance(each, ast.Expr))
+            for inner in vars(node).values():
+                if isinstance(inner, list):
+                    left += (each for each in inner if isinstance(each, ast.AST))
+                elif isinstance(inner, ast.AST):
+                    left.append(inner)
 
 
 def _strings(data: object) -> Iterator[str]:
@@ -74,9 +75,9 @@ def _strings(data: object) -> Iterator[str]:
 
 
 @cache
-def _texts() -> dict[str, list[str]]:
-    """Every text that a user reads, by the file that it stands in."""
-    found = {}
+def _texts() -> dict[str, str]:
+    """Every text that a user reads in small letters, by the file that it stands in; a text has its own lines."""
+    found = dict[str, list[str]]()
     for top in ("core", "cli"):
         for path in sorted((ROOT / top).rglob("*.py")):
             found[str(path.relative_to(ROOT))] = list(_literals(path))
@@ -90,16 +91,15 @@ def _texts() -> dict[str, list[str]]:
     for path in sorted((ROOT / "designs").rglob("*.yaml")):
         comments = re.findall(r"(?m)(?:^|\s)#(.*)$", path.read_text(encoding="utf-8"))
         found[str(path.relative_to(ROOT))] = [KEYS.sub("", text) for text in comments]
-    return found
+    return {file: "\n\0\n".join(texts).lower() for file, texts in found.items()}
 
 
 @pytest.mark.parametrize("pattern", WORDS)
 def test_texts_have_the_words_of_the_field(pattern: str) -> None:
-    word = re.compile(pattern, re.IGNORECASE)
+    word = re.compile(pattern)
     found = [
         f"{file}: {text[max(0, hit.start() - 40) : hit.end() + 30]!r}"
-        for file, texts in _texts().items()
-        for text in texts
+        for file, text in _texts().items()
         for hit in word.finditer(text)
     ]
     assert not found, f"{len(found)} times, write {WORDS[pattern]!r}:\n" + "\n".join(found)

@@ -125,7 +125,7 @@ SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(name, marks=pytest.mark.slow) if name in IN_THEIR_ROOMS else name
+        pytest.param(name, marks=pytest.mark.slow) if name in (*IN_THEIR_ROOMS, "gripper") else name
         for name in DRAWN
         if name not in SLOW_KINDS
     ],
@@ -286,7 +286,8 @@ def fails(made: Any, command: str, name: str) -> Check:
     return next(check for check in made.findings(command, name) if check.status == "fail")
 
 
-@pytest.mark.parametrize(("allowed", "angle"), [(540, 72.0), pytest.param(300, None, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize(("allowed", "angle"), [(540, 72.0), (300, None)])
 def test_loads_that_were_refused_hold_after_a_remedy(allowed: float, angle: float | None) -> None:
     """Both rollers on one side: 57 deg parts them, and presses the return roller beyond what the file allows."""
     given: dict[str, Any] = {"cam__return_roller__angle": 20, "loads__material__allowed_pressure": allowed}

@@ -51,7 +51,7 @@ def test_one_file_the_same_every_time(
     assert len(made[0]) > 5000
 
 
-@pytest.mark.parametrize("dpi", [40, 130, 260])
+@pytest.mark.parametrize("dpi", [40, *(pytest.param(dpi, marks=pytest.mark.slow) for dpi in (130, 260))])
 def test_a_picture_has_the_pixels_that_it_is_asked_for(gearlink: Any, designs: Path, tmp_path: Path, dpi: int) -> None:
     """--dpi counts, not the resolution of the figure's first canvas."""
     arguments = ["crank", designs / "ty460_slider_crank.yaml", "--quiet", "--plot", "--out", tmp_path]

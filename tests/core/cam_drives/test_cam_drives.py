@@ -149,8 +149,9 @@ def test_checks_on_both_sides_of_their_limits() -> None:
         (CAMS, {"limits": {"pressure_angle": 20.0}}, "pressure-angle", "fail"),
         (CAMS, {"cams__y__roller_radius": 50.0}, "cam-undercut", "fail"),
     ):
-        found = [each.status for each in design(data, **keys).report("analyze").checks if each.name == name]
-        assert status in found, (name, keys)
+        made = design(data, **keys)
+        made.advises = False  # the verdict is asked for, not what would help
+        assert status in [each.status for each in made.check(name)], (name, keys)
 
 
 def test_refusals() -> None:

@@ -461,7 +461,7 @@ def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(strok
     assert [table.name for table in report.tables] == ["positions"]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["press", "analyze"])
 @pytest.mark.parametrize(
     ("cam", "words"),

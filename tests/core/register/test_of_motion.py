@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -81,10 +82,12 @@ WITHOUT_MESH = (
     "planar_watt",
     "planar_quick_return",
 )
-SLOW, FOLLOWED = pytest.mark.slow, ("planar_bed_chain", "planar_quick_return")
+SLOW, FOLLOWED = pytest.mark.slow, ("planar_watt", "planar_five_bar", "planar_bed_chain", "planar_quick_return")
+DEAR = ("five_bar_function", "planar_bed_chain")
 RADIUS = ("wide_swing_cycle", "planar_watt")
 
 
+@cache
 def register(name: str, sources: tuple[str, ...] = (), **keys: Any) -> MotionRegister:
     entries = {key: _entry(key) for key in sources or CASES[name]}
     given = {"backlash": 0.03} if name not in WITHOUT_MESH else {}
@@ -104,7 +107,7 @@ def some(made: MotionRegister, count: int = 11) -> Any:
     return np.linspace(given.start, given.end, count + 2)[1:-1] + 1e-3
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=SLOW if name in DEAR else ()) for name in CASES])
 def test_the_whole_chain_goes_as_the_gains_but_for_squares(name: str) -> None:
     made = register(name)
     phi = some(made)

@@ -153,8 +153,8 @@ def try_designs(count: int, seed: int) -> Counter[str]:
 
 
 def test_no_link_over_a_shaft_is_missed_and_none_told_of_that_is_clear() -> None:
-    statuses = try_designs(15, seed=1)
-    assert min(statuses["warn"], statuses["pass"]) > 10
+    statuses = try_designs(8, seed=1)
+    assert min(statuses["warn"], statuses["pass"]) > 5
 
 
 @pytest.mark.slow

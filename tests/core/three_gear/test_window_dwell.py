@@ -309,7 +309,12 @@ def test_a_tolerance_that_no_back_step_fills_is_met_the_better(tolerance: float)
 
 @pytest.mark.parametrize(
     ("base", "dwell"),
-    [(RING, {}), (EXTERNAL, {"frame": 114.4}), (EXTERNAL, {"crank": 24.0}), (EXTERNAL, {"crank": 24.0, "margin": 0.2})],
+    [
+        (RING, {}),
+        (EXTERNAL, {"crank": 24.0, "margin": 0.2}),
+        pytest.param(EXTERNAL, {"frame": 114.4}, marks=pytest.mark.slow),
+        pytest.param(EXTERNAL, {"crank": 24.0}, marks=pytest.mark.slow),
+    ],
 )
 def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
     """Not that of the back-step, which is twice as wide; with a margin too it is the tolerance that is asked for."""
