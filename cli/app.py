@@ -145,7 +145,7 @@ def _batch(
     if options.plot and out is None:
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
     if unchanged is Unchanged.SKIP and out is None:
-        raise typer.BadParameter("--unchanged skip needs --out DIR, where the results stand", param_hint="--unchanged")
+        raise typer.BadParameter("--unchanged skip needs --out DIR, where the results are", param_hint="--unchanged")
     design = options._replace(strict=options.strict or fail_on is FailOn.WARNING)
     more = tuple(dict.fromkeys(one.value for one in added or ()))
     raise typer.Exit(run_batch(places, BatchOptions(design, format, out, unchanged, share(shard), jobs, dask, more)))

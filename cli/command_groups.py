@@ -10,7 +10,7 @@ GROUPS = {
     "Find the way": ("new", "explain", "schema", "laws", "chart", "help"),
     "From the task to a design": ("synth", "gears", "explore"),
     "Compute a design": ("analyze", "gear", "crank", "press", "gripper", "swing", "cam", "loads"),
-    "Judge it": ("check", "diff", "tolerance", "register", "verify"),
+    "Checks and tolerances": ("check", "diff", "tolerance", "register", "verify"),
     "Show it, make it": ("report", "watch", "studio", "sheet", "animate", "export"),
     "Many designs": ("batch",),
 }

@@ -96,7 +96,7 @@ def refusals_located(loaded: LoadedFile) -> Iterator[None]:
     """What a mechanism or a study refuses becomes an error at its place in the file.
 
     Raises
-        DesignFileError - in place of NoSolution and WrongStudy
+        DesignFileError - instead of NoSolution and WrongStudy
     """
     try:
         yield
@@ -150,7 +150,7 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     """
     if command in kind.commands:
         return
-    message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
+    message = f"`{command}` does not apply to a {kind.name}; available for this kind: {', '.join(kind.commands)}"
     from gearlink.core.base.kinds import FILES
 
     serves = [name for name, other in FILES.items() if command in other.commands]

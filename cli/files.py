@@ -100,7 +100,7 @@ def require_free(path: Path, option: str, *, force: bool) -> None:
 
 
 def require_folder(path: Path) -> None:
-    """Refuse a folder that cannot be had, since a file stands in its place, before work begins that takes long.
+    """Refuse a folder that cannot be had, since a file stands instead, before work begins that takes long.
 
     Raises
         CannotWrite
@@ -173,7 +173,7 @@ def wrote(path: Path) -> str:
 
 def in_place(path: Path) -> str:
     """Words for a file that took the place of one with another content; nothing for a new file or the same again."""
-    return ", in place of an earlier one that differs" if str(path) in _in_place_of_others else ""
+    return ", instead of an earlier one that differs" if str(path) in _in_place_of_others else ""
 
 
 def read_plain_file(path: Path, limit: int) -> bytes:
@@ -185,7 +185,7 @@ def read_plain_file(path: Path, limit: int) -> bytes:
     flags = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     if path.is_symlink():
         raise OSError(0, "it is a symbolic link", str(path))
-    if path.is_dir():  # whose descriptor Python would name in place of the path
+    if path.is_dir():  # whose descriptor Python would name instead of the path
         raise OSError(0, "it is no plain file", str(path))
     with open(os.open(path, os.O_RDONLY | flags), "rb") as stream:
         if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):

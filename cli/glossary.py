@@ -208,7 +208,7 @@ def meaning_in(word: str, kind: str, section: tuple[str | int, ...]) -> Meaning 
 
 
 def hint(meaning: Meaning, word: str, value: Any, section: tuple[str | int, ...], data: dict[str, Any]) -> str:
-    """What to write in place of an unknown key, with the value that the file gives.
+    """What to write instead of an unknown key, with the value that the file gives.
 
     Example
         >>> e = meaning_in("e", "three-gear-four-bar", ("links",))

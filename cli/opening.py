@@ -196,7 +196,7 @@ def _path(path: Any) -> str:
     if not isinstance(path, str):
         raise TypeError(f"a path in a design file is text, not {type(path).__name__}")
     if "=" in path:
-        raise _refused("is no path: the value stands beside it", path)
+        raise _refused("is no path: the value is next to it", path)
     return path
 
 

@@ -166,8 +166,8 @@ OPTIONS = {
     "digits": Option(
         ("--digits",), "significant digits of the table form, or full; default: 0.001 mm, 0.01 deg, else 4", digits, "N"
     ),
-    "plot": Option(("--plot",), "write the picture NAME-COMMAND.png"),
-    "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
+    "plot": Option(("--plot",), "write the figure NAME-COMMAND.png"),
+    "plot_format": Option(("--plot-format",), "file format of the figure", PlotFormat),
     "dpi": Option(("--dpi",), "pixels per inch of a png", int, least=20, most=1200),
     "out": Option(("--out",), "folder for files that are written", folder, "DIR"),
     "overrides": Option(

@@ -32,7 +32,7 @@ _GONE = {
     ("tolerance", "--executor"): _ON_DASK,
     ("register", "--executor"): _ON_DASK,
 }
-"""What serves in place of options that were once there."""
+"""What serves instead of options that were once there."""
 
 _NO_MORE = {"bench": "run times are measured in a checkout of gearlink, by `make bench`"}
 """The same of commands."""
@@ -208,7 +208,7 @@ def of_law(name: str) -> str:
 
 
 def _of_command(name: str, group: Any, tree: Any) -> str:
-    """A command of a group inside this one; a file in place of a command."""
+    """A command of a group inside this one; a file instead of a command."""
     inner = [path for path, _ in _leaves(tree) if path.endswith(f" {name}") and group is tree]
     if inner:
         return f"use `gearlink {inner[0]}`"

@@ -51,7 +51,7 @@ _PLACES_HEAD = """## Figures and equations of the sources
 `gearlink explain "(4-26)"` and `gearlink explain "figure 2-4"` lead to these; [errata.md](errata.md) says what is
 wrong in them.
 
-| source | place | what | kinds | commands |
+| source | position | what | kinds | commands |
 | --- | --- | --- | --- | --- |
 """
 _WORDS_HEAD = """## Words of other tools and sources
@@ -107,7 +107,7 @@ def _entry(term: glossary.Concept) -> str:
     """A term: its names, definition and what of the program is about it."""
     code = [("Keys", term.keys), ("Quantities", term.quantities), ("Checks", term.checks), ("Kinds", term.kinds)]
     told = [f"{label}: {', '.join(f'`{name}`' for name in names)}" for label, names in code if names]
-    told += [f"Picture: `{term.picture}`"] if term.picture else []
+    told += [f"Figure: `{term.picture}`"] if term.picture else []
     names = f"German: {', '.join(term.german)}. Chinese: {', '.join(term.chinese)}."
     names = f"Also: {', '.join(term.also)}. {names}" if term.also else names
     symbol = f" ({term.symbol})" if term.symbol else ""

@@ -35,6 +35,20 @@ WORDS = {
     r"\b(is|are|was|were) wanted\b": "required",
     r"\b(one|per|each|every|whole|full|half a|of a) turn\b": "revolution",
     r"\bmakes? good\b": "compensates",
+    r"(?<!last )(?<!decimal )\bplaces?\b": "position",
+    r"\brooms?\b": "clearance, margin",
+    r"\bleft out\b|\bleaves? [^ ]+ out\b": "default, omit",
+    r"\bask(s|ed|ing)?( [^ ]+){0,2} (for|of)\b": "specify, require",
+    r"\bwanted\b|\bwish(es)?\b": "required, target",
+    r"\bscatters?\b(?!-)": "vary, variation",
+    r"\bjudge[sd]?\b": "check, evaluate",
+    r"\bhollows?\b(?! shaft)|\bbulges?\b": "concave, convex",
+    r"\bchanges sides\b": "changes flank",
+    r"\bpictures?\b": "figure",
+    r"\bbeside\b": "next to, in addition to",
+    r"\bstands? still\b": "dwells, is at rest",
+    r"\bhow far\b": "distance, amount",
+    r"\bbite\b": "pick-up position",
 }
 """What is not written, as a pattern, and the word of the field in its place."""
 
@@ -44,7 +58,7 @@ KEYS = re.compile(r"`[^`]*`|https?:\S+|\]\([^)]*\)|\b[\w-]+[._/][\w./_-]+\b")
 
 
 def _literals(path: Path) -> Iterator[str]:
-    """The prose among the strings of a module, without docstrings of functions and modules."""
+    """The prose among the strings of a module, without docstrings and the descriptions of constants."""
     docs, left = set[int](), list[Any]([tree(path)])  # what is above comes before what is in it
     while left:
         node = left.pop()
@@ -53,8 +67,8 @@ def _literals(path: Path) -> Iterator[str]:
             if isinstance(node.value, str) and " " in node.value and id(node) not in docs:
                 yield node.value
         elif kind is not ast.Name:
-            if kind in (ast.Module, ast.FunctionDef, ast.ClassDef):
-                docs.update(id(each.value) for each in node.body[:1] if isinstance(each, ast.Expr))
+            if kind is ast.Expr:
+                docs.add(id(node.value))
             for inner in vars(node).values():
                 if isinstance(inner, list):
                     left += (each for each in inner if isinstance(each, ast.AST))

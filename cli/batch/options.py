@@ -52,7 +52,7 @@ class BatchOptions:
     """What the user asked for; `design` holds what each design is run with.
 
     `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose;
-    `dask` is the address of a scheduler whose workers compute, in place of processes.
+    `dask` is the address of a scheduler whose workers compute, instead of processes.
     `unchanged` says what becomes of designs whose results in `out` are those that would be made again. `added` are
     commands that run on files with a section `tolerance` as well.
     """

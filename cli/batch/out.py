@@ -96,7 +96,7 @@ def require_places(files: Sequence[Path]) -> None:
     for file in files:
         other = taken.setdefault(place_of(file), file)
         if other != file:
-            message = f"{other} and this file would have their results in one place"
+            message = f"{other} and this file would have their results in one folder"
             help_ = "name the files of one run either all from the current folder or all from the root"
             raise DesignFileError([Diagnostic("GL116", message, file=str(file), help=help_)])
 

@@ -165,17 +165,19 @@ def _with_device(chart: DesignChart, asked: Asked) -> DesignChart:
     if (device, stretch, ratio) == ("", None, None):
         return chart
     if chart.kind != "wide-swing-cam":
-        raise _wrong("--device", device or chart.name, f"left out: the chart {chart.name} is about no unloading device")
+        raise _wrong(
+            "--device", device or chart.name, f"not in the chart: the chart {chart.name} is about no unloading device"
+        )
     if device not in ("", "pneumatic", "spring"):
         raise _wrong("--device", device, "pneumatic or spring")
     if (device == "spring") != (stretch is not None):
         if device == "spring":
-            raise _wrong("--device", device, "beside a number of --stretch-ratio, as in 0.5")
-        raise _wrong("--stretch-ratio", f"{stretch:g}", "beside --device spring")
+            raise _wrong("--device", device, "with a number of --stretch-ratio, as in 0.5")
+        raise _wrong("--stretch-ratio", f"{stretch:g}", "with --device spring")
     if ratio is not None and not ratio > 1.0:
         raise _wrong("--pivot-ratio", f"{ratio:g}", "above 1")
     if asked.curves and ratio is not None and chart.parameter is not None and chart.parameter.name == "pivot_ratio":
-        raise _wrong("--pivot-ratio", f"{ratio:g}", "left out beside --curves, which are pivot ratios")
+        raise _wrong("--pivot-ratio", f"{ratio:g}", "omitted with --curves, which are pivot ratios")
     given_keys = [("stretch_ratio", stretch)]
     if chart.parameter is not None and chart.parameter.name != "pivot_ratio":
         given_keys.append(("pivot_ratio", ratio))
@@ -200,7 +202,7 @@ def _curves(text: str, chart: DesignChart) -> tuple[float, ...]:
     if not text:
         return chart.curves
     if chart.parameter is None:
-        raise _wrong("--curves", text, f"left out: the chart {chart.name} has one curve")
+        raise _wrong("--curves", text, f"not in the chart: the chart {chart.name} has one curve")
     values = [_number(part) for part in text.split(",")]
     unit = "" if chart.parameter.unit == "1" else f" [{chart.parameter.unit}]"
     if None in values:
@@ -242,7 +244,7 @@ def _marked(chart: DesignChart, source: str, options: Options) -> Marked:
     """
     loaded, kind = open_design(source, options)
     if kind.name != chart.kind:
-        words = f"a {kind.name} has no place in the chart {chart.name}; it is about the kind {chart.kind}"
+        words = f"a {kind.name} is not in the chart {chart.name}; it is about the kind {chart.kind}"
         raise wrong_kind(loaded, words)
     spec = read_spec(loaded, kind, source)
     with refusals_located(loaded):
@@ -278,7 +280,7 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
     place = chart.place(design)
     if place is None and chart.y.name == "tolerance_dwell_angle":
         raise NoSolution(
-            (f"this design names no tolerance of its dwell, so it has no place in the chart {chart.name}"),
+            (f"this design names no tolerance of its dwell, so it is not in the chart {chart.name}"),
             key="dwell_tolerance",
             fix="give dwell_tolerance",
         )
@@ -286,7 +288,7 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
         raise NoSolution(
             (
                 "the output of this design never steps back (minimum speed ratio "
-                f"{design.speed_ratio_min:.6g}), so it has no place in the chart {chart.name}"
+                f"{design.speed_ratio_min:.6g}), so it is not in the chart {chart.name}"
             ),
             fix="shorten the frame, or take the chart nonuniformity",
         )
@@ -383,7 +385,7 @@ def _label(axis: Axis) -> str:
 
 
 def _curve_label(chart: DesignChart, value: float) -> str:
-    assert chart.parameter is not None, "asked for curves alone"
+    assert chart.parameter is not None, "needed for curves alone"
     unit = "°" if chart.parameter.unit == "deg" else ""
     return f"{chart.parameter.symbol} = {style.number(value)}{unit}"
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 # A result that was kept as JSON, read as what it may be: another program's, edited, or no result at all
 
 LARGEST = 1 << 26
-"""Bytes; the results of a batch of some thousand designs, tables left out of account."""
+"""Bytes; the results of a batch of some thousand designs, without tables."""
 _DEEPEST = 12  # a result of a batch has 6 levels, and a value may be a list of lists
 _MOST_DIGITS = 308  # beyond them a whole number is beyond all floats
 _HEAD = 4096
@@ -252,7 +252,7 @@ def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
 def _compare_results(found: Difference, command: str, old: dict[str, Any] | None, new: dict[str, Any] | None) -> None:
     """Add what changed in the result of a command; a result that only one side has is one change."""
     if old is None or new is None:
-        has = ("asked for", None) if new is None else (None, "asked for")
+        has = ("required", None) if new is None else (None, "required")
         found.inputs.append(Change(f"command {command}", *has))
         return
     for name in _union(old["quantities"], new["quantities"]):

@@ -206,7 +206,7 @@ def _keys(name: str) -> Iterator[Topic]:
         words = uncapitalised(key.words) if key.section else key.words
         told = {"Unit": key.unit if key.unit not in ("", "1") else "", "Range": key.range, "Choice": choice(key)}
         told |= {"Alias": ", ".join(key.also)}
-        told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in its place"}
+        told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in the file"}
         title = f"key of a design file: {words or 'a section'}"
         yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
 
@@ -244,7 +244,7 @@ def _term(term: Concept) -> Topic:
     names = {"Also": term.also, "German": term.german, "Chinese": term.chinese, "Symbol": (term.symbol,)}
     program = {"Keys": term.keys, "Quantities": term.quantities, "Checks": term.checks, "Kinds": term.kinds}
     told = {label: ", ".join(words) for label, words in (names | program).items()}
-    told |= {"Picture": f"`{term.picture}`" if term.picture else "", "See also": ", ".join(term.see)}
+    told |= {"Figure": f"`{term.picture}`" if term.picture else "", "See also": ", ".join(term.see)}
     return Topic("term", term.name, term.definition, {label: words for label, words in told.items() if words})
 
 

@@ -24,7 +24,7 @@ _OF_FILES = ("overrides", "quantities", "tables", "strict", "save", "force")
 
 @takes(
     *("format", "all", "digits", "plot", "plot_format", "dpi", "out", "color", "quiet", *_OF_FILES),
-    plot="write the picture motion-laws.png, of a design file NAME-laws.png",
+    plot="write the figure motion-laws.png, of a design file NAME-laws.png",
 )
 def laws(
     options: Options,

@@ -71,7 +71,8 @@ def template(kind: Kind, name: str = "") -> str:
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
         f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
-        f"# Run it with: gearlink {asked} FILE      numbers stand without a unit, each in the one named behind it\n\n"
+        f"# Run it with: gearlink {asked} FILE      numbers are given without a unit, each in the one named "
+        f"behind it\n\n"
     )
     return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
 
@@ -109,7 +110,7 @@ def _left_out(kind: Kind, text: str) -> str:
         return ""
     width = max(len(label) for label, _ in rows)
     lines = [f"{label:<{width}}   # {words}" for label, words in rows]
-    return "\n# Keys that this file leaves out, with their defaults; a.b stands for b in the section a:\n" + "\n".join(
+    return "\n# Keys that this file leaves out, with their defaults; a.b is b in the section a:\n" + "\n".join(
         [*lines, ""]
     )
 

@@ -38,7 +38,7 @@ def register(app: typer.Typer) -> None:
 
 @takes(
     *("format", "plot", "plot_format", "dpi", "out", "overrides", "color", "quiet"),
-    plot="write the picture NAME-chart.png",
+    plot="write the figure NAME-chart.png",
 )
 def _chart(
     options: Options,
@@ -72,12 +72,12 @@ def _animate(
     spec: Spec,
     options: Options,
     format: Annotated[MovingFormat, option("format", help="file format of the animation")] = MovingFormat.GIF,
-    fps: Annotated[int, typer.Option(min=1, max=50, help="pictures per second")] = 25,
+    fps: Annotated[int, typer.Option(min=1, max=50, help="frames per second")] = 25,
     seconds: Annotated[
         float | None,
         typer.Option(min=0.1, max=120.0, help="length of the loop; default: 4, or longer where teeth move fast"),
     ] = None,
-    size: Annotated[str, typer.Option(metavar="WIDTHxHEIGHT", help="size of the picture in pixels")] = "960x720",
+    size: Annotated[str, typer.Option(metavar="WIDTHxHEIGHT", help="size of the figure in pixels")] = "960x720",
 ) -> None:
     """Animate the mechanism as a seamless loop, NAME-motion.gif; HTML has controls, mp4 needs ffmpeg.
 

@@ -1,6 +1,6 @@
 """`--save FILE`: the design of a command as a complete file, with what was found and where each number is from.
 
-`--save -` writes it to standard output, in place of the results.
+`--save -` writes it to standard output, instead of the results.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def complete(
     _write_units(data, loaded)
     data["name"] = stem_of(file) if "name" not in loaded.data and file != STREAM else design.spec.name
     head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
-    head += [f"asked for: {path}: {flow(value)}" for path, value in left_out]
+    head += [f"required: {path}: {flow(value)}" for path, value in left_out]
     return written(kind, _ordered(data, dict.fromkeys(_KEY_ORDER) | dict(_with_links(loaded.data))), head, notes)
 
 
@@ -196,4 +196,4 @@ def _ordered(data: Mapping[str, Any], order: Mapping[str, Any]) -> dict[str, Any
 
 
 def _shown(value: Any) -> str:
-    return "left out" if value is None else flow(value)
+    return "not given" if value is None else flow(value)

@@ -36,7 +36,7 @@ _NONE_FOUND = "none found with which every check passes"
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A key of the design file that was changed; None stands for a key that is left out."""
+    """A key of the design file that was changed; None stands for a key that is not given."""
 
     path: str
     old: Any
@@ -184,4 +184,4 @@ def overrides(changes: Sequence[Change]) -> str:
 def _shown(value: Any) -> str:
     if isinstance(value, (int, float)):
         return f"{value:.12g}"
-    return "left out" if value is None else str(value)
+    return "not given" if value is None else str(value)

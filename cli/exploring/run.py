@@ -70,7 +70,7 @@ class Means:
 
     Parameters
         jobs : int - processes; 0: chosen by the work to be done
-        executor : makes the executor of a cluster, in place of processes; None: none
+        executor : makes the executor of a cluster, instead of processes; None: none
         workers : int - of that executor
     """
 
@@ -235,7 +235,7 @@ def kept_in(memory: Kept) -> Opened:
 # Designs of a study as complete files, which every command takes
 
 _NAME = 180
-"""Letters of the study's name in the names of its designs, which have their number beside it."""
+"""Letters of the study's name in the names of its designs, followed by their number."""
 _MISS = re.compile(r"m([0-9]{1,6})")
 
 
@@ -329,7 +329,7 @@ def run_explore(asked: Exploring) -> int:
 def _run(asked: Exploring) -> int:
     if asked.show and (asked.write is not None or asked.options.plot):
         other = "--plot" if asked.write is None else "--write"
-        raise _usage(f"--show prints one design and writes no file: leave {other} out, or --show", "--show")
+        raise _usage(f"--show prints one design and writes no file: omit {other}, or --show", "--show")
     for folder in (asked.write, asked.options.out if asked.options.plot else None):
         if folder is not None:
             require_folder(folder)
@@ -453,7 +453,7 @@ def _write(study: Exploration, report: Report, asked: Exploring) -> None:
     """Write the files that are asked for besides."""
     if asked.write is not None:
         count, others = write(study.found, asked.write)
-        earlier = f", beside {others} of an earlier run" if others else ""
+        earlier = f", next to {others} of an earlier run" if others else ""
         _tell(f"wrote {amount(count, 'design')} to {visible(str(asked.write))}{earlier}", asked)
     if asked.options.plot:
         from gearlink.cli.commands.design import plot

@@ -305,7 +305,7 @@ def problem_in(store: Store) -> Problem:
     """
     meta = store.meta()
     if not meta:
-        raise CannotStore("GL159", f"{store._path} holds no study", "give the study file in its place")
+        raise CannotStore("GL159", f"{store._path} holds no study", "give the study file instead")
     try:
         made = problem_of(meta["study"])
         same = made.hash == meta["spec"] and meta_of(made)["columns"] == meta["columns"]

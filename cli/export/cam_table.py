@@ -26,7 +26,7 @@ def run_cam_table(source: str, options: Options, rows: int | None, tolerance: fl
         spec = read_spec(loaded, kind, source)
         design: Any = whole_design(kind, spec)
         if not hasattr(type(design), "follower_motion"):
-            raise wrong_kind(loaded, f"a {kind.name} has no cam that a servo drive could stand in for")
+            raise wrong_kind(loaded, f"a {kind.name} has no cam that a servo drive could replace")
         with refusals_located(loaded):
             motion, count = design.follower_motion, _rows(design, rows, tolerance)
             table, error = servo_table(motion, count, rocks=design.rocks), greatest_error(motion, count)

@@ -418,7 +418,7 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
             f"module {mesh.module:g} mm, {amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, "
             f"{design.full_teeth} teeth without gaps",
             f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they pass the resting gear",
-            "the locking arcs that hold the driven gear, and an entry tooth that takes up its speed, are left out",
+            "the locking arcs that hold the driven gear, and an entry tooth that takes up its speed, are omitted",
             "no backlash: thin the teeth by the allowance that the drawing gives",
             "frame: wheel axis at the origin, middle of a gap on the x axis",
         ),
@@ -758,7 +758,7 @@ def _closed_notes(closed: Any, cycle: Any, late: bool) -> tuple[str, ...]:
     sectors = ", ".join(f"{math.degrees(angle):.9g}" for angle in closed.sectors)
     frame = "cam axis at the origin, mid-swing of " + ("the return stroke" if late else "the working stroke")
     if late and not cycle.external_working:
-        frame = "that of the internal contour: both profiles stand on one body in their true mutual place"
+        frame = "that of the internal contour: both profiles are on one body in their true position to each other"
     else:
         frame += " on the x axis"
     return (

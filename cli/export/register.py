@@ -43,7 +43,7 @@ def _export(
             min=LEAST_TOLERANCE,
             max=MOST_TOLERANCE,
             metavar="MM",
-            help="maximum chord error, 0.001 where left out; of --cam-table the maximum error of position (mm, deg)",
+            help="maximum chord error, default 0.001; of --cam-table the maximum error of position (mm, deg)",
         ),
     ] = None,
     curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,
@@ -52,7 +52,7 @@ def _export(
         typer.Option(min=1e-3, max=1e5, metavar="MM", help="width of STEP solids; default: face_width of the file"),
     ] = None,
     cam_table: Annotated[
-        bool, typer.Option("--cam-table", help="the table of a servo drive in place of a cam, NAME-cam-table.csv")
+        bool, typer.Option("--cam-table", help="the table of a servo drive instead of a cam, NAME-cam-table.csv")
     ] = False,
     rows: Annotated[
         int | None, typer.Option(min=2, max=100_000, help="rows of --cam-table, both ends; default: servo of the file")

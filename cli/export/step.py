@@ -42,7 +42,7 @@ def as_step(contour: Contour, spec: Any, width: float | None = None) -> bytes:
 
     Parameters
         contour : Contour - of splines
-        width : float or None [mm] - in place of the part's own
+        width : float or None [mm] - instead of the part's own
     Raises
         NoStep - without the library, without a width, and for an open profile
         TooLong - for helical gears that turn too often over their width

@@ -43,7 +43,7 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
     except DesignFileError as error:
         below = "" if spec.of is not None else "design."
         if spec.of is None and isinstance(base.data, dict) and set(base.data) == {"of"}:
-            message = "'of' stands in the place of design, not in it"
+            message = "'of' stands instead of design, not in it"
             remedy = f"write of: {base.data['of']} without design:"
             raise DesignFileError(
                 [loaded.report("GL156", message, ("design", "of"), key="design.of", help=remedy)]

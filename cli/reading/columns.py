@@ -15,7 +15,7 @@ _DELIMITERS = (";", "\t", ",")
 
 
 def read_points(loaded: LoadedFile) -> tuple[list[Diagnostic], set[str]]:
-    """Put the points of every file of numbers in the place of its name; those of table laws and measured profiles.
+    """Put the points of every file of numbers instead of its name; those of table laws and measured profiles.
 
     Returns
         wrong, keys : what is wrong with the files, at its place in them; keys of what has no points for that
@@ -88,7 +88,7 @@ def rows_of(source: Source) -> list[list[float]]:
         rows.append([value for value in values if value is not None])
         if len(rows) > _MOST_ROWS:
             at = source.line_start(number)
-            raise DesignFileError([source.report("GL182", f"more than {_MOST_ROWS} rows", at, help="leave rows out")])
+            raise DesignFileError([source.report("GL182", f"more than {_MOST_ROWS} rows", at, help="omit rows")])
     if not rows:
         raise DesignFileError([source.report("GL182", "no row of numbers", 0, help="give two numbers a row")])
     return rows

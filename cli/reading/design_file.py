@@ -127,7 +127,7 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     known = f"the kinds are {', '.join(kinds)}"
     if "kind" not in loaded.data:
         other = next((key for key in loaded.data if key.strip(" -").lower() in ("kind", "kinds", "type")), "")
-        remedy = f"write kind in place of {other!r}; {known}" if other else known
+        remedy = f"write kind instead of {other!r}; {known}" if other else known
         path = (other,) if other else _ROOT
         wrong = loaded.report("GL106", "the key 'kind' is missing", path, key="kind", help=remedy)
         raise DesignFileError([*loaded.problems, wrong])
@@ -218,7 +218,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
 
 
 def _read_others(loaded: LoadedFile, model: type[BaseModel]) -> tuple[list[Diagnostic], tuple[str, ...]]:
-    """Put what other files hold in the place of their names: designs of members, points of tables.
+    """Put what other files hold instead of their names: designs of members, points of tables.
 
     Returns
         wrong, keys : what is wrong with them; how the keys of that begin of which nothing more is to be said
@@ -237,7 +237,7 @@ def _read_others(loaded: LoadedFile, model: type[BaseModel]) -> tuple[list[Diagn
 
 
 def _read_members(loaded: LoadedFile, section: str) -> tuple[list[Diagnostic], set[str]]:
-    """Put the design of every member in the place of the file that it names; units become numbers in all of them.
+    """Put the design of every member instead of the file that it names; units become numbers in all of them.
 
     Parameters
         section : str - the key under which the members stand

@@ -41,7 +41,7 @@ class LoadedFile:
     tree: Tree
     overrides: list[Override] = field(default_factory=list)
     as_written: dict[KeyPath, tuple[str, float]] = field(default_factory=dict)
-    """Values with units: the text of the file, and the number in its place."""
+    """Values with units: the text of the file, and the number instead."""
     problems: list[Diagnostic] = field(default_factory=list)
     """Errors found in reading that did not hinder it (duplicate keys); `validate` reports them with its own."""
 

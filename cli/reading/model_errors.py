@@ -32,7 +32,7 @@ NO_UNIT = "no unit goes here"
 
 
 def without_unit(number: str, written: str, unit: str) -> str:
-    """What to write in place of a number with a unit, where the key takes none.
+    """What to write instead of a number with a unit, where the key takes none.
 
     Parameters
         number, written : str - as they stand in the file
@@ -117,14 +117,14 @@ def choices(context: dict[str, Any]) -> list[str]:
 
 
 def whole_number_remedy(value: float) -> str:
-    """What to write in place of a float where teeth or the like are counted."""
+    """What to write instead of a float where teeth or the like are counted."""
     if not math.isfinite(value) or abs(value) >= 2.0**53:
         return ""
     return f"write {int(value)}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
 
 
 def number_remedy(text: str, unit: str = "") -> str:
-    """What to write in place of a text that was meant as a number; nothing where that is not plain.
+    """What to write instead of a text that was meant as a number; nothing where that is not plain.
 
     Parameters
         unit : str - of the key, where it has one
@@ -156,7 +156,7 @@ def number_remedy(text: str, unit: str = "") -> str:
         return f"commas part the elements of a list: {', '.join(text.split())}"
     digits = text.translate(_LOOKALIKES)
     if re.fullmatch(_NUMBER, digits):
-        return f"a letter stands for a digit: write {digits}"
+        return f"a letter instead of a digit: write {digits}"
     if re.fullmatch(r"[-+]?0[xXbBoO]\w*", text, re.ASCII):
         return "write it in decimals"
     if re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9_]*", text):
@@ -407,7 +407,7 @@ class _Wording:
         return meaning_in(key, str(self.loaded.data.get("kind", "")), parent)
 
     def explained(self, findings: Sequence[_Finding]) -> set[str]:
-        """The keys that words in place of them stand for, and their sections: that they are missing is said already."""
+        """The keys that words instead of them stand for, and their sections: that they are missing is said already."""
         found: set[str] = set()
         for finding in findings:
             if finding.kind == "extra_forbidden":

@@ -45,7 +45,7 @@ def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, Fie
 
 
 def aliases_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, str]:
-    """The standard terms that a section takes in place of the names of its keys, each with the name."""
+    """The standard terms that a section takes instead of the names of its keys, each with the name."""
     found = {}
     for name, field in fields_at(model, path, data).items():
         said = field.json_schema_extra

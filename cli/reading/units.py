@@ -139,7 +139,7 @@ def _measured(unit: str) -> str:
 
 
 def convert(loaded: LoadedFile, model: type[BaseModel]) -> list[Diagnostic]:
-    """Put numbers in place of the values with units of a file; what is wrong with the others.
+    """Put numbers instead of the values with units of a file; what is wrong with the others.
 
     Notes
         What stood in the file is kept in `loaded.as_written`, for `--save`.

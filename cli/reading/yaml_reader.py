@@ -243,18 +243,18 @@ class _Composer:
         else:
             value = text
             if not text.isprintable() and (control := CONTROL.search(text)):
-                self._note(f"an escape for the control character U+{ord(control[0]):04X}", at, "leave it out")
+                self._note(f"an escape for the control character U+{ord(control[0]):04X}", at, "omit it")
         self._place(value, at, None, event.anchor, 1, 0)
 
     def _alias(self, event: Any, at: int) -> None:
         known = self._anchors.get(event.anchor)
         if known is None:
             inside = event.anchor in self._anchors
-            message = "an alias inside of what it stands for" if inside else f"no anchor '&{event.anchor}' above"
+            message = "an alias inside of its own value" if inside else f"no anchor '&{event.anchor}' above"
             raise _fatal(self.source, "GL103", message, at, help="put text that begins with '*' in quotes")
         value, marks, nodes, height = known
         if self._awaits_key():
-            raise _fatal(self.source, "GL103", "an alias cannot serve as a key", at)
+            raise _fatal(self.source, "GL103", "an alias cannot be a key", at)
         self._place(value, at, marks, None, nodes, height)
 
     def _open_mapping(self, event: Any, at: int) -> None:
@@ -309,7 +309,7 @@ class _Composer:
         frame.repeated = key in frame.data
         if frame.repeated:
             line = self.source.place(frame.marks[key][0])[0]
-            message = f"the key {_short(key)} stands already in line {line}"
+            message = f"the key {_short(key)} is already given in line {line}"
             path = format_path(self._path())
             remedy = "keep one of the two"
             self.duplicates.append(self.source.report("GL104", message, at, key=path, help=remedy))

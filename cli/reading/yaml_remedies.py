@@ -22,7 +22,7 @@ _TAB = "indent with spaces"
 _WORDING = (
     (
         r"mapping values are not allowed",
-        "a colon that cannot stand here: a wrong indentation or two keys on a line",
+        "a colon that is not allowed here: a wrong indentation or two keys on a line",
         _ALIKE,
     ),
     (
@@ -55,11 +55,11 @@ def odd_character(char: str) -> str:
 
 
 def odd_remedy(char: str) -> str:
-    """What to type in place of an odd space, full-width sign or curly quotation mark."""
+    """What to type instead of an odd space, full-width sign or curly quotation mark."""
     plain = chr(ord(char) - 0xFEE0) if "\uff01" <= char <= "\uff5e" else {"\u2018": "'", "\u2019": "'"}.get(char)
     if plain is None:
         plain = '"' if "\u201a" <= char <= "\u201f" else "an ordinary space or nothing"
-    return f"type {plain} in its place"
+    return f"type {plain} instead"
 
 
 def nested_too_deep(error: YAMLError) -> int | None:

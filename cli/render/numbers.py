@@ -1,4 +1,4 @@
-"""Numbers as a reader wants them: few digits, and no rounding noise in place of a zero."""
+"""Numbers as a reader wants them: few digits, and no rounding noise instead of a zero."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def drawn(value: object, unit: str, digits: int | str | None = None) -> str:
     """A value as a drawing has it: 0.001 mm, 0.01 deg, else four significant digits; never fewer than two that count.
 
     Parameters
-        digits : significant digits in place of these; "full": all
+        digits : significant digits instead of these; "full": all
     Example
         >>> drawn(30.3455567, "mm"), drawn(84.0, "mm"), drawn(0.00004, "deg"), drawn(16791.9, "W"), drawn(44, "1")
         ('30.346', '84.000', '4e-05', '16790', '44')

@@ -158,7 +158,9 @@ class StudioPage:
             with ui.column().classes("scrolls") as self._right:
                 self._film = ui.element("div").classes("film").classes("w-full")
                 self._key = (
-                    ui.select([], label="a wish may change").props("dense options-dense").style("min-width: 16em")
+                    ui.select([], label="key that a target may change")
+                    .props("dense options-dense")
+                    .style("min-width: 16em")
                 )
                 self._key.props["data-key"] = "wish"
                 self._results = ui.column().classes("w-full gap-0")
@@ -246,7 +248,7 @@ class StudioPage:
             _plain("span", "was", data_was=name)
             if isinstance(result.quantity.value, bool) or not isinstance(result.quantity.value, (int, float)):
                 return
-            wish = _plain("input", type="text", placeholder="wish", data_wish=name, aria_label=f"wish for {name}")
+            wish = _plain("input", type="text", placeholder="target", data_wish=name, aria_label=f"target for {name}")
         wish.on("keydown.enter", lambda event: self._wish(name, event), js_handler=_VALUE)
 
     async def _wish(self, name: str, event: Any) -> None:
@@ -256,7 +258,7 @@ class StudioPage:
         try:
             target = float(number[0])
         except (ValueError, IndexError):
-            self.say(f"a wish is a number, such as {name} 75")
+            self.say(f"a target is a number, such as {name} 75")
             return
         await self.session.wish(name, target, str(self._key.value or ""))
 

@@ -485,4 +485,4 @@ def point_of(scene: Scene, which: tuple[str, int, int]) -> complex:
         return complex(part.joints[joint][0])
     if isinstance(part, Body):
         return complex(part.place[0])
-    raise LookupError("a line stands still")
+    raise LookupError("a line does not move")

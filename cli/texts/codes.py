@@ -31,13 +31,13 @@ FILES: tuple[Rule, ...] = (
         "The text breaks the rules of YAML, or is not made of `key: value` lines.",
         "Usual causes: tabs in the indentation, a missing space after a colon, a bracket or quotation mark that is "
         "never closed, signs that only look like the plain ones, a second document, tags or directives.",
-        "The caret stands where reading failed; the cause often lies at the end of the line above. `gearlink new KIND` "
+        "The caret is where reading failed; the cause often lies at the end of the line above. `gearlink new KIND` "
         "prints a file that works.",
     ),
     Rule(
         "GL104",
         "key given twice",
-        "The same key stands twice in one section.",
+        "The same key is given twice in one section.",
         "Most readers silently keep the last one; which of the two was meant cannot be known.",
         "Delete one of the two.",
     ),
@@ -45,7 +45,7 @@ FILES: tuple[Rule, ...] = (
         "GL105",
         "unknown key",
         "The section has no such key.",
-        "A misspelt key would otherwise be ignored, and the default used in its place.",
+        "A misspelt key would otherwise be ignored, and the default used instead.",
         "Take the nearest key of the message; `gearlink schema KIND` lists all of them with units and defaults.",
     ),
     Rule(
@@ -58,10 +58,10 @@ FILES: tuple[Rule, ...] = (
     Rule(
         "GL107",
         "wrong type of value",
-        "A number, a text, a list or a section stands where another of these is required, or a list has a wrong "
+        "A number, a text, a list or a section is given where another of these is required, or a list has a wrong "
         "length.",
         "Numbers in quotation marks are text, 40:20 and no are text in YAML 1.2, and true is no number.",
-        "Write the value as the message asks: numbers plain or with a unit, without quotation marks.",
+        "Write the value as the message says: numbers plain or with a unit, without quotation marks.",
     ),
     Rule(
         "GL108",
@@ -98,7 +98,7 @@ FILES: tuple[Rule, ...] = (
         "no such mechanism",
         "The file is in order, but no mechanism exists for its numbers: a linkage does not close or cannot turn, a "
         "stroke is too long, a law has no solution.",
-        "A result in its place would belong to another mechanism.",
+        "A result instead would belong to another mechanism.",
         "The message names the value, its limit and the key to change; change that key, or those it depends on.",
         source="the equation that has no solution is named by `gearlink explain` of the quantity",
     ),
@@ -157,7 +157,7 @@ STUDIES: tuple[Rule, ...] = (
     Rule(
         "GL150",
         "base design missing or given twice",
-        "A study has one base design: the file that `of` names, or the one that stands in it under `design`.",
+        "A study has one base design: the file that `of` names, or the one given in it under `design`.",
         "Every design of a study is the base with other values at the paths of its variables.",
         "Give `of` or `design`, exactly one.",
     ),
@@ -195,15 +195,15 @@ STUDIES: tuple[Rule, ...] = (
     Rule(
         "GL155",
         "more designs than the budget",
-        "The grid of all variables holds more designs than `sampling.budget`, or a variable has no grid, and the "
-        "method `grid` is asked for.",
+        "The grid of all variables holds more designs than `sampling.budget`, or a variable has no grid although the "
+        "method is `grid`.",
         "A grid is computed whole or not at all.",
         "Coarsen the variable of the message, raise the budget, or take the method auto, which samples then.",
     ),
     Rule(
         "GL156",
-        "base design or value refused",
-        "The base design is wrong or cannot be computed, or its model refuses a value of a variable.",
+        "base design or value rejected",
+        "The base design is wrong or cannot be computed, or its model rejects a value of a variable.",
         "A study varies a design that exists; each value is tried alone before any design is computed.",
         "Repair the base, or narrow the variable's range to what its key takes.",
     ),
@@ -232,7 +232,7 @@ STUDIES: tuple[Rule, ...] = (
     ),
     Rule(
         "GL160",
-        "two ways, two results",
+        "two methods, two results",
         "A design of the front has other figures by its own class than in the search.",
         "This is a fault of the program, not of the study.",
         "Please report it with the study; the message has the design and both figures.",
@@ -247,7 +247,7 @@ TOLERANCES: tuple[Rule, ...] = (
         "GL170",
         "source is no size of this design",
         "A source names no key with a real number, no centre distance, pin or gear of this kind of design, or a whole "
-        "number, which does not scatter.",
+        "number, which does not vary.",
         "A tolerance on something that the design does not have would change nothing without a word.",
         "Take a key of the file, such as links.crank, or centers.MESH, pins.PIN, bearings.PIN, gears.GEAR with grade.",
     ),
@@ -256,7 +256,7 @@ TOLERANCES: tuple[Rule, ...] = (
         "limits of a source wrong",
         "A source has no limits, two forms of them, limits in the wrong order or of no width, or a form that does not "
         "belong to what it names.",
-        "Without width nothing scatters, and two forms could contradict each other.",
+        "Without width nothing varies, and two forms could contradict each other.",
         "Give one of plus_minus, lower with upper, limits, sigma, class, fit with size, group with bore, clearance, "
         "grade with width, eccentricity, measured.",
     ),
@@ -294,7 +294,7 @@ TOLERANCES: tuple[Rule, ...] = (
         "GL176",
         "correlations contradict each other",
         "The correlations of the file make no positive matrix, lie outside -1 to 1, or name what is no source.",
-        "Three parts cannot all scatter against each other.",
+        "Three parts cannot all vary against each other.",
         "Correlate what one machine makes in one setting; make rho smaller.",
     ),
 )
@@ -308,7 +308,7 @@ VALUES: tuple[Rule, ...] = (
         "unreadable file of numbers",
         "A file that a key names holds something else than rows of two numbers.",
         "A cell that is read as another number, or skipped, would bend the curve through the points.",
-        "Save the numbers as CSV: two columns with comma, semicolon or tab between them; words may stand at the top.",
+        "Save the numbers as CSV: two columns with comma, semicolon or tab between them; words are allowed at the top.",
     ),
     Rule(
         "GL180",
@@ -321,7 +321,7 @@ VALUES: tuple[Rule, ...] = (
         "GL181",
         "unit of another quantity",
         "A value is written as NUMBER UNIT, and the unit measures something else than the key does.",
-        "Kilograms are no millimetres; a diametral pitch (DP) stands at `module` alone.",
+        "Kilograms are no millimetres; a diametral pitch (DP) is allowed for `module` alone.",
         "Take one of the units that the message lists for this key, or move the value to the key that it belongs to.",
     ),
 )

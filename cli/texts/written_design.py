@@ -28,7 +28,7 @@ def written(
         kind : Kind
         data : plain data as a design file has it; None leaves a key out
         head : lines of the comment on top
-        notes : path -> what is said of that key's value in place of who chooses it
+        notes : path -> what is said of that key's value instead of who chooses it
     Returns
         text : str - read again, it gives the same data
     Example

@@ -17,7 +17,7 @@ installed: {cases} cases with {numbers} numbers, of which {met} are met. This pa
 files in cli/verification/cases, which go with the program.
 
 A number is met where the difference is at most half a unit of the last digit that its source prints. Where another
-limit is taken, the reason stands below the table. Computed values are shown with a digit more than the published ones.
+limit is taken, the reason is given below the table. Computed values have a digit more than the published ones.
 
 | source | cases | numbers | met |
 | --- | --- | --- | --- |

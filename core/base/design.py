@@ -271,7 +271,7 @@ class Design:
             return [found] if isinstance(found, Check) else list(found)
 
     def completion(self) -> Iterable[Found]:
-        """What completes the file: the links that a synthesis found in place of its task."""
+        """What completes the file: the links that a synthesis found instead of its task."""
         return ()
 
     def as_found(self) -> Iterable[Found]:

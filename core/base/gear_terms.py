@@ -60,7 +60,7 @@ GEAR_PAIR = {
     "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, minimum and maximum", "DIN 3967"),
     "backlash_angle": Term("j_phi", "deg", "free turn of each gear, minimum and maximum"),
     "output_play": Term(
-        "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; minimum and maximum"
+        "j_out", "deg", "free rotation of the output gear with the input held, over all teeth; minimum and maximum"
     ),
     "tangential_force": Term("F_t", "N", "force on the reference circle", "ISO 6336-1"),
     "zone_factor": Term(
@@ -171,7 +171,7 @@ GEAR_PAIR = {
     "generated_root_stress": Term(
         "sigma_gen", "N/mm^2", "root stress on the generated fillet, with all load factors", "own derivation"
     ),
-    "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
+    "involute_margin": Term("rho_A1", "mm", "clearance of the ring's tip before the pinion's base tangent point"),
     "radial_assembly_margin": Term(
         "s_rad", "mm", "clearance of a pinion on its way into the ring along the line of centres"
     ),

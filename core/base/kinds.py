@@ -198,7 +198,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "mutilated-gear-dwell",
-            "long dwell by a wheel with teeth left out",
+            "long dwell by a intermittent gear",
             "machines.dwell_gears",
             "mutilated_spec:MutilatedGearDwellSpec",
             {

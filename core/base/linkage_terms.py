@@ -14,16 +14,18 @@ GEAR_LINKAGE: dict[str, Term] = {
     "coupler_length": Term("l2", "mm", "coupler (three gears: centre distance of 1 and 3; six-bar: BC, CD, DE)"),
     "rocker_length": Term("l3", "mm", "rocker; with three gears the centre distance of gears 3 and 5"),
     "frame_length": Term(
-        "l4", "mm", "distance between the two fixed pivots", "own closed form in place of thesis (4-26)..(4-33)"
+        "l4", "mm", "distance between the two fixed pivots", "own closed form instead of thesis (4-26)..(4-33)"
     ),
-    "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),
+    "mean_ratio": Term("I", "1", "net output revolutions per input revolution", "thesis (4-1)"),
     "speed_ratio_max": Term("(w5/w1)max", "1", "maximum output speed per input speed", "thesis (4-13)"),
     "speed_ratio_min": Term("(w5/w1)min", "1", "minimum output speed per input speed", "thesis (4-13)"),
     "motion": Term("", "1", "kind of output motion", "thesis 4.2.1"),
     "dwell_crank_angles": Term("phi(1), phi(2)", "deg", "crank angles of zero output speed", "thesis (4-14)"),
     "back_step_angle": Term("phi5(1)-phi5(2)", "deg", "back-step of the output", "thesis (4-16), (4-19)"),
     "back_step_crank_angle": Term("phi12", "deg", "crank angle during which the output turns back", "thesis (4-15)"),
-    "dwell_angle": Term("phi13", "deg", "crank angle until the output regains its place", "own derivation"),
+    "dwell_angle": Term(
+        "phi13", "deg", "crank angle until the output is back at its starting position", "own derivation"
+    ),
     "dwell_angle_approximate": Term("1.5 phi12", "deg", "the thesis's approximation of phi13", "thesis (4-17)"),
     "min_transmission_angle": Term("mu_min", "deg", "minimum transmission angle over the turn", "VDI 2142"),
     "gear_gap": Term("s15", "mm", "tips of the crank (input) and the output gear at the closest", "own derivation"),
@@ -76,7 +78,7 @@ REAL_SPEED: dict[str, Term] = {
     "output_acceleration_max": Term("e5_max", "rad/s^2", "maximum acceleration of the output at this input speed"),
     "output_acceleration_min": Term("e5_min", "rad/s^2", "minimum acceleration of the output at this input speed"),
     "back_step_time": Term("t12", "ms", "time during which the output turns back"),
-    "dwell_time": Term("t_d", "ms", "time during which the output stands"),
+    "dwell_time": Term("t_d", "ms", "time during which the output dwells"),
     "tolerance_dwell_time": Term("t_tol", "ms", "time of the longest dwell within the tolerance"),
     "motion_time": Term("t_m", "ms", "time of a motion between two dwells"),
     "driven_speed": Term("w_F", "rad/s", "speed of the driven gear during a motion"),

@@ -59,7 +59,7 @@ MOTION_EXTREMES = {
 SHAPED_LAWS = {
     "peak_velocity": Term("Cv", "1", "maximum velocity of a law, rise 1 over x from 0 to 1", "VDI 2143"),
     "peak_acceleration": Term("Ca", "1", "maximum acceleration of a law, rise 1 over x from 0 to 1", "VDI 2143"),
-    "peak_jerk": Term("Cj", "1", "maximum jerk of a law beside jumps of its acceleration", "VDI 2143"),
+    "peak_jerk": Term("Cj", "1", "maximum jerk of a law in addition to jumps of its acceleration", "VDI 2143"),
     "peak_power": Term("Cm", "1", "maximum product of velocity and acceleration: the inertia torque", "VDI 2143"),
     "kappa": Term("kappa", "1", "rise at the end of the phase; from rest to speed over end speed and time"),
     "degree": Term("n", "1", "degree of the acceleration of a law by Bernstein polynomials"),

@@ -92,9 +92,9 @@ _DISC_CAM = {
     "least_wall_factor": Term(
         "", "1", "minimum factor of the walls of a drum's track, regular above 0", "own derivation"
     ),
-    "min_concave_radius": Term("rho_c", "mm", "minimum radius of the hollow flanks of the profile", "VDI 2142"),
-    "contact_place_max": Term("t_max", "mm", "maximum place of the contact along a flat face", "own derivation"),
-    "contact_place_min": Term("t_min", "mm", "minimum place of the contact along a flat face", "own derivation"),
+    "min_concave_radius": Term("rho_c", "mm", "minimum radius of the concave flanks of the profile", "VDI 2142"),
+    "contact_place_max": Term("t_max", "mm", "maximum position of the contact along a flat face", "own derivation"),
+    "contact_place_min": Term("t_min", "mm", "minimum position of the contact along a flat face", "own derivation"),
     "face_length": Term("t_max - t_min", "mm", "length of a flat face that the contact takes", "own derivation"),
     "spring_preload": Term("F_0", "N", "force of the spring at lift 0, given or the minimum (oscillating: N m)"),
     "lift_error_worst": Term("", "mm", "maximum sum of the lift's errors (oscillating: deg)", "own derivation"),
@@ -122,7 +122,9 @@ _GRIPPER = {
     "stop_force": Term("F_st", "N", "force of the spring on the stop in the near dwell"),
     "stop_force_max": Term("", "N", "maximum force on the stop in the impact of the return"),
     "stop_angle": Term("beta_s", "deg", "swing of the arm where it rests on the stop"),
-    "stop_tip_offset": Term("", "mm", "way of the gripper tip from the bite of the law to the rest on the stop"),
+    "stop_tip_offset": Term(
+        "", "mm", "way of the gripper tip from the pick-up position of the law to the rest on the stop"
+    ),
     "stop_impact_angle": Term("theta_s", "deg", "cylinder angle at which the return meets the stop"),
     "stop_impact_speed": Term("", "mm/s", "speed with which the arm meets the stop"),
     "take_off_angle": Term("theta_t", "deg", "cylinder angle at which the cam takes the arm off the stop"),
@@ -199,8 +201,8 @@ _SWING = {
     ),
     "shaft_distance": Term("O1O2", "mm", "distance of two parallel cam shafts", "dissertation figure 2"),
     "roller_arm_angle": Term("psi", "deg", "angle between the arms of the two rollers", "dissertation figure 2"),
-    "cam_gap": Term("", "mm", "room between the circles of two cams on parallel shafts", "own derivation"),
-    "cam_shaft_gap": Term("", "mm", "minimum room between a cam and the shaft of the other", "own derivation"),
+    "cam_gap": Term("", "mm", "clearance between the circles of two cams on parallel shafts", "own derivation"),
+    "cam_shaft_gap": Term("", "mm", "minimum clearance between a cam and the shaft of the other", "own derivation"),
     "dwell_force": Term("F_d", "N", "maximum force of a roller on its cam during the rests", "own derivation"),
     "sectors_external": Term(
         "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"
@@ -250,23 +252,23 @@ _MOBILITY = {
 }
 
 _MUTILATED = {
-    "reduction": Term("i_r", "1", "input turns per revolution of the mutilated wheel"),
-    "full_teeth": Term("Z_M", "1", "teeth for which the mutilated wheel has room"),
+    "reduction": Term("i_r", "1", "input revolutions per revolution of the mutilated wheel"),
+    "full_teeth": Term("Z_M", "1", "maximum number of teeth on the intermittent gear"),
     "group_teeth": Term("n", "1", "neighbouring teeth of the mutilated wheel between two gaps"),
     "driven_teeth": Term("Z_F", "1", "teeth of the driven gear"),
     "stops": Term("", "1", "locking arcs round the driven gear"),
-    "cycle_turns": Term("i_r/g", "1", "input turns per output cycle", "own derivation"),
+    "cycle_turns": Term("i_r/g", "1", "input revolutions per output cycle", "own derivation"),
     "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
-    "dwell_turns": Term("", "1", "input turns during which the driven gear stands", "own derivation"),
+    "dwell_turns": Term("", "1", "input revolutions during which the driven gear dwells", "own derivation"),
     "motion_share": Term("n g/Z_M", "1", "share of the cycle in motion", "own derivation"),
     "dwell_share": Term("1 - n g/Z_M", "1", "share of the cycle at rest", "own derivation"),
     "driven_turn": Term("n/Z_F", "1", "turns of the driven gear per group of teeth", "own derivation"),
     "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),
-    "cycles_to_repeat": Term("", "1", "cycles until the driven gear stands at the same place again"),
+    "cycles_to_repeat": Term("", "1", "cycles until the driven gear is at the same position again"),
     "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
     "rocker_swing": Term("", "deg", "angle between the limit positions of the rocker"),
     "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the hardest start"),
-    "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
+    "tip_fouling_margin": Term("", "mm", "clearance between the tips of planet and ring gear", "own derivation"),
 }
 
 _PLANET_LINKAGE = {
@@ -278,13 +280,13 @@ _PLANET_LINKAGE = {
     "speed_ratio_min_at": Term("", "deg", "crank angle of the minimum output speed"),
     "coupler_ratio_max": Term("(w2/w1)max", "1", "maximum coupler speed per crank speed", "thesis 2.2.1"),
     "coupler_ratio_min": Term("(w2/w1)min", "1", "minimum coupler speed per crank speed", "thesis 2.2.1"),
-    "standstill_coupler_ratio": Term("1 - 1/i", "1", "w2/w1 at which the output stands still", "thesis 2.2.1"),
+    "standstill_coupler_ratio": Term("1 - 1/i", "1", "w2/w1 at zero output velocity", "thesis 2.2.1"),
     "dwell_teeth_ratio": Term("(z5/z2)max", "1", "maximum z5/z2 with which these links stop the output"),
     "output_swing": Term("", "deg", "swing of the output between its own extremes", "own derivation"),
     "swing_multiple": Term("", "1", "output swing over rocker swing", "thesis figure 2-4"),
-    "naive_multiple": Term("1 + z2/z5", "1", "multiple 1 + z2/z5, the turning of the coupler left out"),
+    "naive_multiple": Term("1 + z2/z5", "1", "multiple 1 + z2/z5, without the rotation of the coupler"),
     "extreme_crank_angles": Term("", "deg", "crank angles at which the output reverses", "own derivation"),
-    "swing_residual": Term("", "deg", "swing reached less swing asked for"),
+    "swing_residual": Term("", "deg", "swing reached less required swing"),
 }
 
 _HYPOCYCLOID = {
@@ -296,9 +298,9 @@ _HYPOCYCLOID = {
     "tangent_circle_length": Term("", "mm", "rod of the circle through ends and middle of the dwell", "own derivation"),
     "osculating_length": Term("4 r (n-1)/(n-2)", "mm", "rod of the circle of curvature in mid-dwell"),
     "dwell_carrier_angle": Term("", "deg", "required carrier angle of the dwell"),
-    "dwell_ripple": Term("", "mm", "range of the slider's place in the dwell", "own derivation"),
-    "dwell_deviation_min": Term("", "mm", "minimum deviation from the place in mid-dwell, inwards positive"),
-    "dwell_deviation_max": Term("", "mm", "maximum deviation from the place in mid-dwell, inwards positive"),
+    "dwell_ripple": Term("", "mm", "range of the slider's position in the dwell", "own derivation"),
+    "dwell_deviation_min": Term("", "mm", "minimum deviation from the position in mid-dwell, inwards positive"),
+    "dwell_deviation_max": Term("", "mm", "maximum deviation from the position in mid-dwell, inwards positive"),
     "tolerance_carrier_angle": Term("", "deg", "widest carrier angle with the slider within +- the tolerance"),
     "stroke": Term("S", "mm", "stroke of the slider"),
     "ripple_share": Term("", "1", "ripple over stroke"),
@@ -329,7 +331,7 @@ _FIVE_BAR = {
     "phase_step": Term("360/z4", "deg", "step in which the phase can be set a tooth on"),
     "path_deviation_rms": Term("", "mm", "root mean square of the distances of the table deviations"),
     "path_deviation_max": Term("", "mm", "maximum distance of the table deviations"),
-    "position_errors": Term("", "deg", "output angle reached less the one asked for, at each position"),
+    "position_errors": Term("", "deg", "output angle reached less required output angle, at each position"),
 }
 
 _STUDY = {
@@ -379,7 +381,7 @@ _LOADS = {
     "reflected_inertia_mean": Term("J_m", "kg m^2", "mean over the input angle of the reflected inertia"),
     "torque_reversals": Term("", "1", "changes of sign of the input torque over the period"),
     "energy_fluctuation": Term(
-        "dW", "J", "maximum less minimum surplus of a constant drive torque over the load, masses left out"
+        "dW", "J", "maximum less minimum surplus of a constant drive torque over the load, without masses"
     ),
     "flywheel_inertia": Term("J_F", "kg m^2", "flywheel at the input for the allowed fluctuation of its speed"),
     "speed_min": Term("n_min", "1/min", "minimum speed of the input with its flywheel or motor"),

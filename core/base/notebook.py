@@ -1,4 +1,4 @@
-"""Reports and tables as HTML, which notebooks show in place of text."""
+"""Reports and tables as HTML, which notebooks show instead of text."""
 
 from __future__ import annotations
 

@@ -111,8 +111,8 @@ def other_speed(given: float | None, found: float) -> str:
 
     Example
         >>> other_speed(200.0, 200.0), other_speed(None, 200.0), other_speed(180.0, 200.0)
-        ('', '', 'input_speed is 180 rev/min, but speed: {min, max} asks for 200 rev/min: leave it out')
+        ('', '', 'input_speed is 180 rev/min, but speed: {min, max} requires 200 rev/min: omit it')
     """
     if given is None or abs(given - found) <= 1e-9 * abs(found):
         return ""
-    return f"input_speed is {given:.9g} rev/min, but speed: {{min, max}} asks for {found:.9g} rev/min: leave it out"
+    return f"input_speed is {given:.9g} rev/min, but speed: {{min, max}} requires {found:.9g} rev/min: omit it"

@@ -73,7 +73,7 @@ class Check:
         at : str - where in the cycle, with its unit
         advice : str - what would repair it in general; shown as the fix where none was found by trial
         note : what is to be known besides, such as warnings that a remedy leaves
-        shown : what the message compares in place of value and limit
+        shown : what the message compares instead of value and limit
         aside : str - what stands behind the limit in its parentheses
         relaxes : bool - the remedy asks less of the machine
     """
@@ -201,7 +201,7 @@ class Rule(NamedTuple):
             at : str - where in the cycle: "input angle 40 deg"
             fix : str - one change that would repair it in general, in the imperative; of no use where it passes
             note : str - what is to be known besides
-            shown : what the message compares in place of value and limit
+            shown : what the message compares instead of value and limit
             aside : str - what stands beside the limit
             recommended : float - the limit at which it warns, where that is not the one at which it fails
             overlap : str - what a value below 0 is called, which is shown without its sign
@@ -213,7 +213,7 @@ class Rule(NamedTuple):
             'transmission angle: 21.34 deg (limit >= 40 deg) at input angle 40 deg'
         """
         if status == "pass" and value is not None and math.isnan(value):
-            raise ArithmeticError(f"{self.code} {name or self.name} judges what is not a number")
+            raise ArithmeticError(f"{self.code} {name or self.name} evaluates what is not a number")
         side = self.side if side is None else side
         if shown is None and overlap and value is not None and value < 0.0:
             what, shown = overlap, Shown(-value, max(0.0, -(limit or 0.0)), unit, "<=")

@@ -24,7 +24,7 @@ STANDARD_TERMS: set[str] = set()
 
 
 def also(*names: str) -> dict[str, Any]:
-    """For `json_schema_extra` of a key: the standard terms that files may write in place of its name."""
+    """For `json_schema_extra` of a key: the standard terms that files may write instead of its name."""
     STANDARD_TERMS.update(names)
     return {"also": list(names)}
 
@@ -131,7 +131,7 @@ class Scatter(Spec):
     """The keys of sizes that scatter."""
 
     tolerance: Annotated[Any, Deferred("studies.tolerance.spec:Tolerance")] | None = Field(
-        None, description="how sizes scatter, for the commands tolerance and register"
+        None, description="tolerances of dimensions, for the commands tolerance and register"
     )
     register_: Annotated[Any, Deferred("studies.tolerance.spec:Register")] | None = Field(
         None, alias="register", description="what the output may lose by the errors of the parts, for register"
@@ -164,10 +164,10 @@ class LoadLimits(Spec):
 class GearLimits(Spec):
     """Limits of the gear checks."""
 
-    undercut: Share = Field(0.05, description="how far the profile shift may lie below x_min")
+    undercut: Share = Field(0.05, description="permitted amount of the profile shift below x_min")
     tip_thickness: Share = Field(0.25, description="minimum tip thickness over the module")
     contact_ratio: Ratio = Field(1.1, description="minimum transverse contact ratio")
-    sliding: Ratio | None = Field(None, description="maximum specific sliding; left out: only above 8 is reported")
+    sliding: Ratio | None = Field(None, description="maximum specific sliding; default: only above 8 is reported")
 
 
 class DrawingLimits(Spec):

@@ -10,7 +10,7 @@ GENEVA = {
     "slot_bottom_radius": Term("", "mm", "wheel axis to the bottoms of the slots"),
     "lip_thickness": Term("", "mm", "metal between locking arc and slot", "own derivation: r - r_pin - locking_radius"),
     "motion_angle": Term("2 f_0", "deg", "input angle of a step", "own derivation: 180 deg - s 360 deg/n"),
-    "locking_angle": Term("", "deg", "input angle between two steps, in which the wheel stands"),
+    "locking_angle": Term("", "deg", "input angle between two steps, in which the wheel dwells"),
     "entry_acceleration_ratio": Term("tan(pi/n)", "1", "jump of the acceleration ratio at entry and exit"),
     "steps_per_minute": Term("", "1/min", "steps of the wheel in a minute: input speed times pins", "thesis 4.2.1"),
     "contact_force_max_at": Term("", "deg", "input angle of the maximum contact force"),
@@ -48,7 +48,7 @@ GUIDANCE = {
     "pose_error_rms": Term("", "mm", "root of the mean square of these distances"),
     "pose_angle_error_max": Term("", "deg", "maximum angle by which the guided body misses a pose"),
     "body_angle": Term("", "deg", "direction of the coupler BC less the body's angle"),
-    "frame_place": Term("", "mm", "place of A in the coordinates of the poses, where the frame is free"),
+    "frame_place": Term("", "mm", "position of A in the coordinates of the poses, where the frame is free"),
     "frame_direction": Term("", "deg", "direction from A to E there"),
 }
 PRESS_TEETH = {

@@ -152,7 +152,7 @@ def _inverse(matrix: Reals) -> Reals:
     try:
         return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
     except np.linalg.LinAlgError:
-        raise NoSolution("the errors have no end: two links of the mechanism stand in line") from None
+        raise NoSolution("the errors have no end: two links of the mechanism are collinear") from None
 
 
 def _upright(part: Any, done: dict[int, Reals]) -> Any:

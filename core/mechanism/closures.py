@@ -69,7 +69,7 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
         rod : float [mm] - L, the slider lies from the pin in the sense of u
         place, along : complex [mm, 1] - Q and the unit vector u of the line Q + x u
     Returns
-        psi, F : Turn, Point - direction of the rod from the pin, and the slider's place
+        psi, F : Turn, Point - direction of the rod from the pin, and the slider's position
     Raises
         NoSolution - where the rod does not reach the line
     """

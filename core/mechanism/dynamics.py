@@ -300,7 +300,7 @@ class System:
             for block in blocks(tuple(tuple(entries) for entries in self.entries)):
                 self._solve_block(block, left, found)
         except np.linalg.LinAlgError:
-            raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None
+            raise NoSolution("the joint forces are not finite: two links of the mechanism are collinear") from None
         return found
 
     def _solve_block(self, block: Block, left: Left, found: Reals) -> None:

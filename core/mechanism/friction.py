@@ -44,7 +44,7 @@ class Coefficients:
     Fields
         pins, guides : float - coefficients; meshes : float - efficiency
         pin_radius : float [mm]
-        joints : by name, in place of these
+        joints : by name, instead of these
     """
 
     pins: float
@@ -231,7 +231,7 @@ def _with_separation(solved: Reals, places: Sequence[tuple[int, int]], at: int) 
 
 
 def _exchange(solved: Reals, new: int, place: int, pulled: Mask) -> None:
-    """Put another column in the place of one, at the rows where its roller carries."""
+    """Put another column instead of one, at the rows where its roller carries."""
     if pulled.any():
         y = solved[new]
         for k in range(new):

@@ -271,7 +271,7 @@ class SharedContact:
     Fields
         shares : by cam - (N,) array, 1 where it guides the roller, else 0
         curvature : (N,) array [1/mm] - of the pitch curve there, convex positive
-        hold : (N,) array [N mm] - couple of a lock in place of the force, where no cam guides the roller
+        hold : (N,) array [N mm] - couple of a lock instead of the force, where no cam guides the roller
     """
 
     name: str

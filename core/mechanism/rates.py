@@ -71,7 +71,7 @@ class Rates(tuple[A, ...]):
             AssertionError - where it was not asked for
         """
         if order >= len(self):
-            raise AssertionError(f"the {_NAMES[order]} derivative was not asked for")
+            raise AssertionError(f"the {_NAMES[order]} derivative was not requested")
         return self[order]
 
 

@@ -36,7 +36,7 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
 def product(one: Points | complex, other: Points) -> Points:
     """one other, complex, whose bits do not depend on how many there are.
 
-    Where `other` is a temporary array of 256 KiB or more, numpy computes one * other in its place as other * one,
+    Where `other` is a temporary array of 256 KiB or more, numpy computes one * other instead as other * one,
     whose imaginary part is rounded otherwise.
     """
     found: Points = np.multiply(one, other)

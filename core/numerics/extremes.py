@@ -385,7 +385,7 @@ def _promising(v: Reals, tops: Reals, grid: _Grid) -> tuple[NDArray[np.intp], ND
 def _enlarged(
     of: NDArray[np.intp], left: Reals, right: Reals, best: list[Extreme], finest: float, nothing: Reals
 ) -> Generator[_Asked, Reals, None]:
-    """Put the largest values within any of the brackets in place of `best` of their searches, where they are larger.
+    """Put the largest values within any of the brackets instead of `best` of their searches, where they are larger.
 
     Parameters
         of : the search of each bracket, ascending

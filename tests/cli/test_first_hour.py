@@ -115,7 +115,7 @@ def test_a_name_beside_the_right_one_is_recognised(
         assert (empty.status, "the name is empty" in empty.err) == (2, True)
     wrong = gearlink("gear", "press_pair.yaml").err
     assert wrong.startswith("press_pair.yaml:1:1: error GL106: the key 'kind' is missing")
-    assert "write kind in place of 'Kind'" in wrong
+    assert "write kind instead of 'Kind'" in wrong
 
 
 def test_help_names_every_exit_status(gearlink: Any) -> None:

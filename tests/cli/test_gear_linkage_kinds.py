@@ -291,4 +291,4 @@ def test_five_bar_figure_shows_the_table():
     table = made.table("path")
     x = list(table.data[table.columns.index("x")])
     assert list(lines["path of M"].get_xdata()) == [*x, x[0]]
-    assert list(lines["points asked for"].get_xdata()) == [x for x, _ in made.spec.target.points]
+    assert list(lines["required points"].get_xdata()) == [x for x, _ in made.spec.target.points]

@@ -145,5 +145,5 @@ def test_a_file_that_takes_the_place_of_another_design_is_told(gearlink: Any, bo
     for file, told in (("a.yaml", False), ("a.yaml", False), ("b.yaml", True), ("b.yaml", False)):
         ended = gearlink(command, file, *rest)
         assert ended.status == 0
-        assert (", in place of an earlier one that differs" in ended.out + ended.err) == told, file
+        assert (", instead of an earlier one that differs" in ended.out + ended.err) == told, file
     assert "in place" not in gearlink(command, "a.yaml", *rest, "--quiet").err

@@ -15,7 +15,7 @@ from gearlink.cli import program
 
 @pytest.fixture
 def source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Code of our own in place of the program's."""
+    """Code of our own instead of the program's."""
     (tmp_path / "core" / "gears").mkdir(parents=True)
     (tmp_path / "cli").mkdir()
     (tmp_path / "core" / "gears" / "mesh.py").write_text("LIMIT = 1.1\n")

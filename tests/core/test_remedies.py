@@ -64,7 +64,7 @@ def failing(data: Data, command: str) -> Failing | None:
 def no_worse(now: Failing, before: Failing) -> bool:
     """Nothing fails that did not; where a check has more or fewer findings than before, no more of them fail.
 
-    Findings come and go with what they judge: a root that no tool leaves has a warning in place of its stress.
+    Findings come and go with what they judge: a root that no tool leaves has a warning instead of its stress.
     """
     pairs = ((now[name], before.get(name, [])) for name in now)  # cams that there were not yet have checks of their own
     return all(
@@ -273,7 +273,7 @@ def test_no_remedy_that_the_reader_of_files_refuses() -> None:
 
 
 def test_a_gripper_names_no_base_circle() -> None:
-    """Its file has no such key: the cam's centre stands farther from the roller in place of it."""
+    """Its file has no such key: the cam's centre stands farther from the roller instead of it."""
     spec = spec_of("swing_gripper", cam__roller__angle=15.38)
     made = KINDS["swing-gripper"].design("gripper", spec)
     (check,) = (found for found in made.check("pressure-angle") if found.status == "fail")

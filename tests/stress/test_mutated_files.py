@@ -91,7 +91,7 @@ def verdict(arguments: list[str]) -> str:
     text = talk.getvalue()
     if status not in (0, 1, 2) or "Traceback" in text or "Warning" in text:
         return f"status {status}: {text.strip()[:300]}"
-    designs = "--show" in arguments or ("--save", "-") in pairwise(arguments)  # as YAML, in place of results
+    designs = "--show" in arguments or ("--save", "-") in pairwise(arguments)  # as YAML, instead of results
     return unreadable(shown.getvalue(), "json" in arguments and not designs)
 
 

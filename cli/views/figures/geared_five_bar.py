@@ -65,7 +65,7 @@ def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     target = design.spec.target
     if target is not None and target.points is not None:
         look: Any = {"color": style.RED, "markersize": 7, "zorder": 6}
-        axes.plot(*zip(*target.points, strict=True), "x", **look, label="points asked for")
+        axes.plot(*zip(*target.points, strict=True), "x", **look, label="required points")
 
 
 def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
@@ -122,13 +122,13 @@ def _function(axes: Axes, design: GearedFiveBar) -> None:
         inside = min(range(len(output)), key=lambda i: abs(data["input_angle"][i] - asked[0][0]))
         turns = 360.0 * round((output[inside] - asked[0][1]) / 360.0)
         output = [value - turns for value in output]
-        axes.plot(*zip(*asked, strict=True), "x", color=style.RED, markersize=7, label="asked for", zorder=5)
+        axes.plot(*zip(*asked, strict=True), "x", color=style.RED, markersize=7, label="required", zorder=5)
     if design.wanted is not None:
         table = linkage.columns(design, "structural_error")
         turns = 360.0 * round((output[0] - table["wanted_angle"][0]) / 360.0)
         output = [value - turns for value in output]
         look: Any = {"color": style.RED, "markersize": 4, "markevery": 5, "zorder": 5}
-        axes.plot(table["input_angle"], table["wanted_angle"], "x", **look, label="asked for")
+        axes.plot(table["input_angle"], table["wanted_angle"], "x", **look, label="required")
     axes.plot(data["input_angle"], output, color=style.BLUE, linewidth=1.6, label="output")
     panels.legend_above(axes, 2)
 
@@ -158,7 +158,7 @@ def _span(axes: Axes, design: GearedFiveBar) -> None:
     angles = [ends[0] + (ends[1] - ends[0]) * i / 720.0 for i in range(721)]
     spans = [math.sqrt(max(square.value(x), 0.0)) for x in angles]
     axes.plot([math.degrees(x) for x in angles], spans, color=style.BLUE, linewidth=1.6)
-    for limit, words in ((sum(links), "limits: links in line"), (abs(links[0] - links[1]), None)):
+    for limit, words in ((sum(links), "limits: collinear links"), (abs(links[0] - links[1]), None)):
         axes.axhline(limit, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
     axes.set_ylim(bottom=0.0)
     if path:

@@ -21,7 +21,7 @@ _WORDS = {
     "output_length": "output EF",
     "frame_length": "frame AF",
     "period_turns": "input turns until all repeats",
-    "mean_ratio": "net output turns per input turn",
+    "mean_ratio": "net output revolutions per input revolution",
     "output_swing": "swing of the output",
     "min_transmission_angle": "minimum transmission angle",
 }

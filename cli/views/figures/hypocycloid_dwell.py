@@ -21,7 +21,7 @@ _WORDS = {
     "rod_length": "rod MF",
     "stroke": "stroke of the slider",
     "dwell_ripple": "range of the slider in the dwell",
-    "dwell_carrier_angle": "dwell wanted",
+    "dwell_carrier_angle": "required dwell",
     "tolerance_carrier_angle": "widest dwell within the tolerance",
     "min_transmission_angle": "minimum transmission angle",
 }
@@ -70,7 +70,7 @@ def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], lis
 
 def _turn(axes: Axes, design: HypocycloidDwell) -> None:
     linkage.chart(axes, "Slider over a revolution", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
-    _mark(axes, design, "dwell wanted")
+    _mark(axes, design, "required dwell")
     axes.plot(*_deviations(design, 180.0), color=style.BLUE, linewidth=1.6)
     panels.legend_above(axes, 1)
     axes.set_xlim(-180.0, 180.0)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WORDS = {
-    "cycle_turns": "input turns per cycle",
+    "cycle_turns": "input revolutions per cycle",
     "motion_turns": "input turns in motion",
     "dwell_turns": "input turns in the dwell",
     "driven_speed_ratio": "driven speed/input speed",

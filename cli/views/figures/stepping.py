@@ -96,7 +96,7 @@ def linked_cams(command: str, design: LinkedCams) -> Figure:
     scene_axes.draw(drawing, scenes.linked_cams(design, np.array([1.0 / 12.0])))
     degrees = np.linspace(0.0, 360.0, 721)
     axes = made.add_subplot(grid[1])
-    panels.turn_panel(axes, "place [mm]")
+    panels.turn_panel(axes, "position [mm]")
     panels.heading(axes, "Coordinates of the path")
     for axis, (name, color) in enumerate((("x", style.BLUE), ("y", style.ORANGE))):
         values = design.coordinate(axis, np.radians(degrees), 0)[0]

@@ -88,7 +88,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     from gearlink.core.machines.three_gear.motion import output_angle
 
     dwell = _dwell(design)
-    assert dwell is not None, "drawn only where the output stands still"
+    assert dwell is not None, "drawn only where the output has zero velocity"
     width = dwell.width or 60.0
     low = dwell.start - (0.25 * width if dwell.width else 0.5 * width)
     high = dwell.start + (1.25 * width if dwell.width else 0.5 * width)
@@ -222,7 +222,7 @@ _LINKS = {
     "frame_length": "frame AD",
     "gear_gap": "gap of gears 1 and 5",
     "min_transmission_angle": "minimum transmission angle",
-    "mean_ratio": "output turns per crank turn",
+    "mean_ratio": "output revolutions per crank revolution",
 }
 _STEADY = {"speed_ratio_max": "maximum speed ratio", "speed_ratio_min": "minimum speed ratio"}
 _BACK_STEP = {

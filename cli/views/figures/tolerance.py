@@ -32,7 +32,7 @@ def draw(study: ToleranceStudy) -> Figure:
     if not names:
         axes = made.add_subplot(grid[0, :])
         axes.axis("off")
-        axes.text(0.5, 0.5, "nothing scatters", ha="center", va="center")
+        axes.text(0.5, 0.5, "nothing varies", ha="center", va="center")
     for i, course in enumerate(courses, start=max(1, len(names))):
         _course(made.add_subplot(grid[i, :]), course)
     return made
@@ -127,7 +127,7 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     panels.heading(axes, "Contributions")
     if any(share is None for _, share, _ in shares):
         axes.axis("off")
-        words = "the quantity has a kink here:\nno linear shares; ask for --sobol"
+        words = "the quantity has a kink here:\nno linear shares; use --sobol"
         axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=8, transform=axes.transAxes)
         return
     shares.sort(key=lambda row: row[1])

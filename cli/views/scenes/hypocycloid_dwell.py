@@ -88,7 +88,7 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
             360.0 * loop(361),
             np.degrees(t),
             (Curve("slider", BLUE, course, inwards),),
-            bands([("dwell wanted", -half, half, DWELL)]),
+            bands([("required dwell", -half, half, DWELL)]),
         ),
         readouts=(Readout("carrier", "°", np.degrees(t)), Readout("slider", " mm", inwards)),
     )

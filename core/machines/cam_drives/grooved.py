@@ -224,7 +224,7 @@ class CamGear(Grooved):
         if over >= low.value - _IN_LINE:
             raise NoSolution(
                 (
-                    "the lever comes in line with its carrier: its angle runs from "
+                    "the lever becomes collinear with its carrier: its angle runs from "
                     f"{math.degrees(low.value):.6g} to {math.degrees(top.value):.6g} deg, over "
                     f"{math.degrees(over):.6g} deg"
                 ),

@@ -12,7 +12,7 @@ from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec, 
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.spec import Body, Loads
 
-_NOTHING = "masses; what is left out has none"
+_NOTHING = "masses; a part without an entry has no mass"
 
 
 class CamGearMasses(Spec):
@@ -69,7 +69,7 @@ class _OfCams(LoadsDesign):
 
     @property
     def transmission_angle(self) -> float | None:
-        """None: the pressure angle stands in its place."""
+        """None: the pressure angle stands instead."""
         return None
 
 

@@ -40,7 +40,9 @@ class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):
 
 
 Roller = Annotated[Length, Field(description="radius of the roller in the groove")]
-Output = Annotated[OutputLaw, Field(description="output over a turn of the input: segments with laws, or a table")]
+Output = Annotated[
+    OutputLaw, Field(description="output over a revolution of the input: segments with laws, or a table")
+]
 
 
 class SunAndPlanet(PairKeys):
@@ -127,14 +129,15 @@ class LinkedPath(Spec):
 
     harmonics: Harmonics | None = Field(None, description="both coordinates by harmonics of the input angle")
     points: Annotated[list[PathPoint], Field(min_length=5, max_length=2000)] | None = Field(
-        None, description="input angle and place, ascending from 0 to 360, closed; a quintic spline goes through them"
+        None,
+        description="input angle and position, ascending from 0 to 360, closed; a quintic spline goes through them",
     )
 
     @model_validator(mode="after")
     def _one(self) -> LinkedPath:
         if (self.harmonics is None) == (self.points is None):
             if self.points is None:
-                raise PydanticCustomError("GL106", "give harmonics, or points in their place", {"key": "harmonics"})
+                raise PydanticCustomError("GL106", "give harmonics, or points instead", {"key": "harmonics"})
             raise PydanticCustomError("GL111", "harmonics and points exclude each other: give one", {"key": "points"})
         rows = self.points or [[0.0, 0.0, 0.0], [360.0, 0.0, 0.0]]
         ascending = all(before[0] < after[0] for before, after in pairwise(rows))

@@ -10,7 +10,7 @@ FULL_TURN = Rule(
     "The linkage that was found for three pairs of angles goes through them, but its crank cannot make a full "
     "revolution.",
     "A drive that turns on stops or breaks the linkage; one that swings within the range is enough for the pairs.",
-    "Drive the crank to and fro within `range`, or ask for other pairs: a smaller swing of the rocker, or another "
+    "Drive the crank to and fro within `range`, or specify other pairs: a smaller swing of the rocker, or another "
     "crank angle at one of them.",
     "shortest + longest link below the sum of the other two, crank or frame the shortest",
     "F. Grashof's rule",

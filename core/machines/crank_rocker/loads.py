@@ -37,7 +37,7 @@ class CrankRockerLoads(LoadsDesign):
         if found.crank_range is not None:
             key = "range" if self.spec.range is not None else "function.pairs"
             message = "loads are those of whole revolutions at even speed"
-            raise NoSolution(message, key=key, fix="leave range out, with links whose crank turns")
+            raise NoSolution(message, key=key, fix="omit range, with links whose crank turns")
         return found
 
     @property

@@ -20,6 +20,6 @@ class CrankRockerLoads(Loads):
     """Masses, forces and drive of a crank-rocker."""
 
     links: CrankRockerMasses = Field(
-        CrankRockerMasses.model_construct(), description="masses of the links; what is left out has none"
+        CrankRockerMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
     balance: Balance | None = None

@@ -61,7 +61,7 @@ class Swing(Spec):
         if len(self.given) > 1 and self.given != ("crank", "frame"):
             message = "one length gives the design with the best transmission angle, crank and frame give another: "
             key = next(name for name in self.given if name in ("coupler", "rocker"))
-            raise PydanticCustomError("GL111", message + "leave {key} out", {"key": key})
+            raise PydanticCustomError("GL111", message + "omit {key}", {"key": key})
         return self
 
 
@@ -84,13 +84,13 @@ class CrankRockerSpec(DrivenSpec):
     links: FourLinks | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     range: Annotated[list[TurnAngle], Field(min_length=2, max_length=2), Entries("[from, to]", "[60, 120]")] | None = (
-        Field(None, description="crank angles between which it moves; left out: whole revolutions")
+        Field(None, description="crank angles between which it moves; default: whole revolutions")
     )
     coupler_point: (
         Annotated[list[SignedLength], Field(min_length=2, max_length=2), Entries("[x, y]", "[55, 40]")] | None
     ) = Field(None, description="point of the coupler whose path is required, from B along BC and to the left of it")
-    swing: Swing | None = Field(None, description="asked of `synth swing`")
-    function: Function | None = Field(None, description="asked of `synth function`")
+    swing: Swing | None = Field(None, description="requirements of `synth swing`")
+    function: Function | None = Field(None, description="requirements of `synth function`")
     limits: RockerLimits = RockerLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.crank_rocker.loads_spec:CrankRockerLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

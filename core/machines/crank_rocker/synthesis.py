@@ -171,7 +171,7 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
         frame : float - d [mm]
     Raises
         NoSolution - where the equations are singular, the coupler is not real, the pairs lie on different assemblies,
-            or coupler and rocker are in line at one of them, so that it belongs to none
+            or coupler and rocker are collinear at one of them, so that it belongs to none
     Example
         >>> pairs = [[math.radians(angle) for angle in pair] for pair in ((40, 50), (90, 80), (160, 110))]
         >>> found = through_pairs(pairs, 100.0)
@@ -195,7 +195,7 @@ def through_pairs(pairs: Sequence[Sequence[float]], frame: float) -> ThroughPair
         across = ((joint - pin).conjugate() * (joint - frame)).imag / (b * abs(c))
         if abs(across) < _IN_LINE:
             raise NoSolution(
-                f"coupler and rocker are in line at pair {number}, which then is a dead centre", fix="move it"
+                f"coupler and rocker are collinear at pair {number}, which then is a dead centre", fix="move it"
             )
         sides.add(across > 0.0)
     if len(sides) > 1:
@@ -246,7 +246,7 @@ _OF_PAIRS = Outline(
 
 
 class _Synthesis(CrankRocker):
-    """Links that are found: they complete the file in place of the task."""
+    """Links that are found: they complete the file instead of the task."""
 
     section = ""
 
@@ -288,7 +288,7 @@ class SwingSynthesis(_Synthesis):
     ways = {
         "transmission-angle": (*either("swing.crank"), down("swing.quick_return_ratio"), down("swing.angle")),
     }
-    remedy = "ask for a smaller swing, a quick_return_ratio nearer to 1, or the other slow_stroke"
+    remedy = "specify a smaller swing, a quick_return_ratio nearer to 1, or the other slow_stroke"
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -341,7 +341,7 @@ class FunctionSynthesis(_Synthesis):
     )
     outlines = {"synth function": _OF_PAIRS, "analyze": _OF_PAIRS}
     ways = {}
-    remedy = "ask for a smaller swing of the rocker, or move a pair"
+    remedy = "specify a smaller swing of the rocker, or move a pair"
 
     @cached_property
     def found(self) -> ThroughPairs:

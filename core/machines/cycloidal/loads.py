@@ -25,7 +25,9 @@ class ReducerMasses(Spec):
 class ReducerSection(Loads):
     """Masses, forces and drive of a cycloidal reducer."""
 
-    links: ReducerMasses = Field(ReducerMasses.model_construct(), description="masses; what is left out has none")
+    links: ReducerMasses = Field(
+        ReducerMasses.model_construct(), description="masses; a part without an entry has no mass"
+    )
 
 
 class ReducerLoads(LoadsDesign):
@@ -50,7 +52,7 @@ class ReducerLoads(LoadsDesign):
 
     @property
     def transmission_angle(self) -> float | None:
-        """None: the pressure angles of the pins stand in its place."""
+        """None: the pressure angles of the pins stand instead."""
         return None
 
     @property

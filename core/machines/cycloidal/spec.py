@@ -18,7 +18,7 @@ class OutputPins(Spec):
     """Pins of the output in holes of the discs."""
 
     count: Count = Field(description="how many")
-    circle_radius: Length = Field(description="radius of the circle on which they stand")
+    circle_radius: Length = Field(description="radius of the circle of their centres")
     radius: Length = Field(description="radius of each pin; the holes are larger by the eccentricity")
 
 
@@ -60,7 +60,7 @@ class CycloidalReducerSpec(DrivenSpec):
     pins: Annotated[int, Field(ge=4, le=1000, json_schema_extra={"unit": "1"})] = Field(
         description="pins of the ring; the disc has one lobe less"
     )
-    pin_circle_radius: Length = Field(description="radius of the circle on which the ring pins stand")
+    pin_circle_radius: Length = Field(description="radius of the circle of the centres of the ring pins")
     pin_radius: Length = Field(description="radius of a ring pin")
     eccentricity: Length = Field(description="eccentricity of the discs")
     discs: Annotated[int, Field(ge=1, le=3, json_schema_extra={"unit": "1"})] = Field(

@@ -85,7 +85,7 @@ class FollowerCams:
     def _least_radius(self) -> float:
         """Curvature radius that a size keeps [mm]."""
         size = self.spec.cam.size
-        assert size is not None, "asked for with a size alone"
+        assert size is not None, "needed with a size alone"
         if size.curvature_radius is not None:
             return size.curvature_radius
         return float(self.follower.roller_radius) / ROLLER_SHARE
@@ -124,7 +124,7 @@ class FollowerCams:
         height = least_cam.height_at(lines, offset)
         height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius, offset, self.sense))
         if height + self.lifts[0] <= 0.0:
-            message = "these limits ask for no cam at all, the motion being so slow"
+            message = "these limits require no cam, the motion being so slow"
             raise NoSolution(message, key="cam.size", fix="give cam.prime_radius")
         return Place(math.hypot(offset, height), offset)
 
@@ -154,7 +154,7 @@ class FollowerCams:
         return Place(radius, 0.0, distance, math.acos(share))
 
     def _room(self, start: float, distance: float | None) -> float:
-        """Minimum convex curvature radius less what is asked for [mm], of a start angle."""
+        """Minimum convex curvature radius less the required angle for [mm], of a start angle."""
         assert distance is not None
         cam = DiscCam(
             "main cam", self._rocking_path(Place(0.0, 0.0, distance, start)), self.sense, 0.0, self.motion.joints
@@ -197,7 +197,7 @@ class FollowerCams:
             return Place(offset + distance * math.sin(start), 0.0, distance, start)
         share = (given - offset) / distance
         if not 0.0 < share < 1.0:
-            message = f"base_radius {given:g} mm stands between {offset:g} and {offset + distance:g} mm here"
+            message = f"base_radius {given:g} mm is between {offset:g} and {offset + distance:g} mm here"
             raise NoSolution(message, key="cam.base_radius")
         return Place(given, 0.0, distance, math.asin(share))
 

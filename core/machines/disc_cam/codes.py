@@ -19,7 +19,8 @@ FACE_LENGTH = Rule(
 OUTER_WALL = Rule(
     "GL409",
     "roller undercuts the outer wall of the groove",
-    "The roller is as large as the minimum hollow radius of the pitch curve: the outer wall of the groove is cut away.",
+    "The roller is as large as the minimum concave radius of the pitch curve: the outer wall of the groove is "
+    "cut away.",
     "The roller has no guidance there, and strikes.",
     "Take a smaller roller, or enlarge the cam.",
     "r_g < 1/max(-kappa), kappa of the pitch curve",
@@ -30,9 +31,9 @@ OUTER_WALL = Rule(
 )
 CUTTER_RADIUS = Rule(
     "GL410",
-    "cutter too large for a hollow flank",
-    "The cutter (cam.cutter_radius) is as large as the minimum hollow radius of the profile.",
-    "It cannot reach into the hollow: it leaves material, and the follower is lifted there.",
+    "cutter too large for a concave flank",
+    "The cutter (cam.cutter_radius) is as large as the minimum concave radius of the profile.",
+    "It cannot reach into the concave part: it leaves material, and the follower is lifted there.",
     "Take a smaller cutter or grinding wheel, or enlarge the cam.",
     "r_c < 1/max(-kappa) + r_g, kappa of the pitch curve",
     "VDI 2142",

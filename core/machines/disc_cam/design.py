@@ -317,7 +317,7 @@ class DiscCamDesign(OfFollower, Design):
         return self.making.errors_table(samples)
 
     def table_servo(self, _samples: int | None = None) -> Table:
-        """The table of a drive in place of the cam."""
+        """The table of a drive instead of the cam."""
         self.require_table("servo")
         return self.making.servo_table()
 

@@ -132,7 +132,7 @@ class DiscCamLoads(CamLoadsDesign):
 
     @property
     def transmission_angle(self) -> float | None:
-        """None: the pressure angle of the cam stands in its place."""
+        """None: the pressure angle of the cam stands instead."""
         return None
 
     # Rollers, and the flat face

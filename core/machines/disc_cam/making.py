@@ -1,4 +1,4 @@
-"""How a disc cam is made: cutter path, radii, what errors of the profile do; and the table of a drive in its place."""
+"""How a disc cam is made: cutter path, radii, what errors of the profile do; and the table of a drive instead."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Making:
     def cutter_points(self, phi: Reals) -> Points:
         """Centre of the cutter [mm], in the cam's frame: C + r_c n, n outward."""
         radius = self.spec.cam.cutter_radius
-        assert radius is not None, "asked for with a cutter alone"
+        assert radius is not None, "needed with a cutter alone"
         if self.spec.is_flat:
             point, normal = self.cams.flat.points(phi)
             return point + radius * normal
@@ -101,7 +101,7 @@ class Making:
     def parts(self, phi: Reals) -> dict[str, Reals]:
         """Errors of the lift by their sources [mm, or rad]."""
         given = self.spec.errors
-        assert given is not None, "asked for with errors alone"
+        assert given is not None, "needed with errors alone"
         share = np.abs(self._per_normal(phi))
         roller = 0.0 if self.spec.is_flat else given.roller_radius
         return {
@@ -171,7 +171,7 @@ class Making:
     def servo_table(self) -> Table:
         """Positions and derivatives per degree at equal steps of the cam angle."""
         rows = self.servo_rows
-        assert rows is not None, "asked for with the section alone"
+        assert rows is not None, "needed with the section alone"
         return servo_table(self.cams.motion, rows, rocks=self.spec.oscillates)
 
 

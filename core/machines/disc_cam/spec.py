@@ -56,7 +56,7 @@ class TranslatingRoller(Translating):
     type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
     roller_radius: Length = Field(description="radius of the roller")
     offset: SignedLength | Literal["best"] = Field(
-        0.0, description="how far the line of travel passes the cam axis on its right; best: of the smallest cam"
+        0.0, description="distance of the line of travel from the cam axis on its right; best: of the smallest cam"
     )
 
 
@@ -74,7 +74,7 @@ class OscillatingRoller(Oscillating):
     roller_radius: Length = Field(description="radius of the roller")
     arm: Length = Field(description="pivot to roller centre")
     center_distance: Length | None = Field(
-        None, description="cam axis to pivot; left out with cam.size: that of the smallest cam"
+        None, description="cam axis to pivot; default with cam.size: that of the smallest cam"
     )
 
 
@@ -96,7 +96,7 @@ class Size(Spec):
     """What the smallest cam keeps."""
 
     pressure_angle: SteepAngle | Strokes | None = Field(
-        None, description="maximum pressure angle, or [rise, return]; left out: limits.pressure_angle"
+        None, description="maximum pressure angle, or [rise, return]; default: limits.pressure_angle"
     )
     curvature_radius: Length | None = Field(
         None, description="minimum curvature radius of the pitch curve (flat: of the profile); roller_radius/0.8"
@@ -109,8 +109,8 @@ class CamBody(Spec):
     sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise; -1: clockwise")
     prime_radius: Length | None = Field(None, description="cam axis to roller centre at lift 0")
     base_radius: Length | None = Field(None, description="of a flat face: cam axis to the surface at lift 0")
-    size: Size | None = Field(None, description="the smallest cam that keeps these limits, in place of a radius")
-    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not judged")
+    size: Size | None = Field(None, description="the smallest cam that keeps these limits, instead of a radius")
+    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not checked")
     cutter_radius: Length | None = Field(None, description="radius of the cutter or grinding wheel")
 
 
@@ -118,7 +118,7 @@ class ReturnRoller(Spec):
     """The second roller of a conjugate pair."""
 
     radius: Length = Field(description="radius of the roller")
-    distance: Length | None = Field(None, description="of a slide: distance of both rollers; left out: of equal cams")
+    distance: Length | None = Field(None, description="of a slide: distance of both rollers; default: of equal cams")
     arm: Length | None = Field(None, description="of a rocker: pivot to roller centre")
     angle: Angle | None = Field(None, description="of a rocker: from the first roller's arm to the second's")
 
@@ -133,14 +133,14 @@ class Spring(Spec):
         0.0, description="rate (oscillating: N m/rad)"
     )
     least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
-        None, description="minimum force that is to stay (oscillating: N m), in place of preload"
+        None, description="minimum force that is to stay (oscillating: N m), instead of preload"
     )
 
     @model_validator(mode="after")
     def _one(self) -> Spring:
         if (self.preload is None) == (self.least_force is None):
             key = "preload" if self.preload is None else "least_force"
-            raise _refuse(key, "give preload, or least_force in its place")
+            raise _refuse(key, "give preload, or least_force instead")
         return self
 
 
@@ -163,17 +163,17 @@ class Errors(Spec):
 
 
 class Servo(Spec):
-    """The table of a drive that makes the motion in place of a cam."""
+    """The table of a drive that makes the motion instead of a cam."""
 
     rows: Annotated[int, Field(ge=2, le=100_000, json_schema_extra={"unit": "rows"})] | None = Field(
         None, description="rows of the table, both ends"
     )
-    tolerance: Length | None = Field(None, description="maximum position error between rows, in place of rows")
+    tolerance: Length | None = Field(None, description="maximum position error between rows, instead of rows")
 
     @model_validator(mode="after")
     def _one(self) -> Servo:
         if (self.rows is None) == (self.tolerance is None):
-            raise _refuse("rows" if self.rows is None else "tolerance", "give rows, or tolerance in its place")
+            raise _refuse("rows" if self.rows is None else "tolerance", "give rows, or tolerance instead")
         return self
 
 
@@ -197,7 +197,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     return_roller: ReturnRoller | None = Field(None, description="the second roller of a conjugate pair")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
     errors: Errors | None = Field(None, description="errors of the cam as manufactured")
-    servo: Servo | None = Field(None, description="table of a drive in place of the cam")
+    servo: Servo | None = Field(None, description="table of a drive instead of the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
         None, description="forces, roller and vibration, for the command loads"

@@ -1,4 +1,4 @@
-"""Designs side by side: driven gears for wanted times, rods for a dwell on an arc."""
+"""Designs side by side: driven gears for required times, rods for a dwell on an arc."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _RODS = ("rod_length", "stroke", "dwell_ripple", "ripple_share", "tolerance_carr
 
 
 def mutilated(design: MutilatedGearDwell) -> Table:
-    """Driven gears and groups of teeth for the wanted times."""
+    """Driven gears and groups of teeth for the required times."""
     spec = design.asked
     if spec.target is None or spec.reduction is not None:
         raise nothing_sought("give target: {motion_turns, dwell_turns} and leave out reduction and teeth")

@@ -6,7 +6,7 @@ ring centre at 0, the slide line the x axis, the middle of one arc on it at carr
     x = r [(n - 1) cos t - l cos((n - 1) t)],   y = r [(n - 1) sin t + l sin((n - 1) t)]
 
 with l the distance of the point from the planet's axis over r, 1 on the pitch circle. A rod of length L leads from that
-point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation counts from the slider's place at t = 0, positive
+point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation is that from the position at t = 0, positive
 towards the ring's centre. The kernel's t is the carrier angle from the middle of the arc.
 """
 
@@ -220,7 +220,7 @@ class HypocycloidSlider:
                 edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
                 return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
             low, high = min(low, value), max(high, value)
-        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole revolution", fix="ask for less")
+        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole revolution", fix="specify less")
 
 
 def require_cusps(planet_radius: float, cusps: int) -> None:
@@ -237,7 +237,7 @@ def require_cusps(planet_radius: float, cusps: int) -> None:
         raise NoSolution(
             (
                 f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
-                "line, with 1 it stands"
+                "line, with 1 it is at rest"
             ),
             fix="take 3 times or more",
         )

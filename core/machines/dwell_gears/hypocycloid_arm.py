@@ -4,7 +4,7 @@ Frame and carrier angle t as in `hypocycloid`, from the middle of an arc on: the
 
     beta = t + arg z,   z = (n - 1) - l e^(-i n t),   n ring over planet, l the point's distance over the pitch radius
 
-With l < 1 it runs one way, with 1 it stands for a moment in each cusp, above 1 it steps back there.
+With l < 1 it runs one way, with 1 it is at rest for a moment in each cusp, above 1 it steps back there.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class SlottedArm:
                     f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
                     f"the planet's axis, not at {self.ratio:g}"
                 ),
-                fix="choose a place between them",
+                fix="choose a position between them",
             )
 
     @property

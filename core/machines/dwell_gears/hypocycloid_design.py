@@ -124,7 +124,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def output_columns(self) -> dict[str, tuple[str, ...]]:
-        """The slider's place, or the arm's angle."""
+        """The slider's position, or the arm's angle."""
         return {"motion": ("output_angle",)} if self.spec.is_arm else {"motion": ("deviation",)}
 
     def raw(self, name: str) -> Any:
@@ -262,7 +262,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def completion(self) -> Iterator[Found]:
-        """The rod in place of the target or the rule."""
+        """The rod instead of the target or the rule."""
         if not self.spec.is_arm and (self.spec.rod is None or self.spec.rod.rule is not None):
             yield Found("rod.length", self.rod_length, "found for target" if self.spec.target else "found by rod.rule")
             yield Found("rod.rule", None)
@@ -320,7 +320,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def dwell_ripple(self) -> float:
-        """Range of the slider's place in the dwell [mm]."""
+        """Range of the slider's position in the dwell [mm]."""
         return self.dwell_deviation_max - self.dwell_deviation_min
 
     @property

@@ -14,7 +14,7 @@ _SCAN = 120
 
 
 def minimax(planet_radius: float, cusps: int, angle: float) -> float:
-    """Rod length with the smallest maximum deviation from the slider's place in mid-dwell.
+    """Rod length with the smallest maximum deviation from the slider's position in mid-dwell.
 
     max |s(t) - s(0)| over +- angle/2  ->  min
 
@@ -41,7 +41,7 @@ def minimax(planet_radius: float, cusps: int, angle: float) -> float:
 
 
 def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
-    """Rod length with the smallest range of the slider's place over a carrier angle, the place itself free.
+    """Rod length with the smallest range of the slider's position over a carrier angle, the place itself free.
 
     max s - min s over +- angle/2  ->  min
 
@@ -96,7 +96,7 @@ def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: f
         raise NoSolution(
             f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
             fix=(
-                f"ask for more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
+                f"specify more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
                 "widest dwell of a tolerance"
             ),
         )

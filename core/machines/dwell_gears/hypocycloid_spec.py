@@ -36,7 +36,7 @@ class Rod(Spec):
     rule: Literal["tangent-circle", "osculating", "minimax"] | None = Field(
         None,
         description="tangent-circle: through the ends of the dwell and its middle; osculating: circle of curvature; "
-        "minimax: smallest maximum deviation from the place in mid-dwell",
+        "minimax: smallest maximum deviation from the position in mid-dwell",
     )
 
     @model_validator(mode="after")
@@ -51,9 +51,9 @@ class Rod(Spec):
 class HypocycloidDwellSection(Spec):
     """The required dwell."""
 
-    angle: CarrierAngle | None = Field(None, description="carrier angle of the dwell; left out: the whole arc")
+    angle: CarrierAngle | None = Field(None, description="carrier angle of the dwell; default: the whole arc")
     tolerance: Length | None = Field(
-        None, description="+- tolerance of the slider's place; of a slotted arm of its angle, in deg"
+        None, description="+- tolerance of the slider's position; of a slotted arm of its angle, in deg"
     )
 
 
@@ -110,7 +110,7 @@ class HypocycloidDwellSpec(DrivenSpec):
         if self.is_arm:
             for key in ("rod", "target"):
                 if getattr(self, key) is not None:
-                    message = "{key} goes with output: slider: leave it out"
+                    message = "{key} goes with output: slider: omit it"
                     raise PydanticCustomError("GL111", message, {"key": key})
             return self
         if self.point.ratio != 1.0 and (self.target is not None or self.rod is None or self.rod.rule is not None):
@@ -120,7 +120,7 @@ class HypocycloidDwellSpec(DrivenSpec):
             raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})
         if self.rod is not None and self.target is not None:
             raise PydanticCustomError(
-                "GL111", "rod and target exclude each other\nleave rod out to have it found", {"key": "rod"}
+                "GL111", "rod and target exclude each other\nomit rod to have it found", {"key": "rod"}
             )
         wants_tolerance = self.target is not None and self.target.quality == "widest-dwell"
         if wants_tolerance and self.dwell.tolerance is None:

@@ -24,7 +24,7 @@ class HypocycloidLoads(Loads):
     """Masses, forces and drive of a hypocycloid dwell."""
 
     links: HypocycloidMasses = Field(
-        HypocycloidMasses.model_construct(), description="masses of the links; what is left out has none"
+        HypocycloidMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
 
 
@@ -44,8 +44,8 @@ class MutilatedLoads(Loads):
     """Masses, forces and drive of a mutilated-gear dwell."""
 
     wheel_direction: Direction | None = Field(
-        None, description="direction from A to the wheel's axis W; left out: no bearing force at A, no GL302 of W and D"
+        None, description="direction from A to the wheel's axis W; default: no bearing force at A, no GL302 of W and D"
     )
     links: MutilatedMasses = Field(
-        MutilatedMasses.model_construct(), description="masses of the links; what is left out has none"
+        MutilatedMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )

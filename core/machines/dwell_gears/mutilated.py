@@ -69,7 +69,7 @@ class MutilatedGear:
     """Reduction, mutilated wheel and driven gear.
 
     Parameters
-        reduction : float - i_r, input turns per revolution of the wheel
+        reduction : float - i_r, input revolutions per revolution of the wheel
         full_teeth : int - Z_M, teeth that the wheel would have without gaps
         group_teeth : int - n, teeth in a group
         groups : int - g, groups evenly round the wheel
@@ -166,7 +166,7 @@ class MutilatedGear:
 
     @cached_property
     def cycles_to_repeat(self) -> int:
-        """Cycles after which the driven gear stands at the same place again, Z_F/gcd(Z_F, n)."""
+        """Cycles after which the driven gear is at the same position again, Z_F/gcd(Z_F, n)."""
         return self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
 
     @property

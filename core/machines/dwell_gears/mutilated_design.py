@@ -60,7 +60,7 @@ class Start(NamedTuple):
 
 
 def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
-    """The spec with the teeth and the reduction that wanted times ask for."""
+    """The spec with the teeth and the reduction that required times ask for."""
     gears, target = spec.gears, spec.target
     if target is None or spec.reduction is not None:
         return spec
@@ -151,7 +151,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         return self.asked
 
     def completion(self) -> Iterator[Found]:
-        """Teeth and reduction in place of the wanted times, from which they follow."""
+        """Teeth and reduction instead of the required times, from which they follow."""
         if self.asked.target is None or self.asked.reduction is not None:
             return
         yield Found("reduction", self.reduction, _FOUND)
@@ -161,16 +161,16 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         yield Found("target", None)
 
     def table_candidates(self, _samples: int | None = None) -> Table:
-        """The wanted times met by other driven gears and by more groups."""
+        """The required times met by other driven gears and by more groups."""
         from gearlink.core.machines.dwell_gears.candidates import mutilated
 
         return mutilated(self)
 
-    # The root of the tooth beside a gap
+    # The root of the tooth next to a gap
 
     @cached_property
     def generated_roots(self) -> tuple[TrueRoot | None, TrueRoot | None]:
-        """The roots of the wheel's tooth beside a gap and of the driven gear; None of one without a flank."""
+        """The roots of the wheel's tooth next to a gap and of the driven gear; None of one without a flank."""
         from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
         from gearlink.core.parts.gears.rating.true_root import end_tooth_root
 
@@ -179,7 +179,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     @property
     def generated_root_factor(self) -> tuple[float | None, float | None]:
-        """Maximum tension on the generated fillet over F_t/(b m), of the tooth beside a gap and of the driven gear."""
+        """Maximum tension on the generated fillet over F_t/(b m), of the tooth next to a gap and of the driven gear."""
         one, other = (None if root is None else root.tension.factor for root in self.generated_roots)
         return one, other
 
@@ -196,19 +196,19 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         return one, other
 
     def table_root(self, _samples: int | None = None) -> Table:
-        """Stress along the fillets of the tooth beside a gap and of the driven gear; without load over F_t/(b m)."""
+        """Stress along the fillets of the tooth next to a gap and of the driven gear; without load over F_t/(b m)."""
         from gearlink.core.parts.gears.rating.true_root import root_table
 
         scales = self.mesh_data[""].root_stress_scale
-        roots = list(zip(("tooth beside the gap", "driven gear"), self.generated_roots, strict=True))
+        roots = list(zip(("tooth next to the gap", "driven gear"), self.generated_roots, strict=True))
         return root_table(roots, scales, self.mesh.module)
 
     def check_true_fillet(self) -> Iterator[Check]:
-        """GL219: the tooth beside a gap has no section in ISO 6336, so the boundary integral alone rates it."""
+        """GL219: the tooth next to a gap has no section in ISO 6336, so the boundary integral alone rates it."""
         factor = self.generated_root_factor[0]
         if factor is None:
             return
-        what, aside = "stress factor of the tooth beside a gap on its generated fillet", "in F_t/(b m)"
+        what, aside = "stress factor of the tooth next to a gap on its generated fillet", "in F_t/(b m)"
         note = "the boundary integral is its only rating: ISO 6336 has no section for it"
         yield TRUE_FILLET.check("pass", what, factor, aside=aside, note=note)
 
@@ -335,7 +335,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     @property
     def stops(self) -> int:
-        """Locking arcs of the driven gear: one, where neither the file nor wanted times name them."""
+        """Locking arcs of the driven gear: one, where neither the file nor required times name them."""
         return self.spec.gears.stops or 1
 
     # Checks

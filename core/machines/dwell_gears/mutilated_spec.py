@@ -23,21 +23,22 @@ class MutilatedGears(TrainKeys):
 
     module: Length = Field(description="module of both")
     full_teeth: Teeth | None = Field(
-        None, description="teeth for which the wheel's pitch circle has room; chosen where wanted times are given"
+        None,
+        description="number of teeth on the whole pitch circle of the wheel; chosen where required times are given",
     )
-    group_teeth: Teeth | None = Field(None, description="teeth in a group; chosen where wanted times are given")
+    group_teeth: Teeth | None = Field(None, description="teeth in a group; chosen where required times are given")
     groups: Teeth = Field(1, description="groups evenly round the wheel")
     driven: Teeth | None = Field(
-        None, description="teeth of the driven gear; left out with wanted times, they are chosen too"
+        None, description="teeth of the driven gear; with required times the default is chosen too"
     )
     stops: Teeth | None = Field(
-        None, description="locking arcs evenly round the driven gear; left out: 1, or as wanted times need them"
+        None, description="locking arcs evenly round the driven gear; default: 1, or as required times need them"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
 
 class MutilatedShafts(PivotShafts):
-    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+    """Shafts of the frame that pass through the plane of the gears; a shaft without an entry may end before it."""
 
     A_radius: Length | None = Field(None, description="radius of the shaft at A, of driven gear and crank")
     W_radius: Length | None = Field(None, description="radius of the shaft of the mutilated wheel, W")
@@ -47,11 +48,11 @@ class WantedTimes(Spec):
     """The required motion and dwell, in revolutions of the input or, at input_speed, in time; teeth are chosen."""
 
     motion_turns: Turns | None = Field(None, description="input turns while the driven gear turns")
-    dwell_turns: Turns | None = Field(None, description="input turns while it stands")
-    motion_time: Millis | None = Field(None, description="in place of motion_turns, at input_speed")
-    dwell_time: Millis | None = Field(None, description="in place of dwell_turns, at input_speed")
+    dwell_turns: Turns | None = Field(None, description="input revolutions while it dwells")
+    motion_time: Millis | None = Field(None, description="instead of motion_turns, at input_speed")
+    dwell_time: Millis | None = Field(None, description="instead of dwell_turns, at input_speed")
     driven_turn: Turns = Field(1.0, description="turns of the driven gear in a motion, a fraction of whole teeth")
-    most_teeth: Teeth = Field(200, description="most teeth for which the wheel may have room")
+    most_teeth: Teeth = Field(200, description="maximum number of teeth on the whole pitch circle of the wheel")
     tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
         0.01, description="maximum miss of either, as a share of it"
     )
@@ -74,14 +75,14 @@ class MutilatedGearDwellSpec(DrivenSpec):
 
     kind: Literal["mutilated-gear-dwell"]
     reduction: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="input turns per revolution of the mutilated wheel; wanted times give it"
+        None, description="input revolutions per revolution of the mutilated wheel; required times give it"
     )
     target: WantedTimes | None = Field(None, description="required motion and dwell")
     gears: MutilatedGears
     links: FourLinks | None = Field(None, description="the four-bar that the driven gear turns")
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     start_angle: Angle | None = Field(
-        None, description="crank angle at which the crank stands; left out: crank and coupler stretched"
+        None, description="crank angle at which the crank is at rest; default: crank and coupler stretched"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: MutilatedShafts | None = None
@@ -105,17 +106,17 @@ class MutilatedGearDwellSpec(DrivenSpec):
             return self
         given = [key for key in ("reduction", "gears.full_teeth", "gears.group_teeth") if values[key] is not None]
         if given:
-            message = "{given} follows from the times that target asks for: leave it out"
+            message = "{given} follows from the times that target requires: omit it"
             raise PydanticCustomError("GL111", message, {"key": given[0], "given": given[0]})
         timed = self.target.motion_time is not None or self.target.dwell_time is not None
         if timed and self.input_speed is None:
-            message = "a time needs the input's speed: give input_speed, or turns in place of times"
+            message = "a time needs the input's speed: give input_speed, or turns instead of times"
             raise PydanticCustomError("GL106", message, {"key": "input_speed"})
         return self
 
     def wanted_turns(self) -> tuple[float, float]:
         """Input turns of motion and dwell that target asks for."""
-        assert self.target is not None, "asked for where there is a target"
+        assert self.target is not None, "needed where there is a target"
         turn = 60_000.0 / self.input_speed if self.input_speed else 0.0
         pairs = (
             (self.target.motion_turns, self.target.motion_time),
@@ -128,7 +129,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
         if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
             raise PydanticCustomError(
-                "GL111", "D_radius goes with the four-bar\ngive links, or leave it out", {"key": "shafts.D_radius"}
+                "GL111", "D_radius goes with the four-bar\ngive links, or omit it", {"key": "shafts.D_radius"}
             )
         return self
 

@@ -315,7 +315,7 @@ def five_bar_for_positions(
         raise NoSolution(
             f"no five-bar was found that meets the {len(positions)} positions in one unbroken motion",
             fix=(
-                "leave one out, bring them nearer to each other, or start from other links (coupler, "
+                "omit one, bring them nearer to each other, or start from other links (coupler, "
                 "follower, output, frame, phase)"
             ),
         )
@@ -434,7 +434,7 @@ class FiveBarParts(Meshed):
         return self.spec.form == "path"
 
     def completion(self) -> Iterator[Found]:
-        """The links that were found in place of the target."""
+        """The links that were found instead of the target."""
         target = self.spec.target
         if target is None or (target.function is not None and target.function.links == "given"):
             return
@@ -535,7 +535,7 @@ class FiveBarParts(Meshed):
             raise NoSolution(
                 f"{name} {given:.6g} mm is not the centre distance of the gears, {distance:.6g} mm",
                 key=f"links.{name}",
-                fix="leave it out, or change module or teeth",
+                fix="omit it, or change module or teeth",
             )
         return distance
 
@@ -1130,7 +1130,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         target, place, angle = self.spec.target, self.pose_error_max, self.pose_angle_error_max
         if target is None or place is None or angle is None:
             return
-        yield target_check("the place of a pose", place, target.tolerance or _POSE_FIT, "mm")
+        yield target_check("the position of a pose", place, target.tolerance or _POSE_FIT, "mm")
         limit = target.angle_tolerance or (_POSE_FIT if target.tolerance is None else None)
         if limit is not None:
             yield target_check("the angle of a pose", math.degrees(angle), limit, "deg")

@@ -241,7 +241,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
         raise NoSolution(
-            ("none of the starts closes over a whole revolution with the transmission angle that is asked for"),
+            ("none of the starts closes over a whole revolution with the required transmission angle"),
             fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return min(found + given, key=lambda fit: fit.rms)

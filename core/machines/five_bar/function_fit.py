@@ -83,7 +83,7 @@ def fit_function(
             break
     if best is None:
         raise NoSolution(
-            ("no five-bar was found that generates this function with the transmission angle that is asked for"),
+            ("no five-bar was found that generates this function with the required transmission angle"),
             fix="lower limits.transmission_angle, take less input_swing or output_swing, or other gears",
         )
     return replace(best, rounds=tuple(rounds))
@@ -228,7 +228,7 @@ class Levelling:
     Notes
         Each step solves a linear program on 121 places, within a region of trust that adapts. The errors bend, so the
         step of a program raises extremes that it thought level; it is then solved again with the errors at that step
-        in place of what the slopes say of them. Without this correction steps along a curved valley shrink to nothing.
+        instead of what the slopes say of them. Without this correction steps along a curved valley shrink to nothing.
         All links stay within 1/20 and 20 times the input link.
 
     Source

@@ -166,7 +166,9 @@ def circumcenter(points: Sequence[complex] | Points) -> complex:
     """
     first, second, third = (complex(each) for each in points)
     if first == second:
-        raise NoSolution("two of the three poses show the pivot at one place: they turn about no point")
+        raise NoSolution(
+            "two of the three poses show the pivot at one position: they have no common centre of rotation"
+        )
     w = (third - first) / (second - first)
     if abs(w.imag) <= _COLLINEAR * max(1.0, abs(w)):
         raise NoSolution("the three poses turn about no point: from the body the pivot moves along a line")

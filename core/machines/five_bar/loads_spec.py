@@ -22,5 +22,5 @@ class FiveBarLoads(Loads):
     """Masses, forces and drive of a geared five-bar."""
 
     links: FiveBarMasses = Field(
-        FiveBarMasses.model_construct(), description="masses of the links; what is left out has none"
+        FiveBarMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )

@@ -60,7 +60,7 @@ class PathFiveBar:
             input=self.input, coupler=self.coupler, follower=self.follower, output=self.output, frame=self.frame
         )
         if self.ratio == 0:
-            raise NoSolution("gear ratio is 0; the output link would stand still")
+            raise NoSolution("gear ratio is 0; the output link would be at rest")
 
     @property
     def period_turns(self) -> int:

@@ -38,9 +38,9 @@ class FiveBarGears(TrainKeys):
     )
     planet: Teeth | None = Field(None, description="function: teeth z2 of the gear fixed to the coupler at B")
     sun: Teeth | None = Field(None, description="function: teeth z5 of the gear fixed to the frame at A")
-    ring: Teeth | None = Field(None, description="function: teeth z5 of a fixed ring gear about A, in place of sun")
+    ring: Teeth | None = Field(None, description="function: teeth z5 of a fixed ring gear about A, instead of sun")
     rim: Length | None = Field(
-        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+        None, description="outer radius of the ring gear; default: 2 modules outside its root circle"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     idler_side: Literal[1, -1] = Field(
@@ -74,17 +74,15 @@ class FiveBarGears(TrainKeys):
 class FiveLinks(Spec):
     """The links; with `target` they are a start."""
 
-    input: Length | None = Field(None, description="AB; function: left out, the centre distance of planet and sun")
+    input: Length | None = Field(None, description="AB; function: default the centre distance of planet and sun")
     coupler: Length = Field(description="BC")
     follower: Length = Field(description="CD")
     output: Length = Field(description="DE")
-    frame: Length | None = Field(
-        None, description="AE; path with gears in direct mesh: left out, their centre distance"
-    )
+    frame: Length | None = Field(None, description="AE; path with gears in direct mesh: default their centre distance")
 
 
 class FiveBarShafts(Spec):
-    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+    """Shafts of the frame that pass through the plane of the gears; a shaft without an entry may end before it."""
 
     A_radius: Length | None = Field(None, description="radius of the input shaft at A")
     E_radius: Length | None = Field(None, description="radius of the output shaft at E")
@@ -116,7 +114,7 @@ class WantedFunction(Spec):
         None, description="maximum structural error that is accepted"
     )
     links: Literal["sought", "given"] = Field(
-        "sought", description="given: the links of the file are judged, from range.start on"
+        "sought", description="given: the links of the file are evaluated, from range.start on"
     )
 
     @model_validator(mode="after")
@@ -126,7 +124,7 @@ class WantedFunction(Spec):
         if self.x[0] == self.x[1]:
             raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
         if self.output_swing == 0.0:
-            raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
+            raise PydanticCustomError("GL108", "an output at rest is no function", {"key": "output_swing"})
         return self
 
 
@@ -150,7 +148,7 @@ class FiveBarTarget(Spec):
         ]
         | None
     ) = Field(None, description="of a function: two to five pairs [input angle, output angle]")
-    function: WantedFunction | None = Field(None, description="a function over an interval, in place of positions")
+    function: WantedFunction | None = Field(None, description="a function over an interval, instead of positions")
     input_angles: Annotated[list[TurnAngle], Field(min_length=3, max_length=200)] | None = Field(
         None, description="of a path: input angle of each point, counted from the first's, so that the points are timed"
     )
@@ -170,7 +168,7 @@ class FiveBarTarget(Spec):
     )
     tolerance: Length | None = Field(None, description="path: maximum distance of a point that is accepted")
     budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
-        None, description="time that the search of a function or of timed points may take; left out: a fixed effort"
+        None, description="time that the search of a function or of timed points may take; default: a fixed effort"
     )
 
     @model_validator(mode="after")
@@ -193,7 +191,7 @@ class FiveBarTarget(Spec):
                 "GL108", "input angles count from the first point's, 0", {"key": "input_angles[0]"}
             )
         if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
-            message = "budget goes with a function whose links are sought, or with timed points: leave it out"
+            message = "budget goes with a function whose links are sought, or with timed points: omit it"
             raise PydanticCustomError("GL111", message, {"key": "budget"})
         return self
 
@@ -209,7 +207,7 @@ class GearedFiveBarSpec(DrivenSpec):
         description="at input angle 0: direction of the output link (path) or of the coupler (function)"
     )
     coupler_point: CouplerPoint | None = Field(None, description="path: the point M")
-    range: InputRange | None = Field(None, description="function: left out, one revolution of the input")
+    range: InputRange | None = Field(None, description="function: default one revolution of the input")
     assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
     target: FiveBarTarget | None = None
     limits: LinkageLimits = LinkageLimits.model_construct()
@@ -228,7 +226,7 @@ class GearedFiveBarSpec(DrivenSpec):
                     "key": key, "form": self.form, "needed": needed,
                 })  # fmt: skip
         _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
-                "shafts.O_radius", "O_radius goes with an idler: give gears.idler, or leave it out")  # fmt: skip
+                "shafts.O_radius", "O_radius goes with an idler: give gears.idler, or omit it")  # fmt: skip
         if self.form == "path":
             self._path()
         else:
@@ -260,9 +258,9 @@ class GearedFiveBarSpec(DrivenSpec):
         sought = self.target is not None and self.target.function is not None
         judged = sought and self.target is not None and self.target.function.links == "given"  # type: ignore[union-attr]
         _refuse(sought and not judged and self.range is not None, "range",
-                "the interval of a function starts where it fits best: leave range out")  # fmt: skip
+                "the interval of a function starts where it fits best: omit range")  # fmt: skip
         _refuse(judged and self.range is None, "range",
-                "given links are judged from range.start on: give range: {start, end}")  # fmt: skip
+                "given links are evaluated from range.start on: give range: {start, end}")  # fmt: skip
         _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
                 "input, output and idler go with form: path; give planet and sun or ring")  # fmt: skip
         _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")

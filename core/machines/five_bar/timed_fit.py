@@ -77,7 +77,7 @@ def fit_timed(
             break
     if best is None:
         raise NoSolution(
-            ("none of the starts closes over a whole revolution with the transmission angle that is asked for"),
+            ("none of the starts closes over a whole revolution with the required transmission angle"),
             fix=("start from links that do (longer coupler and follower), or lower limits.transmission_angle"),
         )
     return TimedFit(best.fit, best.first_angle, tuple(rounds))

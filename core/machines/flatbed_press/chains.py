@@ -42,7 +42,7 @@ class CylinderChain:
         linkage : FourBar - GH, HM, MN, NG [mm]
         initial_angle : float [rad] - direction of GH from the line G-N at input angle 0
         radius : float [mm] - of the cylinder
-        gear_ratio : float - cylinder turns per revolution of MN
+        gear_ratio : float - cylinder revolutions per revolution of MN
     Raises
         NoSolution - when the linkage is not a drag link
     Source

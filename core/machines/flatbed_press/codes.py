@@ -12,10 +12,10 @@ SYNC_SPEED = Rule(
     "The compensation cam compensates a difference of travel, but a difference of speed is a blow at its start. "
     "Without "
     "a cam the difference of travel smears the print.",
-    "Leave sync.start out: then the zone starts where the speeds are equal; or take the difference up before the zone "
+    "Omit sync.start: then the zone starts where the speeds are equal; or take the difference up before the zone "
     "by cam.lead_in. Give the section cam, whose follower takes the difference of travel back.",
     "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder; with a lead-in the jump of "
-    "the rack's own speed there in place of p' - q'; without a cam p - q at the end of the zone as at its start",
+    "the rack's own speed there instead of p' - q'; without a cam p - q at the end of the zone as at its start",
     "TY-460 report 3.2",
     ("sync-speed",),
     ("sync.start", "cam.lead_in", "cam", "sync", "cylinder"),
@@ -36,7 +36,8 @@ SYNC_LENGTH = Rule(
 REGISTER = Rule(
     "GL506",
     "cylinder makes no whole number of revolutions",
-    "The cylinder does not make whole turns per sheet; or its print passes the forme again while the bed returns (a "
+    "The cylinder does not make a whole number of revolutions per sheet; or its print passes the forme again "
+    "while the bed returns (a "
     "warning).",
     "The next sheet would meet another part of the cylinder; a cylinder that makes several turns must be lifted.",
     "Set cylinder.gear_ratio to a whole number.",
@@ -49,7 +50,7 @@ REGISTER = Rule(
 )
 PLACE = Rule(
     "GL516",
-    "cylinder or gear 1 does not stand where the machine has it",
+    "cylinder or gear 1 is not where the machine has it",
     "loads.cylinder_direction puts the cylinder on the side of the bed on which its surface runs against the bed's, "
     "through the pitch line of the bed's rack, or over the slide line or an axis (A, D, G, N); or "
     "loads.gear_1_direction is another one than that of the axes' distances. A warning: torque and chains do not "
@@ -67,7 +68,7 @@ RACK_LENGTH = Rule(
     "rack too short",
     "A rack of the bed has fewer teeth (bed.rack_teeth) than the travel of its pinion takes.",
     "The pinion runs off the rack at the end of the stroke.",
-    "Give the rack more teeth, or leave bed.rack_teeth out.",
+    "Give the rack more teeth, or omit bed.rack_teeth.",
     "teeth >= (travel + path of contact + pitch)/pitch; travel: stroke of F, of the lower rack with the follower's",
     "own derivation",
     ("rack-length",),

@@ -270,7 +270,7 @@ class PressMotion:
             raise NoSolution(
                 f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg",
                 key="sync.end",
-                fix=f"set sync.end above {safely_above(start)} deg, or leave it out and give sync.length",
+                fix=f"set sync.end above {safely_above(start)} deg, or omit it and give sync.length",
             )
         return math.radians(given)
 
@@ -731,7 +731,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     candidates, ways_of = checks.candidates, checks.ways_of
 
     def completion(self) -> Iterator[Found]:
-        """The base radius in place of the rule that chose it."""
+        """The base radius instead of the rule that chose it."""
         if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.base_radius is None:
             yield Found("cam.base_radius", float(self.cams.base_radius), "found for size")
             yield Found("size", None)
@@ -810,7 +810,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         from gearlink.core.parts.gears.from_spec import data_of, required_of
 
         pair = self.gear_pair
-        assert self.spec.input_gears is not None, "the pair asks for it"
+        assert self.spec.input_gears is not None, "the pair requires it"
         with in_section("input_gears"):
             return replace(data_of(self.spec.input_gears, pair), required=required_of(self.spec.limits))
 

@@ -33,7 +33,7 @@ PLACE_CHECKS = PLACE.checks
 _NEAR = 1.0
 """A direction of whole degrees [deg]."""
 _DRAWN = (
-    "loads.bed_side -1, with gravity [9.81, 0], is the machine as drawn, in which it stands on the bed and runs with it"
+    "loads.bed_side -1, with gravity [9.81, 0], is the machine as drawn, in which it is above the bed and runs with it"
 )
 
 

@@ -33,7 +33,7 @@ class PressLoads(CommonLoads):
     """Masses, forces and drive of a flatbed press; its speed is the press's own."""
 
     links: PressMasses = Field(
-        PressMasses.model_construct(), description="masses of the links; what is left out has none"
+        PressMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
     bed_side: Literal[1, -1] = Field(
         1,
@@ -41,17 +41,17 @@ class PressLoads(CommonLoads):
         "drawn, bed and N towards -x, which is up: gravity [9.81, 0]",
     )
     gear_1_direction: Direction | None = Field(
-        None, description="direction from A to G; left out: no bearing forces of gears 1 and 2"
+        None, description="direction from A to G; default: no bearing forces of gears 1 and 2"
     )
     cylinder_direction: Direction | None = Field(
-        None, description="direction from N to the cylinder's axis; left out: no bearing forces of gear 3 and cylinder"
+        None, description="direction from N to the cylinder's axis; default: no bearing forces of gear 3 and cylinder"
     )
     drive_gear: Literal[1, 2] = Field(2, description="the gear that the motor drives")
     pinion_radius: Length | None = Field(
-        None, description="pitch radius of the pinion; left out: 5/31 of the bed's stroke, as in the TY-460"
+        None, description="pitch radius of the pinion; default: 5/31 of the bed's stroke, as in the TY-460"
     )
     cylinder_gear_radius: Length | None = Field(
-        None, description="pitch radius of gear 4; left out: 34/35 of the cylinder's radius, as in the TY-460"
+        None, description="pitch radius of gear 4; default: 34/35 of the cylinder's radius, as in the TY-460"
     )
     roller: Roller | None = None
     material: Material | None = None

@@ -62,7 +62,9 @@ class Cylinder(Spec):
     """The cylinder chain."""
 
     radius: Length = Field(description="radius of the printing cylinder")
-    gear_ratio: Ratio = Field(1.0, description="cylinder turns per revolution of MN; with gears that of their teeth")
+    gear_ratio: Ratio = Field(
+        1.0, description="cylinder revolutions per revolution of MN; with gears that of their teeth"
+    )
     gears: CylinderGears | None = Field(None, description="gears 3 and 4, for geometry, drawing and loads")
     double_crank: DoubleCrank
     initial_crank_angle: Angle = Field(description="angle of GH from the line G-N at the start")
@@ -75,7 +77,7 @@ class Cylinder(Spec):
     @model_validator(mode="after")
     def _same_ratio(self) -> Cylinder:
         if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
-            message = "the teeth of gears 3 and 4 make a ratio of {ratio}: leave gear_ratio out, or change the teeth"
+            message = "the teeth of gears 3 and 4 make a ratio of {ratio}: omit gear_ratio, or change the teeth"
             raise PydanticCustomError("GL111", message, {"key": "gear_ratio", "ratio": f"{self.ratio:.9g}"})
         return self
 
@@ -100,7 +102,7 @@ class Bed(Spec):
     pinion: Pinion | None = Field(None, description="pinion of both racks, for geometry, drawing and loads")
     rack_teeth: (
         Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[lower, upper]", "[28, 28]")] | None
-    ) = Field(None, description="teeth of the lower and of the upper rack; left out: as many as the travel takes")
+    ) = Field(None, description="teeth of the lower and of the upper rack; default: as many as the travel takes")
 
     @model_validator(mode="after")
     def _reachable(self) -> Bed:
@@ -116,8 +118,8 @@ class Sync(Spec):
 
     length: Length = Field(420.0, description="cylinder travel of the zone")
     print_length: Distance = Field(0.0, description="print length that the zone must cover; 0: not checked")
-    start: TurnAngle | None = Field(None, description="input angle at the start, in place of the equal-speed point")
-    end: TurnAngle | None = Field(None, description="input angle at the end, in place of `length`")
+    start: TurnAngle | None = Field(None, description="input angle at the start, instead of the equal-speed point")
+    end: TurnAngle | None = Field(None, description="input angle at the end, instead of `length`")
 
 
 class PressCam(Spec):
@@ -125,7 +127,7 @@ class PressCam(Spec):
 
     base_radius: Length | None = Field(
         None,
-        description="cam axis to roller centre at zero lift; left out: chosen by the section `size`",
+        description="cam axis to roller centre at zero lift; default: chosen by the section `size`",
         json_schema_extra=also("prime_radius"),
     )
     roller_radius: Length = Field(description="radius of both rollers")
@@ -137,7 +139,7 @@ class PressCam(Spec):
         None, description="cam angle at which the lift is largest; this or `transition_angle`"
     )
     transition_angle: PartOfTurn | None = Field(
-        None, description="cam angle from the end of the zone to the maximum lift, in place of `transition_end`"
+        None, description="cam angle from the end of the zone to the maximum lift, instead of `transition_end`"
     )
     return_angle: PartOfTurn = Field(description="cam angle of the return")
     return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
@@ -156,7 +158,7 @@ class PressCam(Spec):
 
 
 class PressSize(Spec):
-    """How a base radius that is left out is chosen: the smallest cams that keep a pressure angle, roller and shaft."""
+    """Choice of a base radius that is not given: the smallest cams that keep a pressure angle, roller and shaft."""
 
     pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
         description="pressure angle that neither cam exceeds"
@@ -200,7 +202,7 @@ class FlatbedPressSpec(TolerancedSpec):
             keys, z = teeth
             found = 0.5 * keys.module * z / cos(radians(keys.helix_angle))
             if keys.profile_shift is None and abs(given - found) > 1e-9 * found:
-                message = "the teeth make a radius of {found} mm: leave {last} out, or give the same"
+                message = "the teeth make a radius of {found} mm: omit {last}, or give the same"
                 words = {"key": f"loads.{key}", "found": f"{found:.9g}", "last": key}
                 raise PydanticCustomError("GL111", message, words)
         return self

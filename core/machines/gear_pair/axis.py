@@ -147,7 +147,7 @@ class GearPairAxis:
             return made(self, inside, outside).evaluated()
 
     def _with_large_rings(self, columns: dict[str, Reals]) -> Mask:
-        """Put larger rings in place of those that the model refuses, which are reported."""
+        """Put larger rings instead of those that the model refuses, which are reported."""
         first, ring = (np.asarray(columns.get(path, self.spec.teeth[i])) for i, path in enumerate(_TEETH))
         small: Mask = -ring <= first
         columns["teeth[1]"] = np.broadcast_to(np.where(small, -first - 9.0, ring), len(next(iter(columns.values()))))

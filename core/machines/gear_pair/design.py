@@ -171,7 +171,7 @@ class GearPairDesign(GearQuantities, Design):
 
     @property
     def rack_teeth(self) -> int:
-        """Teeth of the rack that pictures and exports show."""
+        """Teeth of the rack that figures and exports show."""
         given: int | None = self.spec.rack_teeth
         return self.gear_pair.teeth[0] if given is None else given
 

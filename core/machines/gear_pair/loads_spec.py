@@ -19,5 +19,5 @@ class PairLoads(Loads):
     """Masses, forces and drive of a gear pair."""
 
     links: PairMasses = Field(
-        PairMasses.model_construct(), description="masses of the gears; what is left out has none"
+        PairMasses.model_construct(), description="masses of the gears; a part without an entry has no mass"
     )

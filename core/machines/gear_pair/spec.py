@@ -31,7 +31,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     kind: Literal["gear-pair"]
     teeth: Annotated[
         list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2), Entries("[gear 1, gear 2]", "[25, 40]")
-    ] = Field(description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack")
+    ] = Field(description="teeth of gear 1 and 2; a negative number is a ring, rack instead of gear 2 a rack")
     center_distance: Length | None = Field(
         None, description="working centre distance; with profile_shift the difference is backlash"
     )
@@ -45,21 +45,21 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         json_schema_extra=also("tip_alteration"),
     )
     tip_diameter: Annotated[Any, Deferred("parts.gears.keys.types:TwoLengths")] | None = Field(
-        None, description="tip diameters, in place of tip_shortening"
+        None, description="tip diameters, instead of tip_shortening"
     )
     rim_thickness: Annotated[Any, Deferred("parts.gears.keys.types:RimOrTwo")] | None = Field(
         None,
         description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
-        "or rack in exports, which left out is 2 modules",
+        "or rack in exports, default 2 modules",
     )
     rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
-        None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
+        None, description="teeth of the rack in figures and exports; default: as many as gear 1 has"
     )
     cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
         None, description="pinion cutter of a ring: only then its fillets are known"
     )
     span_teeth: Annotated[Any, Deferred("parts.gears.keys.types:TwoSpans")] | None = Field(
-        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+        None, description="teeth that the span measurement of each gear goes over; default: chosen"
     )
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
     shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
@@ -92,7 +92,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         internal = isinstance(second, int) and second < 0
         self._fits_a_rack()
         if self.cutter is not None and not internal:
-            message = "a pinion cutter goes with a ring (negative teeth): leave it out, or give tool"
+            message = "a pinion cutter goes with a ring (negative teeth): omit it, or give tool"
             raise PydanticCustomError("GL111", message, {"key": "cutter"})
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
             message = "a cutter of {cutter} teeth does not go into a ring of {ring}: take a smaller one"
@@ -103,7 +103,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
-            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            message = "spur gears have no hand of helix: omit it, or give helix_angle"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         if (self.helix_hand[0] == self.helix_hand[1]) != internal:
             message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
@@ -129,7 +129,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         """Refuse what a rack cannot have."""
         if not self.rack:
             if self.rack_teeth is not None:
-                message = "rack_teeth goes with teeth: [z, rack]: leave it out"
+                message = "rack_teeth goes with teeth: [z, rack]: omit it"
                 raise PydanticCustomError("GL111", message, {"key": "rack_teeth"})
             return
         if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
@@ -137,11 +137,11 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
             raise PydanticCustomError("GL111", message, {"key": key})
         if self.shift_split != "equal":
-            message = "a rack takes no share of the shift: leave shift_split out; center_distance alone gives x1"
+            message = "a rack takes no share of the shift: omit shift_split; center_distance alone gives x1"
             raise PydanticCustomError("GL111", message, {"key": "shift_split"})
         for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
-                message = "{key} is not known of a gear on a rack: leave it out"
+                message = "{key} is not known of a gear on a rack: omit it"
                 raise PydanticCustomError("GL111", message, {"key": key})
 
     def commands(self) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ STEP_RATE = Rule(
     "The drive makes more steps in a minute than limits.steps_per_minute (a warning).",
     "The acceleration jumps at both ends of every step, and its peak is high: above 100 to 200 steps in a minute such "
     "drives are loud and wear.",
-    "Run slower, take more slots, or a drive without the jump: `compare` sets a gear linkage and a cam beside it.",
+    "Run slower, take more slots, or a drive without the jump: `compare` compares it with a geared linkage and a cam.",
     "input_speed x pins",
     "thesis 4.2.1: 100 to 200 steps in a minute",
     ("step-rate",),

@@ -114,7 +114,7 @@ class GenevaDrive(RealSpeed, Design):
 
     @property
     def locking_angle(self) -> float:
-        """Crank angle between two steps, in which the wheel stands [rad]."""
+        """Crank angle between two steps, in which the wheel dwells [rad]."""
         return TURN / self.spec.pins - self.motion_angle
 
     @property

@@ -22,7 +22,9 @@ class GenevaMasses(Spec):
 class GenevaSection(Loads):
     """Masses, forces and drive of a Geneva drive."""
 
-    links: GenevaMasses = Field(GenevaMasses.model_construct(), description="masses; what is left out has none")
+    links: GenevaMasses = Field(
+        GenevaMasses.model_construct(), description="masses; a part without an entry has no mass"
+    )
 
 
 class GenevaLoads(LoadsDesign):

@@ -49,7 +49,7 @@ class GenevaDriveSpec(DrivenSpec):
 
     kind: Literal["geneva-drive"]
     type: Literal["external", "internal"] = Field(
-        description="external: the crank's axis lies beside the wheel; internal: within it"
+        description="external: the crank's axis is outside the wheel; internal: within it"
     )
     slots: Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})] = Field(
         description="slots of the wheel, which turns by 360/slots in a step"
@@ -77,7 +77,7 @@ class GenevaDriveSpec(DrivenSpec):
         sign = 1.0 if self.type == "external" else -1.0
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:
-            message = "a step takes {step} deg of the crank: at most {most} pins have room in a revolution"
+            message = "a step takes {step} deg of the crank: at most {most} pins fit in a revolution"
             words = {"key": "pins", "step": f"{step:.6g}", "most": str(int((360.0 + 1e-9) // step))}
             raise PydanticCustomError("GL111", message, words)
         if self.pin_radius >= (crank := self._crank(sign)):

@@ -221,7 +221,7 @@ class Machine(OfMembers):
         return found
 
     def completion(self) -> Iterator[Found]:
-        """The phases that were found, in the place of free ones."""
+        """The phases that were found, instead of free ones."""
         for name in self.spec.free:
             yield Found(f"members.{name}.phase", self.phases[name], "phase: free")
 
@@ -324,7 +324,7 @@ class Machine(OfMembers):
         """The relations that leave free phases no greater margin; None without free phases or relations."""
         return list(self.solution.limiting) or None if self.spec.free else None
 
-    # A drive in place of a member
+    # A drive instead of a member
 
     @cached_property
     def follower_motion(self) -> OverMachine:
@@ -368,7 +368,7 @@ class Machine(OfMembers):
         return None if self.servo_rows is None else greatest_error(self.follower_motion, self.servo_rows)
 
     def table_servo(self, _samples: int | None = None) -> Table:
-        """The table of a drive in place of the member of `servo`, over the machine angle."""
+        """The table of a drive instead of the member of `servo`, over the machine angle."""
         from gearlink.core.parts.cams.servo import servo_table
 
         motion = self.follower_motion

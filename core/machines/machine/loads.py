@@ -78,7 +78,7 @@ class Felt:
                 raise NoSolution("these loads are those of a stroke", key="loads", fix="give the whole cycle")
             if found.friction is not None and self.place.driver is not None:
                 message = "friction of a member behind another depends on how its driver runs"
-                raise NoSolution(message, key="loads.friction", fix="leave it out")
+                raise NoSolution(message, key="loads.friction", fix="omit it")
             return found
 
     @kept
@@ -403,13 +403,13 @@ class MachineLoads(OfMembers, LoadsDesign):
     def discs(self) -> list[str]:
         """Names of the discs of the main shaft."""
         shaft = self.spec.shaft
-        assert shaft is not None, "asked for only with a main shaft"
+        assert shaft is not None, "needed only with a main shaft"
         return shaft.discs
 
     def disc_of(self, name: str) -> int:
         """The disc on which a member acts: that with its name or its driver's; else the first."""
         shaft, root = self.spec.shaft, self.spec.root(name)
-        assert shaft is not None, "asked for only with a main shaft"
+        assert shaft is not None, "needed only with a main shaft"
         return next((i for i, names in enumerate(shaft.acting) if root in names), 0)
 
     @cached_property

@@ -135,7 +135,7 @@ class OnShaft:
 
     @property
     def _driving(self) -> Course:
-        assert self.driving is not None, "asked for only of members with a driver"
+        assert self.driving is not None, "needed only of members with a driver"
         return self.driving
 
     @property
@@ -316,7 +316,7 @@ def slug(name: str) -> str:
 
 @dataclass(frozen=True)
 class OverMachine:
-    """The output of a member over the machine angle, as a drive in its place makes it.
+    """The output of a member over the machine angle, as a drive instead makes it.
 
     Fields
         member : OnShaft

@@ -78,7 +78,7 @@ class Member(Spec):
 
     of: str | None = Field(None, description="its design file, relative to that of the machine")
     design: Annotated[Any, BeforeValidator(_made), WithJsonSchema({"type": "object"})] | None = Field(
-        None, description="the design itself, in place of of"
+        None, description="the design itself, instead of of"
     )
     phase: Annotated[float, Field(json_schema_extra={"unit": "deg"})] | Literal["free"] = Field(
         0.0, description="machine angle at which its input angle is 0, in the driver's unit where it has one; or free"
@@ -102,7 +102,7 @@ class Member(Spec):
         if self.of is None and self.design is None:
             raise _refuse("GL106", "of", "give `of` or `design`, exactly one")
         if self.ratio == 0.0:
-            raise _refuse("GL108", "ratio", "with ratio 0 the member stands still: give another one")
+            raise _refuse("GL108", "ratio", "with ratio 0 the member does not move: give another one")
         if self.phase == "free" and self.input is not None:
             raise _refuse("GL111", "phase", "a member with input moves with its driver: give a number for its phase")
         return self
@@ -169,7 +169,7 @@ class MainShaft(Spec):
     )
     fixed: bool = Field(False, description="the first disc does not swing")
     damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="damping ratio of every mode; left out: 0.03, assumed"
+        None, description="damping ratio of every mode; default: 0.03, assumed"
     )
 
     @model_validator(mode="after")
@@ -183,10 +183,10 @@ class MainShaft(Spec):
             if given is not None and len(given) != count:
                 raise _refuse("GL111", name, f"give one for each of the {count} discs, not {len(given)}")
         if self.ratios is not None and 0.0 in self.ratios:
-            raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 stands still")
+            raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 does not move")
         names = [name for disc in self.acting for name in disc]
         if twice := [name for name in names if names.count(name) > 1]:
-            raise _refuse("GL111", "members", f"{named(twice[0])} stands on two discs: give it one place")
+            raise _refuse("GL111", "members", f"{named(twice[0])} is on two discs: put it on one")
         if [] in self.acting:
             raise _refuse("GL108", "members", "a disc without a name: give it one, such as motor")
         return self
@@ -230,14 +230,14 @@ class MachineServo(Spec):
         None, description="rows of the table, both ends"
     )
     tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="maximum position error between rows, mm or deg, in place of rows"
+        None, description="maximum position error between rows, mm or deg, instead of rows"
     )
 
     @model_validator(mode="after")
     def _one(self) -> MachineServo:
         if (self.rows is None) == (self.tolerance is None):
             key = "rows" if self.rows is None else "tolerance"
-            raise _refuse("GL106" if self.rows is None else "GL111", key, "give rows, or tolerance in its place")
+            raise _refuse("GL106" if self.rows is None else "GL111", key, "give rows, or tolerance instead")
         return self
 
 
@@ -271,7 +271,7 @@ class MachineSpec(TolerancedSpec):
     shaft: MainShaft | None = Field(None, description="the main shaft as a torsional chain")
     limits: MachineLimits = MachineLimits.model_construct()
     loads: MachineLoads | None = Field(None, description="motor and flywheel on the main shaft")
-    servo: MachineServo | None = Field(None, description="table of a drive in place of a member")
+    servo: MachineServo | None = Field(None, description="table of a drive instead of a member")
     register_: MachineRegister | None = Field(None, alias="register", description="register between members")
 
     @cached_property

@@ -36,7 +36,7 @@ class TranslatingFollower(Spec):
 
     type: Literal["translating"] = Field(description="how the follower moves")
     direction: Angle = Field(90.0, description="direction of the lift")
-    offset: SignedLength = Field(0.0, description="how far the line of travel passes the cam axis on its right")
+    offset: SignedLength = Field(0.0, description="distance of the line of travel from the cam axis on its right")
 
 
 class Profile(Spec):
@@ -45,7 +45,7 @@ class Profile(Spec):
     points: Annotated[list[ProfilePoint], Field(min_length=_FEWEST, max_length=100_000)] | None = Field(
         None, description="[angle, radius] in deg and mm, angles ascending over less than a revolution"
     )
-    file: str | None = Field(None, description="CSV file with these columns, in place of points")
+    file: str | None = Field(None, description="CSV file with these columns, instead of points")
 
     @model_validator(mode="after")
     def _turn(self) -> Profile:
@@ -79,7 +79,7 @@ class MeasuredCamSpec(DesignSpec):
     sense: Assembly = Field(1, description="1: the cam turns counter-clockwise; -1: clockwise")
     profile: Profile
     harmonics: Annotated[int, Field(ge=1, le=MOST_HARMONICS, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="of the Fourier series through the points; left out: a quarter of the points, at most 60"
+        None, description="of the Fourier series through the points; default: a quarter of the points, at most 60"
     )
     dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")
     speed: Speed | None = Field(None, description="speed of the cam")

@@ -22,7 +22,7 @@ class Gear(Spec):
     """A gear of a train."""
 
     at: Name = Field(description="pin on which the gear sits")
-    fixed_to: Name | None = Field(None, description="link to which the gear is fixed; left out: it turns freely")
+    fixed_to: Name | None = Field(None, description="link to which the gear is fixed; default: it turns freely")
     teeth: Teeth | None = Field(None, description="teeth; with the train's module the centre distances are checked")
     ring: bool = Field(False, description="an internal gear")
 

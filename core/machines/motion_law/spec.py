@@ -23,10 +23,10 @@ class MotionLawSpec(DesignSpec):
     law: MotionLaw = Field(description="the law: a name, or a mapping with its numbers")
     stroke: Length | None = Field(None, description="rise over the phase; with a time real speeds are given")
     time: Millis | None = Field(None, description="time of the phase")
-    speed: Speed | None = Field(None, description="speed of the input, in place of time; with angle")
+    speed: Speed | None = Field(None, description="speed of the input, instead of time; with angle")
     angle: PhaseAngle | None = Field(None, description="angle of the input over the phase")
     frequency: Hertz | None = Field(None, description="natural frequency of what the law moves")
-    damping: Damping | None = Field(None, description="its damping ratio; left out: 0")
+    damping: Damping | None = Field(None, description="its damping ratio; default: 0")
 
     @model_validator(mode="after")
     def _one_time(self) -> MotionLawSpec:

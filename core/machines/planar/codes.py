@@ -9,7 +9,7 @@ ASSEMBLY = Rule(
     "start far from what is found",
     "The direction of a link at input 0 is more than 45 deg off the rough one of `start`.",
     "The rough directions choose among the ways in which links can be put together: another one may be meant.",
-    "Give the direction that is found, or that of the assembly that is meant; look at the picture (--plot).",
+    "Give the direction that is found, or that of the assembly that is meant; look at the figure (--plot).",
     "difference of directions; warns above 45 deg",
     "own derivation",
     ("assembly",),

@@ -339,7 +339,7 @@ class Start:
 
     @cached_property
     def system(self) -> System:
-        """The equations with exact start values in place of meshes; unknowns as many as equations.
+        """The equations with exact start values instead of meshes; unknowns as many as equations.
 
         Raises
             NoSolution - key links or drive

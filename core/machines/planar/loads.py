@@ -77,7 +77,7 @@ class PlanarLoads(LoadsDesign):
         """The section `loads`, refused where it asks for what a pass over a range or a slide as drive has not."""
         if self.spec.drive.slide is not None:
             words = "`loads` is of a link that the input turns"
-            raise MissingSection(words, key="drive.slide", fix="drive a link in place of a slide")
+            raise MissingSection(words, key="drive.slide", fix="drive a link instead of a slide")
         found: Section | None = self.spec.loads
         if found is None:
             raise MissingSection(self._first_section(), key="loads")
@@ -85,11 +85,11 @@ class PlanarLoads(LoadsDesign):
             for key in ("flywheel", "motor", "vibration"):
                 if getattr(found, key) is not None:
                     words = f"over a range nothing repeats, so there is no {key}"
-                    raise MissingSection(words, key=f"loads.{key}", fix="leave it out, or range")
+                    raise MissingSection(words, key=f"loads.{key}", fix="omit it, or range")
             for name, bearing in found.bearings.items():
                 if bearing.life is not None:
                     words = "over a range nothing repeats, so there is no life"
-                    raise MissingSection(words, key=f"loads.bearings.{name}.life", fix="leave it out, or range")
+                    raise MissingSection(words, key=f"loads.bearings.{name}.life", fix="omit it, or range")
         return found
 
     @cached_property

@@ -13,5 +13,7 @@ class PlanarLoads(Loads):
     """Masses, forces and drive of a planar mechanism, by the names of its links."""
 
     links: Annotated[dict[str, Body], Field(max_length=100)] = Field(
-        {}, description="masses of the links by name, centres in their own coordinates; what is left out has none"
+        {},
+        description="masses of the links by name, centres in their own coordinates; a link without an entry has "
+        "no mass",
     )

@@ -49,7 +49,7 @@ class Slide(Spec):
     on: Name = Field(FRAME, description="frame, or the link on which it slides")
     through: Vector = Field(description="a point of the line, in coordinates of `on`")
     direction: Direction = Field(description="direction of the line in coordinates of `on`")
-    point: Name | None = Field(None, description="point of the link that runs on the line; left out: its first")
+    point: Name | None = Field(None, description="point of the link that runs on the line; default: its first")
     angle: Direction = Field(0.0, description="what the link's x axis leads the direction by")
 
 
@@ -68,7 +68,7 @@ class Teeth(Spec):
     gears: Annotated[list[Name], Field(min_length=2, max_length=2), Entries("[link, link]")] | None = Field(
         None, description="the links of the two gears; frame for one that is fixed"
     )
-    rack: Name | None = Field(None, description="the link of a rack, or frame; in place of gears")
+    rack: Name | None = Field(None, description="the link of a rack, or frame; instead of gears")
     pinion: Name | None = Field(None, description="the link of the pinion that meets the rack")
     at: Annotated[list[Name], Field(min_length=2, max_length=2), Entries("[point, point]")] | Name = Field(
         description="the centres of the gears; the centre of the pinion"
@@ -76,15 +76,13 @@ class Teeth(Spec):
     teeth: Annotated[list[TeethOrRing], Field(min_length=2, max_length=2), Entries("[z1, z2]")] | TeethOrRing = Field(
         description="teeth of the gears, negative for a ring; of the pinion"
     )
-    module: Length | None = Field(None, description="module; left out: twice the centre distance over the teeth's sum")
+    module: Length | None = Field(None, description="module; default: twice the centre distance over the teeth's sum")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     carrier: Name | None = Field(
-        None, description="the body that holds both centres; left out: the first that has both points"
+        None, description="the body that holds both centres; default: the first that has both points"
     )
     direction: Direction | None = Field(None, description="direction of the pitch line of the rack, in its coordinates")
-    side: Literal[1, -1] | None = Field(
-        None, description="1: the pinion stands to the left of the direction; -1: right"
-    )
+    side: Literal[1, -1] | None = Field(None, description="1: the pinion is to the left of the direction; -1: right")
 
     @model_validator(mode="after")
     def _one_sort(self) -> Teeth:
@@ -125,9 +123,9 @@ class Drive(Spec):
     """What is driven: a link that turns, or a slide."""
 
     link: Name | None = Field(None, description="the link that the input turns")
-    slide: Name | None = Field(None, description="the slide that the input moves, in place of link")
+    slide: Name | None = Field(None, description="the slide that the input moves, instead of link")
     others: Annotated[dict[Name, Number], Field(max_length=40)] = Field(
-        {}, alias="with", description="further drives, links or slides by name, and how far they move per input"
+        {}, alias="with", description="further drives, links or slides by name, and their travel per input"
     )
 
     @model_validator(mode="after")
@@ -162,7 +160,7 @@ class PlanarLimits(LoadLimits):
     transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle of a dyad")
     gear_gap: SignedLength = Field(0.0, description="minimum gap between gears that do not mesh")
     least_shaft: Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})] | None = Field(
-        None, description="minimum radius for a shaft where none is given; left out: one module"
+        None, description="minimum radius for a shaft where none is given; default: one module"
     )
 
 
@@ -183,12 +181,12 @@ class PlanarSpec(TolerancedSpec):
     drive: Drive
     start: Annotated[dict[Name, Place], Field(max_length=2 * MOST_LINKS)] = Field(
         {},
-        description="directions of the links [deg] and places of slides [mm] at input 0: exact of what is driven or "
+        description="directions of the links [deg] and positions of slides [mm] at input 0: exact of what is driven or "
         "tied by a mesh, rough of all others, where they choose the assembly",
     )
-    range: Range | None = Field(None, description="inputs, where the input swings; left out: it turns")
+    range: Range | None = Field(None, description="inputs, where the input swings; default: it turns")
     outputs: Annotated[list[Name], Field(min_length=1, max_length=100)] | None = Field(
-        None, description="links, slides, slots and points that are looked at; left out: all other links, then slides"
+        None, description="links, slides, slots and points that are looked at; default: all other links, then slides"
     )
     input_speed: Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="speed of the input, of a slide in mm/s: with it real speeds and times are given"

@@ -206,10 +206,10 @@ class Structure:
             raise NoSolution(
                 (
                     f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {distance:.6g} "
-                    "mm, their base circles alone ask for more"
+                    "mm, their base circles alone specify more"
                 ),
                 key=f"meshes.{name}.module",
-                fix=f"take module {2.0 * distance / abs(z1 + z2):.6g} mm, or leave it out",
+                fix=f"take module {2.0 * distance / abs(z1 + z2):.6g} mm, or omit it",
             )
         tangent = math.sqrt(1.0 - cosine * cosine) / cosine
         radii = distance * z1 / (z1 + z2), distance * z2 / (z1 + z2)

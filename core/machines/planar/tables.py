@@ -112,7 +112,7 @@ def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     columns: dict[str, tuple[Any, str]] = {table.columns[0]: (table.data[0], table.units[0])}
     q = _in_rad(design, table.data[0])
     for name in design.structure.names[1:]:
-        # Two numbers in place of a number and its derivative: both take the first derivatives of the link.
+        # Two numbers instead of a number and its derivative: both take the first derivatives of the link.
         both = Course("mm", lambda links, name=name: [pole(links, name).real, pole(links, name).imag])  # type: ignore[misc]
         x, y = both.rates(design.moving, q, 1)
         columns |= {f"{name}_pole_x": (x, "mm"), f"{name}_pole_y": (y, "mm")}

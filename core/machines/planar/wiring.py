@@ -145,7 +145,7 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
         words = f"no body has both points {' and '.join(mesh.at)}, so nothing holds the gears at their distance"
         yield "GL111", f"{key}.at", f"{words}: add a link between them"
     elif spec.bodies[holder][mesh.at[0]] == spec.bodies[holder][mesh.at[1]]:
-        yield "GL111", f"{key}.at", "the centres of the gears are one place: move one of them"
+        yield "GL111", f"{key}.at", "the centres of the gears coincide: move one of them"
 
 
 def _drives(spec: PlanarSpec) -> Iterator[Fault]:
@@ -155,15 +155,15 @@ def _drives(spec: PlanarSpec) -> Iterator[Fault]:
     if drive.slide is not None and drive.slide not in spec.slides:
         yield "GL111", "drive.slide", f"no slide is called {named(drive.slide)}: {_near(drive.slide, spec.slides)}"
     if drive.link in spec.slid:
-        yield "GL111", "drive.link", f"{drive.link} slides: give slide: {spec.slid[drive.link]} in place of link"
+        yield "GL111", "drive.link", f"{drive.link} slides: give slide: {spec.slid[drive.link]} instead of link"
     for name in drive.others:
         key, known = f"drive.with.{name}", [*spec.links, *spec.slides]
         if name not in known:
             yield "GL111", key, f"no link or slide is called {named(name)}: {_near(name, known)}"
         if name in spec.slid:
-            yield "GL111", key, f"{name} slides: name its slide {spec.slid[name]} in place of the link"
+            yield "GL111", key, f"{name} slides: name its slide {spec.slid[name]} instead of the link"
         if name == drive.main:
-            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1: leave it out"
+            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1: omit it"
     if drive.slide is not None and spec.range is None:
         words = "a slide as drive needs a range: {start, end} (mm), since nothing repeats"
         yield "GL106", "range", words
@@ -173,7 +173,7 @@ def _starts(spec: PlanarSpec) -> Iterator[Fault]:
     known = [*(name for name in spec.links if name not in spec.slid), *spec.slides]
     for name in spec.start:
         if name in spec.slid:
-            yield "GL111", f"start.{name}", f"{name} slides: give the place of {spec.slid[name]}, or leave it out"
+            yield "GL111", f"start.{name}", f"{name} slides: give the position of {spec.slid[name]}, or omit it"
         if name not in known:
             yield "GL111", f"start.{name}", f"no link or slide is called {named(name)}: {_near(name, known)}"
     given = {spec.drive.main, *spec.drive.others, *tied(spec).values(), *spec.start, *spec.slid}
@@ -215,12 +215,12 @@ def _outputs(spec: PlanarSpec) -> Iterator[Fault]:
             words = f"no link, slide, slot or point of a link is called {named(name)}: {_near(name, known)}"
             yield "GL111", f"outputs[{k}]", words
         if name in (spec.outputs or ())[:k]:
-            yield "GL111", f"outputs[{k}]", f"{name} stands here twice: leave one out"
+            yield "GL111", f"outputs[{k}]", f"{name} is listed twice: omit one"
     for name in spec.shafts:
         point, _, rest = name.rpartition("_")
         if rest != "radius" or point not in spec.frame:
             shafts = [f"{each}_radius" for each in spec.frame]
-            yield "GL111", f"shafts.{name}", f"a shaft stands at a point of the frame: {_near(name, shafts)}"
+            yield "GL111", f"shafts.{name}", f"a shaft is at a point of the frame: {_near(name, shafts)}"
 
 
 def _hanging(spec: PlanarSpec) -> Iterator[Fault]:

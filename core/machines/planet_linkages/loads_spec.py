@@ -21,6 +21,6 @@ class PlanetLoads(Loads):
     """Masses, forces and drive of a four-bar with a gear on its coupler."""
 
     links: PlanetMasses = Field(
-        PlanetMasses.model_construct(), description="masses of the links; what is left out has none"
+        PlanetMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
     balance: Balance | None = None

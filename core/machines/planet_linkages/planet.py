@@ -114,7 +114,7 @@ class PlanetLinkage:
         return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
     def mean_ratio(self) -> float:
-        """Net output turns per crank turn.
+        """Net output revolutions per crank revolution.
 
         Crank carries: 1 - i in a crank-rocker, 1 in a drag link. Rocker carries: 0 in a crank-rocker, 1 in a drag link.
 

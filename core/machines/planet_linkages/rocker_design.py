@@ -142,7 +142,7 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
             f"no crank gives a swing of {math.degrees(swing):.6g} deg: with these links and gears the "
             f"output reaches {math.floor(reach * 10.0) / 10.0:g} deg at most"
         ),
-        fix=f"ask for less, or take more teeth on the coupler gear (now z2/z5 = {abs(ratio):.6g})",
+        fix=f"specify less, or take more teeth on the coupler gear (now z2/z5 = {abs(ratio):.6g})",
     )
 
 
@@ -156,7 +156,7 @@ def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -
     if (over := excess(crank)) >= 0.0:
         raise NoSolution(
             f"a swing of {math.degrees(swing):.6g} deg is next to a standstill",
-            fix=f"ask for {safely_above(math.degrees(over + swing), 3)} deg or more",
+            fix=f"specify {safely_above(math.degrees(over + swing), 3)} deg or more",
         )
     return crank
 
@@ -238,7 +238,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         return _CRANK if self.spec.target is not None and "crank_length" in self.__dict__ else 1.5
 
     def completion(self) -> Iterator[Found]:
-        """The crank in place of the target."""
+        """The crank instead of the target."""
         if self.spec.target is not None:
             yield Found("links.crank", self.crank_length, "found for target.swing")
             yield Found("target", None)
@@ -248,7 +248,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         from gearlink.core.base.candidates import Sought, around, nothing_sought, pairs, table
 
         if self.spec.target is None:
-            raise nothing_sought("give target: {swing} in place of links.crank")
+            raise nothing_sought("give target: {swing} instead of links.crank")
         keys = {"gears.coupler": ("coupler_gear_teeth", "1"), "gears.output": ("output_teeth", "1")}
         gears = self.spec.gears
         outputs = sorted({max(1, round(share * gears.output)) for share in (0.85, 1.0, 1.2)})
@@ -307,7 +307,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
             raise NoSolution(
                 f"rocker {given:.6g} mm is not the centre distance of the gears, {rocker:.6g} mm",
                 key="links.rocker",
-                fix="leave it out, or change module or teeth",
+                fix="omit it, or change module or teeth",
             )
         with at_key("links"):
             linkage = FourBar(self.crank_length, links.coupler, rocker, links.frame, self.spec.assembly)

@@ -26,9 +26,9 @@ class RockerGears(TrainKeys):
 class RockerLinks(Spec):
     """The links that the gears do not fix."""
 
-    crank: Length | None = Field(None, description="crank AB; left out: found from target.swing")
+    crank: Length | None = Field(None, description="crank AB; default: found from target.swing")
     coupler: Length = Field(description="coupler BC")
-    rocker: Length | None = Field(None, description="rocker CD; left out: the centre distance of the gears")
+    rocker: Length | None = Field(None, description="rocker CD; default: the centre distance of the gears")
     frame: Length = Field(description="frame AD")
 
 
@@ -50,7 +50,8 @@ class GearedRockerSpec(DrivenSpec):
     target: SwingTarget | None = None
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: Annotated[Any, Deferred("parts.linkages.spec_sections:PivotShafts")] | None = Field(
-        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+        None,
+        description="shafts of the frame through the plane of the gears; a shaft without an entry may end before it",
     )
     loads: Annotated[Any, Deferred("machines.planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

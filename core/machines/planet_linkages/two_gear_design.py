@@ -164,7 +164,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         return 40.0 if self.__dict__.get("always") else 13.5
 
     def completion(self) -> Iterator[Found]:
-        """The frame in place of the task."""
+        """The frame instead of the task."""
         if self.seeks:
             synthesis = next(command for command in self.outlines if command.startswith("synth"))
             yield Found("links.frame", self.frame_length, f"found by {synthesis}")
@@ -213,7 +213,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         """The four-bar, with the frame that meets the task of a synthesis."""
         frame = self.spec.links.frame
         if self.seeks and frame is not None:
-            raise NoSolution("links.frame is what this command seeks", key="links.frame", fix="leave it out")
+            raise NoSolution("links.frame is what this command seeks", key="links.frame", fix="omit it")
         return self.linkage_of(self.sought_frame() if frame is None else frame)
 
     def sought_frame(self) -> float:
@@ -250,7 +250,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
             raise NoSolution(
                 f"crank {given:.6g} mm is not the centre distance of the gears, {crank:.6g} mm",
                 key="links.crank",
-                fix="leave it out, or change module or teeth",
+                fix="omit it, or change module or teeth",
             )
         return crank
 

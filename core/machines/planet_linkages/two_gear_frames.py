@@ -78,7 +78,7 @@ def frame_range(family: Family) -> tuple[float, float]:
         if not a < min(b, c):
             raise NoSolution(
                 (
-                    f"with a ring gear the output stands still in a crank-rocker alone: the crank, {a:.6g} mm "
+                    f"with a ring gear the output stops in a crank-rocker alone: the crank, {a:.6g} mm "
                     "by the gears, must be shorter than coupler and rocker"
                 ),
                 key="links.coupler" if b <= c else "links.rocker",
@@ -89,7 +89,7 @@ def frame_range(family: Family) -> tuple[float, float]:
     high = math.fsum((a, b, c, -2.0 * longest))
     if high <= 0.0:
         raise NoSolution(
-            f"with a sun the output stands still in a drag link alone, the frame its shortest link; with crank "
+            f"with a sun the output stops in a drag link alone, the frame its shortest link; with crank "
             f"{a:.6g} (by the gears), coupler {b:.6g} and rocker {c:.6g} mm there is none: the longest must be "
             f"shorter than the other two together, {a + b + c - longest:.6g} mm",
             key="links.rocker" if c == longest else "links.coupler",
@@ -155,7 +155,7 @@ def beyond_reach(what: str, most: float, drive: PlanetLinkage) -> str:
     angle = math.degrees(drive.linkage.min_transmission_angle())
     return (
         f"{what} is more than these gears and links reach, {safely_below(math.degrees(most))} deg, and that with a "
-        f"transmission angle of {angle:.3g} deg; ask for less"
+        f"transmission angle of {angle:.3g} deg; specify less"
     )
 
 
@@ -168,7 +168,7 @@ def never(family: Family) -> str:
     if not family.ring:
         reach = max(t.value for t in coupler_turnings(family.drive(high - margin))) - 1.0
         return (
-            f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
+            f"with {limits} the output never stops: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
             "with links of these lengths; take fewer teeth on the sun or more on the planet"
         )
     reach, least = (
@@ -180,7 +180,7 @@ def never(family: Family) -> str:
             f"must be above {safely_above(least)} with links of these lengths; take more teeth on the ring gear"
         )
     return (
-        f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} with "
+        f"with {limits} the output never stops: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} with "
         "links of these lengths; take fewer teeth on the ring gear or more on the planet"
     )
 

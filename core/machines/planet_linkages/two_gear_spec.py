@@ -19,9 +19,9 @@ class PlanetGears(TrainKeys):
     module: Length = Field(description="module")
     planet: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at B")
     sun: Teeth | None = Field(None, description="teeth z5 of an external output gear on A")
-    ring: Teeth | None = Field(None, description="teeth z5 of an internal output gear on A, in place of sun")
+    ring: Teeth | None = Field(None, description="teeth z5 of an internal output gear on A, instead of sun")
     rim: Length | None = Field(
-        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+        None, description="outer radius of the ring gear; default: 2 modules outside its root circle"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
@@ -52,26 +52,26 @@ class PlanetGears(TrainKeys):
 class TwoGearLinks(Spec):
     """The links that the gears do not fix."""
 
-    crank: Length | None = Field(None, description="crank AB; left out: the centre distance of the gears")
+    crank: Length | None = Field(None, description="crank AB; default: the centre distance of the gears")
     coupler: Length = Field(description="coupler BC")
     rocker: Length = Field(description="rocker CD")
-    frame: Length | None = Field(None, description="frame AD; left out where a synthesis seeks it")
+    frame: Length | None = Field(None, description="frame AD; not given if the synthesis determines it")
 
 
 class StandingDwell(DwellBand):
-    """Asked of `synth dwell`: a crank angle over which the output stays within a tolerance; the frame is sought."""
+    """Specification for `synth dwell`: crank angle over which the output stays within a tolerance; gives the frame."""
 
     @model_validator(mode="after")
     def _one_request(self) -> StandingDwell:
         if self.window is None and self.tolerance is None:
             raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
         if self.margin is not None and self.window is not None:
-            raise PydanticCustomError("GL111", "margin goes with tolerance alone\nleave it out", {"key": "margin"})
+            raise PydanticCustomError("GL111", "margin goes with tolerance alone\nomit it", {"key": "margin"})
         return self
 
 
 class BackStepAngle(Spec):
-    """Asked of `synth back-step`; the frame is sought."""
+    """Specification for `synth back-step`; the frame is sought."""
 
     angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
         description="back-step of the output"
@@ -105,7 +105,8 @@ class TwoGearFourBarSpec(DrivenSpec):
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: Annotated[Any, Deferred("parts.linkages.spec_sections:PivotShafts")] | None = Field(
-        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+        None,
+        description="shafts of the frame through the plane of the gears; a shaft without an entry may end before it",
     )
     loads: Annotated[Any, Deferred("machines.planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

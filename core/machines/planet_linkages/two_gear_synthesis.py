@@ -124,7 +124,7 @@ class BackStepSynthesis(TwoGearFourBar):
                     f"{words} is less than the minimum of crank-rockers with these gears and links, {limit} "
                     "deg: their output steps back with every frame"
                 ),
-                fix="ask for more, or take more teeth on the ring gear",
+                fix="specify more, or take more teeth on the ring gear",
             )
         frames = always.with_step(angle)
         if not frames:
@@ -270,7 +270,8 @@ class DwellSynthesis(TwoGearFourBar):
             raise NoSolution(
                 f"a band of +-{math.degrees(band):.6g} deg holds the output over the whole revolution: the "
                 f"tolerance must be "
-                f"below {safely_below(180.0 * self._mean)} deg, half of what the output gains in a turn of the crank",
+                f"below {safely_below(180.0 * self._mean)} deg, half of what the output gains in a revolution "
+                f"of the crank",
                 key="dwell.tolerance",
             )
 
@@ -279,7 +280,7 @@ class DwellSynthesis(TwoGearFourBar):
         if band is not None and self._mean * window <= 2.0 * band:
             raise NoSolution(
                 (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
-                fix="ask for a longer window or a smaller tolerance",
+                fix="specify a longer window or a smaller tolerance",
             )
 
     def _refuse_long_window(self, window: float) -> None:
@@ -293,7 +294,7 @@ class DwellSynthesis(TwoGearFourBar):
                 f"{self._request.window:g} deg with these gears and links: at most over "
                 f"{safely_below(math.degrees(longest))} deg{self._there()}"
             ),
-            fix="ask for that",
+            fix="specify that",
         )
 
     def _refuse_narrow_band(self, least: float) -> None:
@@ -307,7 +308,7 @@ class DwellSynthesis(TwoGearFourBar):
                 f"{self._request.window:g} deg with these gears and links: at most over {longest} deg{self._there()}, "
                 f"or within +-{safely_above(math.degrees(least))} deg"
             ),
-            fix="ask for one of these",
+            fix="specify one of these",
         )
 
     def _there(self) -> str:

@@ -163,7 +163,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
             for k, mesh in enumerate(meshes):
                 link, distance = LINKS[(train.first_pin + k + 1) % 6], abs(mesh.center_distance)
                 known = carried.setdefault(link, (distance, f"trains[{i}]"))[0]
-                self._require_equal(link, known, distance, f"trains[{i}].gears", "the train before asks for")
+                self._require_equal(link, known, distance, f"trains[{i}].gears", "the train before requires")
         return tuple(self._length(name, carried.get(name)) for name in LINKS)
 
     def _length(self, name: str, carried: tuple[float, str] | None) -> float:
@@ -178,7 +178,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     def _require_equal(name: str, one: float, other: float, key: str, why: str) -> None:
         if abs(one - other) > _LINK_TOLERANCE * one:
             message = f"{name} would be {other:.9g} mm, {why} {one:.9g} mm"
-            raise NoSolution(message, key=key, fix="leave one out, or change module or teeth")
+            raise NoSolution(message, key=key, fix="omit one, or change module or teeth")
 
     input_length: float = placed("lengths.1")
 
@@ -495,9 +495,7 @@ def _between(f: Function, low: Reals, high: Reals, ends: tuple[Reals, Reals]) ->
     found = bracketed_roots(f, low, high, ends=ends)
     if np.isnan(found).any():
         at = float(np.degrees(low[np.isnan(found)][0]))
-        raise NoSolution(
-            f"the six-bar has no rates next to the input angle {at:.6g} deg: it stands in a dead centre there"
-        )
+        raise NoSolution(f"the six-bar has no rates next to the input angle {at:.6g} deg: it is in a dead centre there")
     return [float(x) for x in found]
 
 

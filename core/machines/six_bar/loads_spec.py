@@ -34,5 +34,5 @@ class SixBarLoads(Loads):
     """Masses, forces and drive of a geared six-bar."""
 
     links: SixBarMasses = Field(
-        SixBarMasses.model_construct(), description="masses of the links; what is left out has none"
+        SixBarMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )

@@ -43,7 +43,7 @@ class SixTrain(Spec):
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     rim: Length | None = Field(
-        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+        None, description="outer radius of the ring gear; default: 2 modules outside its root circle"
     )
 
     @property
@@ -96,7 +96,7 @@ class SixStart(Spec):
 
 
 class SixShafts(Spec):
-    """Shafts of the frame that pass through the planes of the gears; one that is left out may end before them."""
+    """Shafts of the frame that pass through the planes of the gears; a shaft without an entry may end before them."""
 
     A_radius: Length | None = Field(None, description="radius of the input shaft at A")
     F_radius: Length | None = Field(None, description="radius of the output shaft at F")
@@ -117,7 +117,9 @@ class GearedSixBarSpec(DrivenSpec):
         "against its direction in start), the first points left of the second; -1: right",
     )
     range: InputRange | None = Field(
-        None, description="input angles, where the input swings; left out: it turns until all is back in place"
+        None,
+        description="input angles, where the input swings; default: it turns until all links are back in their "
+        "starting positions",
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: SixShafts | None = None

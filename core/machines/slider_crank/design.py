@@ -98,7 +98,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         from gearlink.core.base.candidates import Sought, nothing_sought, pairs, table
 
         if self.spec.crank is not None or self.spec.rod is None or self.spec.quick_return_ratio is not None:
-            raise nothing_sought("give stroke and rod in place of crank")
+            raise nothing_sought("give stroke and rod instead of crank")
         rod, offset = self.spec.rod, self.spec.offset
         rods = [round(share * rod, 6) for share in (0.7, 0.85, 1.0, 1.2, 1.5)]
         keys = {"rod": ("rod", "mm"), "offset": ("offset", "mm")}
@@ -171,7 +171,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         return found._replace(quantities=(*found.quantities, "min_transmission_angle"))
 
     def completion(self) -> Iterator[Found]:
-        """Rod and offset, and the crank where it is given, in place of the time ratio."""
+        """Rod and offset, and the crank where it is given, instead of the time ratio."""
         if self._found:
             part = self.slider_crank
             if self.spec.rod is None:

@@ -32,6 +32,6 @@ class SliderCrankLoads(Loads):
     """Masses, forces and drive of a slider-crank."""
 
     links: SliderCrankMasses = Field(
-        SliderCrankMasses.model_construct(), description="masses of the links; what is left out has none"
+        SliderCrankMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
     balance: SliderCrankBalance | None = None

@@ -70,7 +70,7 @@ def _best(half: float, p: float, ratio: float) -> QuickReturn:
     """
     if ratio >= 3.0:
         raise NoSolution(
-            f"no slider-crank has a time ratio of {ratio:g}", key="quick_return_ratio", fix="ask for less than 3"
+            f"no slider-crank has a time ratio of {ratio:g}", key="quick_return_ratio", fix="specify less than 3"
         )
     sine, cosine = math.sin(p), math.cos(p)
     g = 0.5 * sine * (sine + math.hypot(sine, 2.0))
@@ -88,7 +88,7 @@ def _require_within(key: str, length: float, low: float, high: float, ratio: flo
     if low < length < high:
         return
     if not low < high:
-        text, fix = f"no {key} gives a time ratio of {ratio:g}, a slider-crank reaches less than 3", "ask for less"
+        text, fix = f"no {key} gives a time ratio of {ratio:g}, a slider-crank reaches less than 3", "specify less"
     elif length >= high:
         text, fix = f"{key} {length:g} mm is too long for this stroke and ratio", f"stay below {safely_below(high)} mm"
     else:

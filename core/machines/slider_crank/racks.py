@@ -32,7 +32,7 @@ class Racks(PairKeys):
     moving: Teeth = Field(description="teeth of the pinion on the moving rack")
     side: Literal["opposite", "same"] = Field(
         "opposite",
-        description="where the moving rack lies, seen from the pinion: opposite the fixed one, or beside it",
+        description="where the moving rack lies, seen from the pinion: opposite the fixed one, or next to it",
     )
 
     @model_validator(mode="after")

@@ -40,9 +40,11 @@ class SliderCrankSpec(DrivenSpec):
 
     kind: Literal["slider-crank"]
     stroke: Length | None = Field(None, description="stroke of the slider")
-    crank: Length | None = Field(None, description="crank, in place of stroke; beside it with quick_return_ratio")
+    crank: Length | None = Field(
+        None, description="crank, instead of stroke; in addition to it with quick_return_ratio"
+    )
     quick_return_ratio: Annotated[float, Field(ge=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="slow over fast stroke in time: the offset is found for it, and the rod where it is left out"
+        None, description="slow over fast stroke in time: the offset is found for it, and the rod if it is not given"
     )
     rod: Annotated[Length | None, AfterValidator(_given_or_found)] = Field(
         None, validate_default=True, description="connecting rod"
@@ -65,10 +67,10 @@ class SliderCrankSpec(DrivenSpec):
             message = "quick_return_ratio goes with stroke: give it"
             raise PydanticCustomError("GL106", message, {"key": "stroke"})
         if "offset" in self.model_fields_set:
-            message = "the offset is found for quick_return_ratio: leave it out"
+            message = "the offset is found for quick_return_ratio: omit it"
             raise PydanticCustomError("GL111", message, {"key": "offset"})
         if self.rod is not None and self.crank is not None:
-            message = "stroke and quick_return_ratio leave one of rod and crank free: leave crank out"
+            message = "stroke and quick_return_ratio leave one of rod and crank free: omit crank"
             raise PydanticCustomError("GL111", message, {"key": "crank"})
         return self
 
@@ -78,7 +80,7 @@ class SliderCrankSpec(DrivenSpec):
             return self
         if (self.stroke is None) == (self.crank is None):
             if self.stroke is None:
-                raise PydanticCustomError("GL106", "give stroke, or crank in its place", {"key": "stroke"})
+                raise PydanticCustomError("GL106", "give stroke, or crank instead", {"key": "stroke"})
             raise PydanticCustomError("GL111", "stroke and crank exclude each other\ngive one", {"key": "crank"})
         return self
 

@@ -23,7 +23,7 @@ PHASE_ALLOTMENT = Rule(
     "GL420",
     "return too short for its phase accelerate",
     "The peak acceleration of the return is more than limits.return_acceleration times that of the phase accelerate; "
-    "judged only with that limit.",
+    "checked only with that limit.",
     "The short return lifts rollers and shakes the machine while the sheet's own way is gentle.",
     "Lengthen phases.return at the cost of accelerate or near_dwell; or leave out accelerate, decelerate, return and "
     "give phases.balance, the ratio itself.",
@@ -38,7 +38,7 @@ STOP_SETTLING = Rule(
     "arm still bouncing on its stop",
     "The return and the rebounds on the stop end after the turn is over; or less than a quarter of the near dwell is "
     "left (a warning).",
-    "Grippers that still move when they bite take the sheet askew.",
+    "Grippers that still move when they close take the sheet askew.",
     "Lower the restitution (a damped stop) or the clearance, make the return end softly, or raise the spring's torque.",
     "360 - impact angle - settling angle >= 0; warns below a quarter of the near dwell",
     "own derivation; swing-gripper paper 2 names the stop",
@@ -61,13 +61,13 @@ HANDOVER = Rule(
     "handover at unequal speeds",
     "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the "
     "cylinder's own shaft turns it with cam.sense, which must be against the gripper's swing. Or the tip "
-    "stands farther off its place on the line of centres than limits.handover_place, or than 1 mm where that allows "
+    "is farther from its position on the line of centres than limits.handover_place, or than 1 mm where that allows "
     "more (a warning).",
     "The sheet is torn, or loses its register.",
     "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder; turn "
-    "arm.direction or move cylinder.center until the tip stands on the line of centres.",
+    "arm.direction or move cylinder.center until the tip is on the line of centres.",
     "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one "
-    "axis; tip off its place <= limits.handover_place",
+    "axis; distance of the tip from its position <= limits.handover_place",
     "swing-gripper paper 2",
     ("handover",),
     ("handover", "cam.sense"),

@@ -246,7 +246,7 @@ class GripperCams(DiscCams):
 
     @property
     def main_arm(self) -> complex:
-        """Direction of the main roller's arm at the bite."""
+        """Direction of the main roller's arm at the pick-up position."""
         import cmath
 
         import numpy as np
@@ -700,7 +700,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     return_cam: DiscCam | None = placed("cams.return_cam")
 
     def completion(self) -> Iterator[Found]:
-        """The cam's axis in place of the rule that chose it; one that no rule finds stays asked for."""
+        """The cam's axis instead of the rule that chose it; one that no rule finds stays asked for."""
         if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.center is None:
             with suppress(NoSolution):
                 center = self.cam_center

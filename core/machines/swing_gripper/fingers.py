@@ -43,7 +43,7 @@ class FingerCam:
     @property
     def section(self) -> FingerSection:
         """The section `fingers` of the design file."""
-        assert self.spec.fingers is not None, "asked for only where the file has it"
+        assert self.spec.fingers is not None, "needed only where the file has it"
         return self.spec.fingers
 
     @cached_property

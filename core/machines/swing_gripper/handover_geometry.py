@@ -105,7 +105,7 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
     if gap >= 2.0 * arm:
         raise NoSolution(
             f"no turn takes the tip {gap:.6g} mm off the pitch circle",
-            fix=f"ask for less than {safely_below(2.0 * arm)} mm",
+            fix=f"specify less than {safely_below(2.0 * arm)} mm",
         )
     square = gap * (2.0 * radius + gap) / (4.0 * arm * (arm + radius))
     return 2.0 * math.asin(math.sqrt(square)) * arm / radius

@@ -57,7 +57,7 @@ class GripperLinkage:
         law : SixPhaseLaw
         input_pivot, output_pivot : complex [mm] - A and E
         input, coupler, output : float [mm] - AC, CD, ED
-        output_direction : float [rad] - of ED at the bite
+        output_direction : float [rad] - of ED at the pick-up position
         swing_sense : +1 or -1 - sense of the working stroke
         assembly : +1 or -1 - sign of sin(input angle - coupler angle)
     Source
@@ -114,12 +114,12 @@ class GripperLinkage:
 
     @property
     def output_shift(self) -> float:
-        """Whole turns that bring the direction of ED at the bite into the first one, (-pi, pi]."""
+        """Whole turns that bring the direction of ED at the pick-up position into the first one, (-pi, pi]."""
         return _into_first_turn(self.output_direction)
 
     @cached_property
     def _shifts(self) -> tuple[float, float]:
-        """What turns the directions of AC and CD into the machine's frame, at the bite in the first turn.
+        """What turns the directions of AC and CD into the machine's frame, at the pick-up position in the first turn.
 
         From the bite, not from the first of the angles that are asked for: a part of a turn is part of the same motion.
         """

@@ -125,7 +125,7 @@ class GripperLoads(CamLoadsDesign):
 
     def _cam(self, name: str) -> DiscCam:
         cam = self.design.main_cam if name == "main" else self.design.return_cam
-        assert cam is not None, "asked for only where the file has it"
+        assert cam is not None, "needed only where the file has it"
         return cam
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:

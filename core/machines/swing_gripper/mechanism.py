@@ -43,7 +43,7 @@ def without_cams(design: SwingGripper) -> Motion:
 
 
 def rocker_too(design: SwingGripper) -> Motion:
-    """The motion of the linkage alone with both outputs: the arm, and the cam rocker from where it is at the bite."""
+    """Motion of the linkage alone with both outputs: the arm, and the cam rocker from the pick-up position."""
     found = without_cams(design)
     start = float(design.linkage.motion(np.zeros(1), 0).input_angle[0])
     rocker = found.outputs[0]._replace(name="Cam rocker AC", course=turned("input").less(start))
@@ -103,7 +103,7 @@ def links_of(linkage: GripperLinkage, phi: Reals, order: int, arm: complex = 0j)
 
     Parameters
         phi : (N,) array [rad] - of the cylinder
-        arm : complex [mm] - EF at the bite
+        arm : complex [mm] - EF at the pick-up position
     Source
         swing-gripper paper (4), (5)
     """

@@ -65,7 +65,7 @@ class Motion:
                 f"handover outside the constant-speed phase: {self.spec.handover:g} deg (balanced: {start:.6g} to "
                 f"{end:.6g} deg)",
                 key="handover",
-                fix="leave it out for the middle of the phase",
+                fix="omit it for the middle of the phase",
             )
         return found
 

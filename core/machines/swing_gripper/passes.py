@@ -148,7 +148,7 @@ class Passes:
 
     @property
     def _rocker(self) -> complex:
-        """Direction of AC at the bite."""
+        """Direction of AC at the pick-up position."""
         return cmath.rect(1.0, float(self._ends[0]))
 
     @property

@@ -36,14 +36,14 @@ class Cylinder(Spec):
     """The cylinder that takes the sheet over."""
 
     radius: Length = Field(description="radius R of the cylinder")
-    center: Point | None = Field(None, description="its axis; left out: the axis that fits is reported")
+    center: Point | None = Field(None, description="its axis; default: the axis that fits is reported")
 
 
 class Arm(Spec):
     """The gripper arm EF, rigid with the output link ED."""
 
     length: Length = Field(description="EF")
-    direction: Angle = Field(description="direction of EF at the bite")
+    direction: Angle = Field(description="direction of EF at the pick-up position")
 
 
 class Links(Spec):
@@ -64,12 +64,14 @@ class Pivots(Spec):
 class Phases(Spec):
     """The six phases of a revolution: they add up to 360 deg; one may be omitted; or three are sized by balance."""
 
-    accelerate: Phase | None = Field(None, description="from the bite to the constant speed")
+    accelerate: Phase | None = Field(None, description="from the pick-up to the constant speed")
     constant: Phase | None = Field(None, description="at the speed of the cylinder; the handover lies in it")
     decelerate: Phase | None = Field(None, description="to the far dwell")
     far_dwell: Phase | None = Field(None, description="rest at the far end")
-    return_: Phase | None = Field(None, alias="return", description="back to the bite")
-    near_dwell: Phase | None = Field(None, description="rest at the bite; any one phase left out takes the rest")
+    return_: Phase | None = Field(None, alias="return", description="back to the pick-up position")
+    near_dwell: Phase | None = Field(
+        None, description="rest at the pick-up position; one phase without a value takes the remaining angle"
+    )
     balance: Annotated[float, Field(ge=0.01, le=100, json_schema_extra={"unit": "1"})] | None = Field(
         None,
         description="sizes accelerate, decelerate and return: peak acceleration of the return over theirs, which are "
@@ -163,7 +165,7 @@ class Roller(Spec):
 class GripperCam(Spec):
     """The cam pair on the cylinder's shaft."""
 
-    center: Point | None = Field(None, description="cam axis; left out: chosen by the section `size`")
+    center: Point | None = Field(None, description="cam axis; default: chosen by the section `size`")
     sense: Assembly = Field(description="+1: cam turns counter-clockwise; -1: clockwise")
     roller: Roller
     return_roller: Roller | None = None
@@ -171,7 +173,7 @@ class GripperCam(Spec):
 
 
 class Size(Spec):
-    """How a cam centre that is left out is chosen: the smallest cam for a pressure angle."""
+    """Choice of a cam centre that is not given: the smallest cam for a pressure angle."""
 
     pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
         description="pressure angle that no roller exceeds"
@@ -328,14 +330,14 @@ class SwingGripperSpec(TolerancedSpec):
     arm: Arm
     links: Links
     pivots: Pivots
-    output_direction: Angle = Field(description="direction of ED at the bite")
+    output_direction: Angle = Field(description="direction of ED at the pick-up position")
     swing_sense: Assembly = Field(description="-1: the working stroke turns clockwise")
     assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
     phases: Phases
     handover: Phase | None = Field(
-        None, description="cylinder angle of the handover; left out: the middle of the phase constant"
+        None, description="cylinder angle of the handover; default: the middle of the phase constant"
     )
-    total_swing: Phase | None = Field(None, description="stated swing: refused where law and phases give another")
+    total_swing: Phase | None = Field(None, description="stated swing: rejected if law and phases give another")
     release: Release | None = None
     laws: Laws = Laws.model_construct()
     cam: GripperCam | None = None

@@ -39,12 +39,12 @@ class Stop:
     @property
     def section(self) -> ArmStop:
         """The section `stop` of the design file."""
-        assert self.spec.stop is not None, "asked for only where the file has it"
+        assert self.spec.stop is not None, "needed only where the file has it"
         return self.spec.stop
 
     @cached_property
     def _ratios(self) -> tuple[float, float]:
-        """Speeds of cam rocker and coupler over that of the arm at the bite, signed."""
+        """Speeds of cam rocker and coupler over that of the arm at the pick-up position, signed."""
         state = self.motion.linkage.ratios(np.zeros(1))
         return float(state.crank_velocity[0]), float(state.coupler_velocity[0])
 
@@ -69,7 +69,7 @@ class Stop:
 
     @property
     def tip_offset(self) -> float:
-        """Way of the tip from the bite as computed to where it rests [mm]."""
+        """Way of the tip from the pick-up position as computed to where it rests [mm]."""
         return self.spec.arm.length * self.angle
 
     @cached_property

@@ -254,7 +254,7 @@ class DriveSamples:
 
     @cached_property
     def dwell_angle(self) -> Reals:
-        """Crank angle until the output regains its place [rad]."""
+        """Crank angle until the output is back at its starting position [rad]."""
         found, some = np.full(self.count, np.nan), np.flatnonzero(self.turns_back)
         first, width = self.standstills[0][some], self.back_step_crank_angle[some]
         found[some] = sweep.dwell_angle(first, width, self.drives.part(some))

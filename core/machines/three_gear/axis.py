@@ -129,7 +129,7 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
 
 
 def _batch_of(spec: Any, command: str) -> type[Batch]:
-    """What computes the designs of a task: a dwell may ask for a window in place of an angle."""
+    """What computes the designs of a task: a dwell may ask for a window instead of an angle."""
     by_window = command == "synth dwell" and spec.dwell is not None and spec.dwell.angle is None
     return Windows if by_window else _TASKS[command][1]
 

@@ -223,7 +223,7 @@ class Batch:
 
     @cached_property
     def mean_ratio(self) -> Reals:
-        """Net output turns per crank turn."""
+        """Net output revolutions per crank revolution."""
         return np.where(self.links[0] > self.links[1], 1.0, self.z1 / self.z5)
 
     @cached_property

@@ -9,11 +9,11 @@ from gearlink.core.base.report import Rule
 
 ACHIEVED = Rule(
     "GL304",
-    "achieved value differs from the one asked for",
-    "Whole numbers of teeth change the ratio that was asked for, or the back-step of the given teeth is not the "
-    "one asked for (a warning).",
-    "All results belong to the teeth that can be made, not to the ratio that was asked for.",
-    "Accept it, ask for a ratio of whole teeth, or leave idler or crank_angle out so that they are chosen to fit.",
+    "achieved value differs from the required value",
+    "Whole numbers of teeth change the required ratio, or the back-step of the given teeth is not the "
+    "required one (a warning).",
+    "All results belong to the teeth that can be made, not to the required ratio.",
+    "Accept it, specify a ratio of whole teeth, or leave idler or crank_angle out so that they are chosen to fit.",
     "i3 = -z3/z5; back-step 2 n atan(tan(h)/n) - 2 h with n = 1 - i3, h = phi12/2; warns beyond 0.5 deg",
     "thesis (4-19)",
     ("back-step-target", "rounded-ratio"),
@@ -24,9 +24,10 @@ ACHIEVED = Rule(
 BACK_STEP = Rule(
     "GL315",
     "output moves during the dwell angle",
-    "dwell.angle is the crank angle until the output is back at its place; meanwhile it steps back and returns.",
-    "Half of that back-step is more than dwell_tolerance (1 deg where the file names none): the output does not stand.",
-    "Ask for dwell: {window, tolerance} in place of angle, or name the dwell_tolerance that the machine bears.",
+    "dwell.angle is the crank angle until the output is back at its starting position; meanwhile it steps back "
+    "and returns.",
+    "Half of that back-step is more than dwell_tolerance (1 deg where the file names none): the output does not dwell.",
+    "Specify dwell: {window, tolerance} instead of angle, or name the dwell_tolerance that the machine bears.",
     "D/2 <= dwell_tolerance",
     "thesis (4-16), (4-19)",
     ("back-step",),
@@ -37,7 +38,7 @@ DWELL_TOLERANCE = Rule(
     "GL317",
     "tolerance in which a dwell has no end",
     "The band of the tolerance, or of the play, is as wide as what the output gains in a revolution of the crank.",
-    "The output would never leave its place: what is asked for is no dwell.",
+    "The output would never leave the tolerance band: this is no dwell.",
     "Give a smaller dwell_tolerance, dwell.tolerance or dwell_backlash.",
     "tol < pi mean_ratio; of a play j at the output gear tol = j/(2 r5)",
     "own derivation",
@@ -49,7 +50,7 @@ DWELL_TOLERANCE = Rule(
 
 _SAME_RATIO = 1e-12
 _MISSED = 0.5
-"""By so much a back-step may miss the one asked for [deg]."""
+"""By so much a back-step may miss the required one [deg]."""
 
 
 def tolerance_judged(given: Any, limit: Any) -> Judged:

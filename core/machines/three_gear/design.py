@@ -175,7 +175,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         return None
 
     def completion(self) -> Iterator[Found]:
-        """Idler and links in place of the tasks."""
+        """Idler and links instead of the tasks."""
         if self.task is None:
             return
         by = f"found by {next(command for command in self.outlines if command.startswith('synth'))}"
@@ -330,7 +330,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @property
     def dwell_angle(self) -> float | None:
-        """Crank angle until the output regains its place, phi13 [rad]."""
+        """Crank angle until the output is back at its starting position, phi13 [rad]."""
         return self.output.dwell_angle
 
     @property
@@ -354,7 +354,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     @property
     def endless_tolerance(self) -> float:
-        """Half of what the output gains in a turn of the crank [rad]: within it, the output never leaves its place."""
+        """Half of the net output angle per revolution of the crank [rad]: a larger band is never left."""
         return math.pi * abs(self.mean_ratio)
 
     @property
@@ -629,7 +629,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         asked = self.spec.gears.i3
         if asked is None:
             return
-        aside, fix = f"{self.idler_teeth} idler teeth", f"give gears.idler: {self.idler_teeth} in place of i3"
+        aside, fix = f"{self.idler_teeth} idler teeth", f"give gears.idler: {self.idler_teeth} instead of i3"
         note = "all results are of this ratio"
         yield ratio_judged(self.i3, asked).check(
             "ratio i3 of whole teeth", fix, name="rounded-ratio", aside=aside, note=note

@@ -157,7 +157,7 @@ def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
 
 
 def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
-    """Crank angle phi13 from the start of the back-step to where the output regains its place, exactly.
+    """Crank angle phi13 from the start of the back-step to where the output is back at its starting position, exactly.
 
     phi5(phi(1) + phi13) = phi5(phi(1))
 
@@ -377,7 +377,7 @@ class Output:
 
     @cached_property
     def dwell_angle(self) -> float | None:
-        """Crank angle phi13 until the output regains its place [rad]."""
+        """Crank angle phi13 until the output is back at its starting position [rad]."""
         return None if self.back_step is None else dwell_angle(self.linkage, self.train, self.back_step)
 
     def within(self, tolerance: float) -> ToleranceDwell:
@@ -416,7 +416,7 @@ class ByRoots(Output):
 
     @cached_property
     def dwell_angle(self) -> float | None:
-        """Crank angle until the output regains its place [rad]."""
+        """Crank angle until the output is back at its starting position [rad]."""
         step = self.back_step
         if step is None:
             return None

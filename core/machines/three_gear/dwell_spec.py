@@ -15,9 +15,9 @@ class Placing(Spec):
     """What fixes crank and frame of unequal gears besides the task, which fixes only one of them."""
 
     crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, in place of crank; the crank is sought")
+    frame: Length | None = Field(None, description="frame AD, instead of crank; the crank is sought")
     balanced: Literal[True] | None = Field(
-        None, description="true, in place of crank: the transmission angle deviates equally at both ends"
+        None, description="true, instead of crank: the transmission angle deviates equally at both ends"
     )
 
     @model_validator(mode="after")
@@ -30,10 +30,12 @@ class Placing(Spec):
 
 
 class Dwell(DwellBand, Placing):
-    """Asked of `synth dwell`: a crank angle until the output is back (angle), or one within a tolerance (window)."""
+    """Specification for `synth dwell`: crank angle until the output is back (angle) or within a tolerance (window)."""
 
     angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle phi13 from the start of the back-step until the output is back at its place"
+        None,
+        description="crank angle phi13 from the start of the back-step until the output is back at its starting "
+        "position",
     )
 
     @model_validator(mode="after")
@@ -41,9 +43,9 @@ class Dwell(DwellBand, Placing):
         if self.angle is None and self.window is None and self.tolerance is None:
             raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
         if self.angle is not None and (self.window is not None or self.tolerance is not None):
-            message = "angle excludes window and tolerance: it asks for another dwell"
+            message = "angle excludes window and tolerance: it specifies another dwell"
             raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
         if self.margin is not None and (self.window is not None or self.tolerance is None):
-            message = "margin goes with tolerance alone: leave it out"
+            message = "margin goes with tolerance alone: omit it"
             raise PydanticCustomError("GL111", message, {"key": "margin"})
         return self

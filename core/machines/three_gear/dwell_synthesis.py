@@ -1,4 +1,4 @@
-"""`synth dwell`: links whose output is back at its place after a crank angle, or stays within a tolerance over one."""
+"""`synth dwell`: links whose output is back after a crank angle, or stays within a tolerance over one."""
 
 from __future__ import annotations
 
@@ -237,7 +237,7 @@ class DwellTask(FamilyTask):
         if band is not None and window is not None and ratio * window <= 2.0 * band:
             raise NoSolution(
                 (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
-                fix="ask for a longer window or a smaller tolerance",
+                fix="specify a longer window or a smaller tolerance",
             )
 
     def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:

@@ -215,7 +215,7 @@ def solved(
                 f"{what} is more than these gears reach, {safely_below(math.degrees(share * most), 9)} deg, with a "
                 f"transmission angle of {angle} deg"
             ),
-            fix="ask for less",
+            fix="specify less",
         )
     if not target >= least:
         raise NoSolution(

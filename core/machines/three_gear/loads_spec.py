@@ -24,7 +24,7 @@ class ThreeGearLoads(Loads):
     """Masses, forces and drive of a three-gear four-bar."""
 
     links: ThreeGearMasses = Field(
-        ThreeGearMasses.model_construct(), description="masses of the links; what is left out has none"
+        ThreeGearMasses.model_construct(), description="masses of the links; a part without an entry has no mass"
     )
     idler_pin: Literal["coupler", "rocker"] = Field("coupler", description="link that the pin of the idler is fixed to")
     balance: Balance | None = None

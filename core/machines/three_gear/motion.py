@@ -194,7 +194,7 @@ def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float
 
 
 def mean_ratio(linkage: FourBar, train: GearTrain) -> float:
-    """Net output turns per crank turn.
+    """Net output revolutions per crank revolution.
 
     I = z1/z5 for a crank-rocker;   1 for a drag link, whatever the teeth: I + (1 - i2) i3 + (1 - i3) = 1
 

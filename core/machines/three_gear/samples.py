@@ -64,7 +64,7 @@ class ThreeGearSamples:
     def __init__(self, nominal: ThreeGearFourBar) -> None:
         if nominal.spec.gears.helix_angle:
             raise NoSolution(
-                "tolerance and register take spur gears only", key="gears.helix_angle", fix="leave helix_angle out"
+                "tolerance and register take spur gears only", key="gears.helix_angle", fix="omit helix_angle"
             )
         if nominal.off_center:
             raise NoSolution(

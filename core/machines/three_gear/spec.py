@@ -33,13 +33,13 @@ class Gears(TrainKeys):
 
     module: Length = Field(description="module of all three gears")
     crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
-    idler: Teeth | None = Field(None, description="teeth of the idler; chosen by a synthesis when left out")
+    idler: Teeth | None = Field(None, description="teeth of the idler; default: chosen by the synthesis")
     output: SignedTeeth = Field(description="teeth of the output gear on the rocker's axis; negative: a ring gear")
     i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="-idler/output, in place of idler"
+        None, description="-idler/output, instead of idler"
     )
     rim: Length | None = Field(
-        None, description="outer radius of the output ring; left out: 2 modules outside its root circle"
+        None, description="outer radius of the output ring; default: 2 modules outside its root circle"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
@@ -55,7 +55,7 @@ class Gears(TrainKeys):
                 words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
                 raise PydanticCustomError("GL111", message, words)
         if self.i3 is not None and min(self.crank, self.output) < 0:
-            message = "i3 goes with external gears: give idler in place of i3"
+            message = "i3 goes with external gears: give idler instead of i3"
             raise PydanticCustomError("GL111", message, {"key": "i3"})
         ring = -self.output if self.output < 0 else None
         require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
@@ -66,7 +66,7 @@ class Gears(TrainKeys):
         if self.i3 is not None and self.idler is not None:
             raise PydanticCustomError("GL111", "i3 and idler exclude each other\ngive one", {"key": "i3"})
         if self.i3 is not None and self.crank != self.output:
-            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
+            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler instead of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
         return self
 
@@ -90,23 +90,24 @@ class ThreeGearSpec(DrivenSpec):
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     dwell: Annotated[Any, Deferred("machines.three_gear.dwell_spec:Dwell")] | None = Field(
         None,
-        description="asked of `synth dwell`: a crank angle until the output is back, or one within a tolerance",
+        description="specification for `synth dwell`: a crank angle until the output is back, or one within a "
+        "tolerance",
     )
     back_step: Annotated[Any, Deferred("machines.three_gear.task_spec:BackStep")] | None = Field(
-        None, description="asked of `synth back-step`"
+        None, description="specification for `synth back-step`"
     )
     speed: Annotated[Any, Deferred("machines.three_gear.task_spec:Speed")] | None = Field(
-        None, description="asked of `synth variable-speed`; the input turns at the mean of the two"
+        None, description="specification for `synth variable-speed`; the input turns at the mean of the two"
     )
     momentary: Annotated[Any, Deferred("machines.three_gear.task_spec:Momentary")] | None = Field(
-        None, description="asked of `synth momentary-dwell`: one of the four"
+        None, description="for `synth momentary-dwell`: exactly one of eccentricity, frame, gap, balanced"
     )
     dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
     dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle over which the output must stay within that tolerance"
     )
     dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(
-        None, description="play at the output gear's reference circle, in place of dwell_tolerance"
+        None, description="play at the output gear's reference circle, instead of dwell_tolerance"
     )
     uniform_tolerance: UniformTolerance | None = Field(
         None, description="share by which the output's speed may differ from a level: the longest such stretch is given"
@@ -129,7 +130,7 @@ class ThreeGearSpec(DrivenSpec):
                 "GL111", "dwell_tolerance and dwell_backlash exclude each other\ngive one", {"key": "dwell_backlash"}
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
-            message = "dwell_tolerance and dwell.tolerance ask for the same: give one"
+            message = "dwell_tolerance and dwell.tolerance specify the same: give one"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
             message = "dwell_window goes with dwell_tolerance or dwell_backlash: give one of them"

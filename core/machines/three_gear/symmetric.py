@@ -326,7 +326,7 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
 
 
 def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
-    """Crank angle phi13 from the start of the back-step to where the output regains its place, exactly.
+    """Crank angle phi13 from the start of the back-step to where the output is back at its starting position, exactly.
 
     n [asin(k sin(y)) + asin(k sin(h))] = h + y,   phi13 = y + h,   h = phi12/2
 
@@ -640,7 +640,7 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
                 f"an even motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of "
                 f"the crank: a window of {_deg(window)} deg needs no linkage"
             ),
-            fix="ask for a longer one",
+            fix="specify a longer one",
         )
     check_reach(i3, window, tolerance)
     k = math.sin((0.5 * window - tolerance) / (1.0 - i3)) / math.sin(0.5 * window)

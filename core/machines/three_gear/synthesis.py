@@ -142,7 +142,7 @@ class FamilyTask(Task):
         raise NotImplementedError
 
     def crank_angle_for(self, i3: float) -> float | None:
-        """phi12 [rad] of the back-step that meets the task with a ratio i3; None: the output does not stand."""
+        """phi12 [rad] of the back-step that meets the task with a ratio i3; None: the output does not dwell."""
         raise NotImplementedError
 
     def frame_ratio_for(self, i3: float) -> float:
@@ -443,7 +443,7 @@ class BackStepTask(FamilyTask):
             return super().chosen_idler(advises=advises)
         if task.crank_angle == 0.0:
             words = "the output does not step back over a crank angle of 0"
-            raise NoSolution(words, key="back_step.crank_angle", fix="leave crank_angle out, or give one above 0")
+            raise NoSolution(words, key="back_step.crank_angle", fix="omit crank_angle, or give one above 0")
         with at_key("back_step.angle"):
             i3 = symmetric.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
         with at_key("gears.idler"):
@@ -605,7 +605,9 @@ class VariableSpeedSynthesis(ThreeGearFourBar):
         """The input speed besides the links."""
         yield from super().completion()
         if self.task.request.uniform_angle is not None:
-            yield Found("uniform_tolerance", self.task.request.uniform_tolerance, "asked of synth variable-speed")
+            yield Found(
+                "uniform_tolerance", self.task.request.uniform_tolerance, "specification for synth variable-speed"
+            )
             return
         yield Found("input_speed", self.input_speed, "found by synth variable-speed")
 
@@ -634,7 +636,7 @@ class MomentaryTask(Task):
         return section_of(self.spec, "momentary", "eccentricity, frame or gap (mm), or balanced")
 
     def linkage_of(self, idler: int) -> FourBar:
-        """Frame length in closed form, in place of thesis (4-26)..(4-33)."""
+        """Frame length in closed form, instead of thesis (4-26)..(4-33)."""
         crank, radii = self._crank_of(idler), self.radii(idler)
         with at_key("momentary.eccentricity"):
             if momentary.is_internal(*radii):
@@ -656,7 +658,7 @@ class MomentaryTask(Task):
                 return momentary.balanced_eccentricity(*radii)
         if momentary.is_internal(*radii):
             raise NoSolution(
-                "a ring gear stands in another plane than gear 1, with no gap between them",
+                "a ring gear is in another plane than gear 1, with no gap between them",
                 key="momentary.gap",
                 fix="give eccentricity, frame or balanced",
             )
@@ -667,7 +669,7 @@ class MomentaryTask(Task):
             raise NoSolution(
                 f"a momentary dwell of these gears has no gap of {request.gap:g} mm between gears 1 and 5",
                 key="momentary.gap",
-                fix=f"ask for less than {safely_below(widest)} mm",
+                fix=f"specify less than {safely_below(widest)} mm",
             )
         return crank
 

@@ -13,7 +13,7 @@ from gearlink.core.parts.linkages.spec_sections import Feed
 
 
 class BackStep(Placing):
-    """Asked of `synth back-step`."""
+    """Specification for `synth back-step`."""
 
     angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="back-step of the output"
@@ -30,7 +30,7 @@ class BackStep(Placing):
 
 
 class Speed(Placing):
-    """Asked of `synth variable-speed`; the input turns at the mean of the two."""
+    """Specification for `synth variable-speed`; the input turns at the mean of the two."""
 
     min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="minimum output speed"
@@ -39,7 +39,7 @@ class Speed(Placing):
         None, description="maximum output speed"
     )
     uniform_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="in place of min and max: crank angle in which the output runs at a nearly even speed"
+        None, description="instead of min and max: crank angle in which the output runs at a nearly even speed"
     )
     uniform_tolerance: Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="share by which that speed may differ from its level"
@@ -50,7 +50,7 @@ class Speed(Placing):
         band = [name for name in ("min", "max") if getattr(self, name) is not None]
         even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
         if band and even:
-            message = "uniform_angle and uniform_tolerance stand in place of min and max: give one pair"
+            message = "uniform_angle and uniform_tolerance replace min and max: give one pair"
             raise PydanticCustomError("GL111", message, {"key": even[0]})
         pair = ("uniform_angle", "uniform_tolerance") if even else ("min", "max")
         missing = [name for name in pair if getattr(self, name) is None]
@@ -67,7 +67,7 @@ class FrontLay(Spec):
         description="maximum speed of the sheet on that way"
     )
     angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle of the arrival; left out: where the sheet arrives most gently"
+        None, description="crank angle of the arrival; default: where the sheet arrives most gently"
     )
 
 
@@ -78,15 +78,15 @@ class LayFeed(Feed):
 
 
 class Momentary(Spec):
-    """Asked of `synth momentary-dwell`: one of the four."""
+    """Specification for `synth momentary-dwell`: one of the four."""
 
     eccentricity: Length | None = Field(None, description="crank length e; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, in place of eccentricity; the crank is sought")
+    frame: Length | None = Field(None, description="frame AD, instead of eccentricity; the crank is sought")
     gap: SignedLength | None = Field(
-        None, description="gap between the tips of gears 1 and 5 at the closest, in place of eccentricity"
+        None, description="gap between the tips of gears 1 and 5 at the closest, instead of eccentricity"
     )
     balanced: Literal[True] | None = Field(
-        None, description="true, in place of eccentricity: the transmission angle deviates equally at both ends"
+        None, description="true, instead of eccentricity: the transmission angle deviates equally at both ends"
     )
 
     @model_validator(mode="after")

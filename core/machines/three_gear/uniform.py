@@ -114,7 +114,7 @@ def frame_ratio_for_window(angle: float, share: float, n: float, transmission: f
         if d > _MOST:
             raise NoSolution(
                 f"a window of {math.degrees(angle):.6g} deg within +-{100.0 * share:g} % takes a frame of more than "
-                f"{_MOST:g} cranks: ask for a smaller angle or a greater tolerance"
+                f"{_MOST:g} cranks: specify a smaller angle or a greater tolerance"
             )
     return bracketed_root(lambda x: window_of_family(x, n, share) - angle, before, d)
 

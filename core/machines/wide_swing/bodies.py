@@ -1,6 +1,6 @@
 """GL302 of links: the rod of a slider, the device, levers and a crank-rocker beside the shafts of cam and rocker.
 
-Links are lines of no width. They may lie in planes beside each other, so that none of this is a failure: it says which
+Links are lines of no width. They may be in planes next to each other, so that none of this is a failure: it says which
 shaft must end before the plane of which link. Where D alone matters the file's lengths decide; what lies to which
 side of the cam shaft the section `loads` says by its directions.
 """

@@ -31,7 +31,7 @@ PROFILE_EXISTS = Rule(
 )
 TRANSITION_ZONE = Rule(
     "GL507",
-    "contact changes sides over too much of the stroke",
+    "contact changes flank over too much of the stroke",
     "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone; "
     "whatever that allows, more than 0.1 each side is a warning.",
     "Within this zone the device alone guides the rocker; play and wear grow with it.",
@@ -59,7 +59,7 @@ FORCE_CLOSURE = Rule(
     "GL509",
     "spring slack at mid-swing",
     "The unloading spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
-    "There it does not press the roller to its cam: play shows just where the roller changes sides.",
+    "There it does not press the roller to its cam: play shows just where the roller changes flank.",
     "Make unloader.stretch_ratio above 0, such as 0.1.",
     "epsilon = mounting stretch at mid-swing over the stroke of the spring > 0",
     "wide-swing dissertation, chapter 2; own derivation",
@@ -71,7 +71,7 @@ CYCLE_ANGLES = Rule(
     "two strokes take more than a revolution",
     "Working and return stroke together take more cam angle than a revolution has; of a cycle, a rest has no length (a "
     "warning).",
-    "The two profiles would overlap; without a rest between them the hollows of both strokes meet in an edge.",
+    "The two profiles would overlap; without a rest between them the concave parts of both strokes meet in an edge.",
     "Reduce cycle_angle to 180 deg or less; give both rests of a cycle some degrees.",
     "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, rests above 0",
     "own derivation",
@@ -89,7 +89,7 @@ FORCE_RESERVE = Rule(
     "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
     "the reserve.",
     "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
-    "swings home the maximum acceleration of the rocker over that of the stroke at the same place; in the stroke "
+    "swings home the maximum acceleration of the rocker over that of the stroke at the same position; in the stroke "
     "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
     "own derivation",
     ("force-reserve",),
@@ -98,9 +98,9 @@ FORCE_RESERVE = Rule(
 CLOSED_CONTOUR = Rule(
     "GL512",
     "roller cuts into the closed contour",
-    "On its way round the whole revolution a roller would cut into its own cam: beside a joint, in the sector "
+    "On its way round the whole revolution a roller would cut into its own cam: next to a joint, in the sector "
     "where the "
-    "other cam guides, or where two hollows come near each other.",
+    "other cam guides, or where two concave parts come near each other.",
     "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
     "Take a smaller cam.roller_radius or cam.free_clearance, longer rests, or a larger cam.center_distance.",
     "minimum distance of contour and path of the roller's centre >= r_p",
@@ -122,7 +122,7 @@ PROFILE_PLANES = Rule(
 SIDE_CHANGE = Rule(
     "GL514",
     "device pushes the roller off its profile",
-    "With a slider the device changes sides at mid-swing, but the roller changes sides of the profile where the rocker "
+    "With a slider the balancing force reverses at mid-swing, but the roller changes flank where the rocker "
     "is fastest; the slot of the roller does not reach from one to the other.",
     "Between the two the device pushes the roller away from the profile, whatever its reserve, and nothing guides the "
     "rocker.",
@@ -152,7 +152,7 @@ DEVICE_PRESSURE = Rule(
 SWING_RANGE = Rule(
     "GL543",
     "swing beyond those of the source",
-    "The swing is above 300 deg (a warning; above 340 deg it is refused).",
+    "The swing is above 300 deg (a warning; above 340 deg it is an error).",
     "The device is near its far dead centre, where a small error of the swing changes its force by much, and an "
     "external profile pushes its roller at more than 60 deg at the ends.",
     "Reduce swing to 300 deg or less, or let a gear stage make the rest; an internal profile, or a law without a cam, "
@@ -166,7 +166,7 @@ SWING_RANGE = Rule(
 FLANK_IMPACT = Rule(
     "GL542",
     "hard blow at the change of flanks",
-    "The roller strikes the other flank of its slot faster than limits.impact_speed (a warning; not judged without "
+    "The roller strikes the other flank of its slot faster than limits.impact_speed (a warning; not checked without "
     "the limit).",
     "The blow wears both flanks and excites the rocker each stroke.",
     "Reduce cam.roller_clearance, cam.roller_radius (a shorter transition zone) or unloader.reserve.",
@@ -181,7 +181,7 @@ CAM_CLEARANCE = Rule(
     "GL541",
     "cams on parallel shafts too near",
     "A cam comes into the shaft of the other; of cams in one plane also into the other cam or its roller.",
-    "Bodies would collide; a cam and a shaft cannot take the same place.",
+    "Bodies would collide; a cam and a shaft cannot be in the same position.",
     "Put the cams into planes: separate, turn cam.second.direction away, or make the centre distances larger.",
     "|O1 O2| - (rho_max - r_p) - shaft_radius >= limits.cam_gap; in one plane the minimum distance of "
     "both contours over "

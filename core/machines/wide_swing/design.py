@@ -522,7 +522,7 @@ class Unloading:
     ) -> Reals:
         """Force of the roller on a cam, along their normal.
 
-        F = J gamma |c| ((1 + rho) - k_b (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a in place of |c|
+        F = J gamma |c| ((1 + rho) - k_b (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a instead of |c|
 
         Parameters
             cam : WideSwingCam or OscillatingCam
@@ -535,7 +535,7 @@ class Unloading:
         Notes
             Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
             in run-out the inertia is weaker than the device and the cam pushes. T0 is the time of the shorter of two
-            strokes, T that of the cam's own. With a slider the device changes sides at mid-swing, the roller where the
+            strokes, T that of the cam's own. With a slider the force reverses at mid-swing, the roller where the
             rocker is fastest: between the two the force is negative.
         """
         import numpy as np

@@ -136,7 +136,7 @@ def end_position_gain(design: WideSwingDesign) -> float:
     (R/r) rho/(a sin phi_e): at rest the roller stands on the arc, rho^2 = a^2 + r^2 - 2 a r cos phi_e
     """
     cam, radius = design.cam, design.spec.output_radius
-    assert radius is not None, "asked for where the file has it"
+    assert radius is not None, "needed where the file has it"
     a, r = cam.center_distance, cam.rocker_radius
     offset = getattr(cam, "arm_offset", 0.0)
     sense = -1.0 if design.spec.layout == "twin-rocker" else 1.0

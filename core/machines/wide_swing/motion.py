@@ -197,7 +197,7 @@ class Motion:
     @property
     def _pendulum(self) -> GravityDevice:
         unloader = self.spec.unloader
-        assert unloader.type == "gravity", "asked for of a pendulum alone"
+        assert unloader.type == "gravity", "needed of a pendulum alone"
         return unloader
 
     @property

@@ -117,7 +117,7 @@ class ParallelShafts:
 
     @property
     def _roller_gap(self) -> float:
-        """Minimum room between a roller, over its swing, and the circle of the other cam [mm]."""
+        """Minimum clearance between a roller, over its swing, and the circle of the other cam [mm]."""
         from gearlink.core.numerics.extremes import minimum_over
 
         half, found = 0.5 * self.design.motion.swing, []
@@ -183,5 +183,5 @@ def cam_clearance(design: WideSwingDesign) -> Iterator[Check]:
     what = "cams, rollers and shafts in one plane" if same else "each cam and the shaft of the other"
     fix = "set cam.planes to separate" if same else "set cam.second.direction farther from 0"
     yield codes.CAM_CLEARANCE.check(
-        "fail" if gap < limit else "pass", f"room between {what}", gap, limit, "mm", fix=fix if gap < limit else ""
+        "fail" if gap < limit else "pass", f"clearance between {what}", gap, limit, "mm", fix=fix if gap < limit else ""
     )

@@ -173,7 +173,7 @@ class DeviceSize:
     @property
     def _cylinder(self) -> Pneumatic:
         unloader = self.spec.unloader
-        assert unloader.type == "pneumatic", "asked for of a cylinder alone"
+        assert unloader.type == "pneumatic", "needed of a cylinder alone"
         return unloader
 
     @cached_property
@@ -182,7 +182,7 @@ class DeviceSize:
         cylinder = self._cylinder
         if cylinder.bore is not None:
             return cylinder.bore
-        assert cylinder.pressure is not None, "asked for where there is a pressure"
+        assert cylinder.pressure is not None, "needed where there is a pressure"
         area = self.strength / (cylinder.pressure * cylinder.efficiency)
         return math.hypot(2.0 * math.sqrt(area / math.pi), cylinder.rod_diameter)
 
@@ -215,7 +215,7 @@ class DeviceSize:
             NoSolution - where the piston sweeps the whole volume
         """
         litres = self._cylinder.reservoir
-        assert litres is not None, "asked for where there is a reservoir"
+        assert litres is not None, "needed where there is a reservoir"
         swept = 1e-6 * self._area * self.device_stroke
         if swept >= litres:
             least = safely_above(1.05 * swept)
@@ -228,7 +228,7 @@ class DeviceSize:
     @property
     def _pendulum(self) -> GravityDevice:
         unloader = self.spec.unloader
-        assert unloader.type == "gravity", "asked for of a pendulum alone"
+        assert unloader.type == "gravity", "needed of a pendulum alone"
         return unloader
 
     @property

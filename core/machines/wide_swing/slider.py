@@ -27,8 +27,8 @@ from gearlink.core.parts.linkages.slider_crank.sweep import slider
 
 _NEWTON_STEPS = 60
 _TOO_SHARP = (
-    "the slider changes the inertia of the rocker too sharply within the stroke: move the stroke off the place where "
-    "rod and arm stand in line (slider.middle_angle), lengthen the rod, or give the rocker more inertia"
+    "the slider changes the inertia of the rocker too sharply within the stroke: move the stroke away from the "
+    "position where rod and arm are collinear (slider.middle_angle), lengthen the rod, or give the rocker more inertia"
 )
 _GRID = np.linspace(0.0, math.pi, 257)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.

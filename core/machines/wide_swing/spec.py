@@ -62,11 +62,11 @@ class Pneumatic(Spec):
     extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
         13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
     )
-    force: Force | None = Field(None, description="force of a given cylinder, in place of reserve")
+    force: Force | None = Field(None, description="force of a given cylinder, instead of reserve")
     pressure: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm^2"})] | None = Field(
         None, description="gauge pressure, 0.6 for 6 bar; sizes the bore"
     )
-    bore: Length | None = Field(None, description="bore of a given cylinder, in place of pressure")
+    bore: Length | None = Field(None, description="bore of a given cylinder, instead of pressure")
     rod_diameter: Distance = Field(0.0, description="of the rod; the cylinder pulls, with the side of its rod")
     efficiency: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
         1.0, description="share of the cylinder's force that reaches the pin"
@@ -105,17 +105,17 @@ class SpringDevice(Spec):
     pivot_ratio: Ratio = Field(description="pivot distance over arm; at 1 or below there is no device")
     arm: Length = Field(description="arm r_d on the rocker")
     rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
-        None, description="rate of a given spring, in place of reserve"
+        None, description="rate of a given spring, instead of reserve"
     )
     free_length: Length | None = Field(
-        None, description="between the pins where the force is zero, in place of stretch_ratio"
+        None, description="between the pins where the force is zero, instead of stretch_ratio"
     )
     stretch_ratio: Share | None = Field(
         None, validate_default=True, description="mounting stretch at mid-swing over the stroke; or free_length"
     )
     closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
     stretch_capacity: Ratio | None = Field(
-        None, description="allowable stretch over closed length, in place of closed_length; steel 1 to 2"
+        None, description="allowable stretch over closed length, instead of closed_length; steel 1 to 2"
     )
     end_fittings: Distance = Field(0.0, description="length of the end fittings")
     residual: Residual = 0.0
@@ -152,7 +152,7 @@ class GravityDevice(Spec):
 
     type: Literal["gravity"] = Field(description="kind of device")
     distance: Length = Field(description="of the mass from the rocker axis")
-    mass: Mass | None = Field(None, description="of a given pendulum, in place of reserve; counted in its own inertia")
+    mass: Mass | None = Field(None, description="of a given pendulum, instead of reserve; counted in its own inertia")
     gravity: Annotated[float, Field(gt=0, json_schema_extra={"unit": "m/s^2"})] = Field(
         9.80665, description="acceleration of gravity"
     )
@@ -173,18 +173,18 @@ def _refuse_reserve(device: Pneumatic | SpringDevice | GravityDevice, given: str
 
 
 class SecondShaft(Spec):
-    """The shaft of the return cam, beside that of the working cam."""
+    """The shaft of the return cam, next to that of the working cam."""
 
     direction: Annotated[float, Field(gt=-360, lt=360, json_schema_extra={"unit": "deg"})] = Field(
         description="from the rocker axis, counter-clockwise from the direction to the first shaft"
     )
-    center_distance: Length | None = Field(None, description="from the rocker axis; left out: that of the first cam")
+    center_distance: Length | None = Field(None, description="from the rocker axis; default: that of the first cam")
 
 
 class ShaftGears(PairKeys):
     """The pair 1:1 between two parallel cam shafts; its centre distance is that of the shafts."""
 
-    teeth: Teeth | None = Field(None, description="teeth of both gears; left out: as many as the distance takes")
+    teeth: Teeth | None = Field(None, description="teeth of both gears; default: as many as the distance takes")
 
 
 class SwingCam(Spec):
@@ -192,14 +192,14 @@ class SwingCam(Spec):
 
     center_distance: Length = Field(description="cam axis to rocker axis")
     roller_radius: Length = Field(description="radius of the roller")
-    rocker_radius: Length | None = Field(None, description="rocker radius, in place of the one with no pressure angle")
+    rocker_radius: Length | None = Field(None, description="rocker radius, instead of the one with no pressure angle")
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
     free_clearance: Distance = Field(
-        0.5, description="room between a roller and the sector of a closed contour in which the other cam guides"
+        0.5, description="clearance between a roller and the sector of a closed contour in which the other cam guides"
     )
     second: SecondShaft | None = Field(None, description="shaft of the return cam of a twin-cam-parallel")
     planes: Literal["separate", "same"] = Field(
-        "separate", description="of the two cams of a twin-cam-parallel: beside each other, or in one plane"
+        "separate", description="of the two cams of a twin-cam-parallel: next to each other, or in one plane"
     )
     roller_clearance: Distance | None = Field(
         None, description="clearance of the roller in its slot, both flanks together; then the blow at mid-swing"
@@ -210,7 +210,7 @@ class SwingCam(Spec):
 
 
 class SwingCycle(Spec):
-    """Cam angles of a whole cycle, in place of cycle_angle; their sum is 360."""
+    """Cam angles of a whole cycle, instead of cycle_angle; their sum is 360."""
 
     working: Phase = Field(gt=0, description="working stroke, run-up and run-out")
     far_dwell: Phase = Field(description="rest at the far end")
@@ -294,9 +294,9 @@ class SwingLimits(LoadLimits):
     transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )
-    cam_gap: Distance = Field(0.0, description="minimum room of cams on parallel shafts")
+    cam_gap: Distance = Field(0.0, description="minimum clearance of cams on parallel shafts")
     impact_speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] | None = Field(
-        None, description="maximum speed of the roller's blow where it changes flanks; left out: not judged"
+        None, description="maximum speed of the roller's blow where it changes flanks; default: not checked"
     )
 
 
@@ -311,7 +311,7 @@ class WideSwingSpec(TolerancedSpec):
     cycle: SwingCycle | None = None
     swing: Annotated[float, Field(gt=0, le=340, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
     cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, validate_default=True, description="cam angle of one stroke; left out where a cycle or a drive gives it"
+        None, validate_default=True, description="cam angle of one stroke; optional with a cycle or a drive"
     )
     speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
     inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
@@ -329,7 +329,7 @@ class WideSwingSpec(TolerancedSpec):
         None, description="minimum speed at which the machine works; then the device is checked for harm there"
     )
     method: Literal["exact", "iteration"] = Field(
-        "exact", description="iteration: show the source's own iteration and its error beside the exact law"
+        "exact", description="iteration: show the source's own iteration and its error against the exact law"
     )
     iteration_steps: Annotated[int, Field(ge=1, le=100_000, json_schema_extra={"unit": "1"})] = Field(
         20, description="its steps per half stroke"

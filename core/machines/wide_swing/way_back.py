@@ -87,7 +87,7 @@ def _within(angle: Reals, low: float, high: float) -> Reals:
 
 
 def need(cam: OscillatingCam) -> Extreme:
-    """Maximum acceleration of the rocker on the way home over that of the stroke at the same place, and the place k.
+    """Maximum acceleration of the rocker on the way home over that of the stroke at the same position, and the place k.
 
     Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way home
     only with a force above that ratio of it.

@@ -57,7 +57,7 @@ def undercut_checks(
 
     Parameters
         cams : the cams
-        larger : gives the words for a cam that is large enough, asked for where one is not
+        larger : gives the words for a cam that is large enough, needed where one is not
         plainly : the words for a larger cam where no size is known
     """
     for cam in cams:

@@ -26,7 +26,7 @@ CAM_UNDERCUT = Rule(
     "roller undercuts the cam",
     "The roller is as large as the minimum convex curvature radius of the pitch curve, or cuts into the profile "
     "elsewhere.",
-    "The cutter removes part of the profile: the follower does not make the motion that was asked for. The tables show "
+    "The cutter removes part of the profile: the follower does not make the required motion. The tables show "
     "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
     "Take a roller below 0.8 of the minimum curvature radius, or enlarge the base circle.",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
@@ -116,7 +116,7 @@ LAW_RIPPLE = Rule(
     "a table law turns back",
     "The curve through the points of a table from rest to rest runs backwards somewhere (a warning).",
     "Measured or rounded points ripple; each revolution back is a blow in the drive's play.",
-    "Give more digits, smooth the points, or leave some out: the spline passes through every one.",
+    "Give more digits, smooth the points, or omit some: the spline passes through every one.",
     "minimum velocity of the law >= 0",
     "own derivation",
     ("law-ripple",),
@@ -126,7 +126,8 @@ POLYDYNE_RANGE = Rule(
     "GL518",
     "a polydyne law of less than one natural period",
     "The phase takes less than one natural period of what the law moves.",
-    "The peak acceleration of a polydyne law grows as 1/lambda^2, and the law hardly serves beside its own speed.",
+    "The peak acceleration of a polydyne law grows as 1/lambda^2, and the law is hardly useful away from its "
+    "own speed.",
     "Give the phase more time, make what vibrates stiffer, or take an optimal law over a band.",
     "lambda = f T >= 1",
     "own derivation",

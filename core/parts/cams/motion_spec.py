@@ -22,8 +22,8 @@ class Segment(Spec):
     to: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
         description="cam angle at which it ends; that of the last segment is 360"
     )
-    lift: Lift | None = Field(None, description="lift at its end (oscillating follower: deg); left out: a dwell")
-    law: SegmentLaw | None = Field(None, description="law of motion; left out: modified-sine, or a dwell")
+    lift: Lift | None = Field(None, description="lift at its end (oscillating follower: deg); default: a dwell")
+    law: SegmentLaw | None = Field(None, description="law of motion; default: modified-sine, or a dwell")
     mirrored: bool = Field(False, description="run a law from rest to speed backwards: from speed to rest")
     return_: Literal["mirrored"] | None = Field(
         None, alias="return", description="mirrored: the last rise backwards over this segment"
@@ -36,7 +36,7 @@ class Segment(Spec):
         if self.return_ is not None:
             for key in ("lift", "law"):
                 if getattr(self, key) is not None:
-                    message = "return: mirrored takes lift and law from the rise: leave them out"
+                    message = "return: mirrored takes lift and law from the rise: omit them"
                     raise PydanticCustomError("GL111", message, {"key": key})
         if self.law != "polynomial":
             for key in ("end_velocity", "end_acceleration"):

@@ -32,9 +32,9 @@ class OutputSegment(Spec):
         description="input angle at which it ends; that of the last segment is 360"
     )
     output: OutputAngle | None = Field(
-        None, description="output angle at its end, from 0 at input angle 0 on; left out: a dwell"
+        None, description="output angle at its end, from 0 at input angle 0 on; default: a dwell"
     )
-    law: SegmentLaw | None = Field(None, description="law of motion; left out: modified-sine, or a dwell")
+    law: SegmentLaw | None = Field(None, description="law of motion; default: modified-sine, or a dwell")
 
 
 def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegment] | MotionTable:

@@ -97,7 +97,7 @@ def translating(
             perpendicular out of the cam axis: sqrt(r_p^2 - e^2) + lift
         first, second : (N,) arrays [mm/rad, mm/rad^2] - y', y''; the second serves the curvature only
         direction : complex - u, unit vector of the travel (1 along +x, -1 along -x, 1j along +y)
-        offset : float [mm] - e, how far the line of travel passes the cam axis on the right of u
+        offset : float [mm] - e, distance of the line of travel from the cam axis on the right of u
     Returns
         path : RollerPath
     Raises
@@ -328,7 +328,7 @@ def _speed(cam_angle: ArrayLike, path: RollerPath, d1: Points) -> Reals:
     if still.any():
         place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
         raise NoSolution(
-            f"the pitch curve stands still at cam angle {place:.6g} deg: the follower moves with the cam; "
+            f"the pitch curve is at rest at cam angle {place:.6g} deg: the follower moves with the cam; "
             f"{LARGER} or change the law"
         )
     return speed

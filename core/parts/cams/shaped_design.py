@@ -28,7 +28,7 @@ _STEPS = 160
 
 
 class Vibration(NamedTuple):
-    """What a law of a design leaves over the speed, and usual laws in its place.
+    """What a law of a design leaves over the speed, and usual laws instead.
 
     Fields
         path : str - of the law in the file
@@ -123,7 +123,7 @@ class WithShapedLaws:
             if law.shaping is None or law.shaping.least_speed is None:
                 continue
             speed, place = law.shaping.least_speed
-            what, fix = f"{path}: minimum velocity of the table law", "smooth the points, or leave some out"
+            what, fix = f"{path}: minimum velocity of the table law", "smooth the points, or omit some"
             back = speed < -_ROUNDING * law.peak_velocity
             yield LAW_RIPPLE.check(
                 _status(back), what, speed if back else max(speed, 0.0), 0.0, at=f"x = {short(place)}", fix=fix

@@ -80,7 +80,7 @@ class Polydyne(Spec):
 
     type: Literal["polydyne"] = Field(description="how the law is shaped")
     periods: Periods | None = Field(None, description="natural periods per phase, at least 0.5")
-    frequency: Hertz | None = Field(None, description="natural frequency, in place of periods; default: that of loads")
+    frequency: Hertz | None = Field(None, description="natural frequency, instead of periods; default: that of loads")
     damping: Damping = Field(0.0, description="damping ratio")
     speed: Rate | None = Field(None, description="speed for which it is shaped; default: the design's")
 
@@ -163,7 +163,7 @@ class TableLaw(Spec):
         description="[x, s] from [0, 0] to [1, 1], 6 at least; from rest to speed s over end speed and phase, its last "
         "free",
     )
-    file: str | None = Field(None, description="CSV file with these columns, in place of points")
+    file: str | None = Field(None, description="CSV file with these columns, instead of points")
 
     @model_validator(mode="after")
     def _ascends(self) -> TableLaw:

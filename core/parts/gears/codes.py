@@ -46,7 +46,8 @@ CONTACT_RATIO = Rule(
     "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
     "limits.contact_ratio (1.1), warns up to 0.1 above, and below 1 whatever the limit; of helical gears with "
-    "face_width eps_gamma is judged; fails below 1 with the gears as far out of mesh as center_distance_allowance lets "
+    "face_width eps_gamma is checked; fails below 1 with the gears as far out of mesh as "
+    "center_distance_allowance lets "
     "them",
     "ISO 21771; the limit is usual practice",
     ("contact-ratio", AT_LIMITS[0]),
@@ -114,7 +115,7 @@ TIP_FOULING = Rule(
     "the tips.",
     "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha_wt >= 0, delta the angles from "
     "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
-    "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of minimum room",
+    "(t_2 + inv alpha_a2 - inv alpha_wt) at the position of the minimum clearance",
     "own derivation",
     ("tip-fouling", "radial-assembly", AT_LIMITS[3]),
     ("gears", "teeth"),
@@ -156,8 +157,7 @@ INSPECTION = Rule(
     "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it. Or the planes of the "
     "span measurement touch a helical gear beyond its face.",
     "The measure is then not that of the drawing, and a good gear is rejected or a bad one passed.",
-    "Take the preferred size that the finding names, or leave pin_diameter out; span fewer teeth, or measure over "
-    "balls.",
+    "Take the preferred size that the finding names, or omit pin_diameter; span fewer teeth, or measure over balls.",
     "form circle <= d_M <= tip circle, root circle clear, M beyond the tip circle; tan(alpha_M) = tan(alpha_K) - "
     "D cos(beta_b)/d_b; b >= W_k sin(beta_b) + 1.2 mm cos(beta_b)",
     "DIN 21773",
@@ -231,7 +231,7 @@ DAMAGE = Rule(
     "The load spectrum over the required life damages a flank or a root by more than 1 at the required safety, or its "
     "maximum load exceeds the static limit.",
     "The gear fails before its life ends.",
-    "Widen the gears, take a larger module or a better material, or ask for less life.",
+    "Widen the gears, take a larger module or a better material, or specify a shorter life.",
     "U = sum n_k/N(S sigma_k) <= 1, S the required safety; static: sigma_HG, sigma_FG at the static knee",
     "ISO 6336-6",
     ("damage",),
@@ -254,7 +254,7 @@ TRUE_FILLET = Rule(
     "GL219",
     "the true fillet is stressed otherwise",
     "The root stress on the generated fillet, by a boundary integral, differs from Y_F Y_S by more than a quarter "
-    "(a warning); judged only with --table root.",
+    "(a warning); checked only with --table root.",
     "The standard's section does not describe this root well.",
     "Have the root checked by other means, or take a tool with a larger rounding.",
     "|Y_gen/(Y_F Y_S) - 1| <= 0.25",

@@ -182,7 +182,7 @@ def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
         yield TIP_FOULING.check("pass", what, margin, 0.0, "mm", name=name)
         return
     status: Status = "fail" if radial else "warn"
-    fix = "assemble it axially (leave radial_assembly out)" if radial else "assemble it axially"
+    fix = "assemble it axially (omit radial_assembly)" if radial else "assemble it axially"
     if angle > -1e9:
         what = "interference of the pinion on radial assembly into its ring gear"
         yield TIP_FOULING.check(status, what, margin, 0.0, "mm", name=name, overlap=what, fix=fix)

@@ -133,7 +133,7 @@ def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
 
     if spec.profile_shift is not None:
         return beside_a_rack(known, spec.profile_shift[0])
-    assert spec.center_distance is not None, "the spec asks for one of the two"
+    assert spec.center_distance is not None, "the spec requires one of the two"
     radius = beside_a_rack(known, 0.0).reference_radius[0]
     shift = (spec.center_distance - radius) / spec.module
     if abs(shift) > _MOST_SHIFT:

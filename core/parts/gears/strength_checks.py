@@ -209,7 +209,7 @@ def _outside(rated: Rated) -> Iterator[str]:
         if rated.hardened[gear] and steel.brinell is not None and not 130.0 <= steel.brinell <= 470.0:
             yield f"{steel.brinell:g} HBW of {name(gear)} (Z_W: 130 to 470)"
     if given.pitting_allowed and any(line.bend is None for line in rated.flank_lines):
-        yield "pitting: allowed, which is not known of this material and left out"
+        yield "pitting: allowed, not known of this material and not applied"
     if given.scuffing_stage is not None and rated.data.pair.internal:
         yield "scuffing of a ring: no integral temperature is given"
     relief = None if rated.scuffing is None else rated.scuffing.relief_share

@@ -31,7 +31,7 @@ class Valley(NamedTuple):
     """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
 
     first, second : phi(1), phi(2), or the minimum speed's place twice; low, high : the maximum speed's before and after
-    mean : output turns per crank turn, positive
+    mean : output revolutions per crank revolution, positive
     """
 
     angle: Callable[[float], float]

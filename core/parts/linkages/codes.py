@@ -23,15 +23,15 @@ SHAFT_CLEARANCE = Rule(
     "GL302",
     "gear, rim or roller reaches a shaft",
     "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
-    "or they leave less room beside the axis of a shaft whose radius the file does not name than the minimum shaft "
-    "radius (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis "
+    "or they leave less clearance to the axis of a shaft whose radius the file does not name than the minimum shaft "
+    "radius (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less clearance to the axis "
     "of its "
     "rocker, gripper or drum than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that "
-    "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole "
+    "takes the sheet and the axes of cam and cam rocker, and its links and rollers, over the whole "
     "revolution, next to "
     "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
-    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; a gripper's "
-    "limits.least_shaft stands in place of its roller's radius. So are the links of a wide swing (device, slider's rod "
+    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring and the rockers' axis; a gripper's "
+    "limits.least_shaft replaces its roller's radius. So are the links of a wide swing (device, slider's rod "
     "and arm, drive, the arm of an internal profile's roller) and a gear whose own shaft leaves less rim below its "
     "teeth than half their height.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
@@ -66,10 +66,10 @@ TRANSMISSION_ANGLE = Rule(
 TARGET = Rule(
     "GL307",
     "target of a synthesis missed",
-    "The design that was found misses what `target` asks for by more than the tolerance.",
+    "The design that was found misses what `target` requires by more than the tolerance.",
     "The residual is measured on the motion that the design makes, not on the equations of the search.",
-    "Ask for less, free more of the links, or start from other links.",
-    "residual = value reached - value asked for",
+    "Specify less, free more of the links, or start from other links.",
+    "residual = value reached - required value",
     "own derivation",
     ("target",),
     ("target", "target.swing", "back_step.angle", "links"),
@@ -89,8 +89,8 @@ TRAIN_FIT = Rule(
 )
 MOBILITY = Rule(
     "GL309",
-    "degrees of freedom are not those wanted",
-    "Linkage and trains together have another number of degrees of freedom than `mobility` asks for, or the number is "
+    "degrees of freedom are not the required ones",
+    "Linkage and trains together have another number of degrees of freedom than `mobility` requires, or the number is "
     "right only because joints and trains that say again what others say are counted.",
     "With none the mechanism is locked; with two it needs a second input.",
     "Fix or free end gears: a train takes R - 1 degrees of freedom away.",
@@ -102,10 +102,10 @@ MOBILITY = Rule(
 )
 DWELL_WINDOW = Rule(
     "GL313",
-    "window of the dwell shorter than asked for",
+    "window of the dwell shorter than required",
     "The output leaves the band of +-tolerance before the crank has turned through the window.",
-    "The machine works while the output is taken to stand: what it does there is off by more than the tolerance.",
-    "Give links.frame or links.crank a length that the finding names; else ask for a shorter window, allow a greater "
+    "The machine works while the output is considered at rest: its position is off by more than the tolerance.",
+    "Give links.frame or links.crank a length that the finding names; else specify a shorter window, allow a greater "
     "tolerance, or take other teeth: with three gears an idler of fewer.",
     "longest crank angle with |phi5 - middle| <= tolerance, against dwell.window or dwell_window",
     "own derivation; thesis 4.2.1 speaks of a dwell within usual deviations",
@@ -118,7 +118,7 @@ DWELL_EDGE = Rule(
     "The back-step nearly fills the band, or the frame lengths that meet the request lie close together.",
     "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
     "the window falls at once to three quarters.",
-    "Ask for less: a shorter window, or with a tolerance alone margin at its default; or hold the frame to the "
+    "Specify less: a shorter window, or with a tolerance alone margin at its default; or hold the frame to the "
     "interval that is given.",
     "0.992 < D/(2 tolerance) <= 1, or frame_length_interval below 0.05 mm",
     "own derivation: the longest window has D = 2 tolerance",
@@ -129,7 +129,8 @@ DWELL_EDGE = Rule(
 CLOSURE = Rule(
     "GL305",
     "joints close",
-    "The links reach from joint to joint at every input (what opens is refused, with the worst input); of a planar "
+    "The links reach from joint to joint at every input (a loop that opens is an error, with the worst input); "
+    "of a planar "
     "mechanism the maximum gap of a joint over the rows.",
     "Where they do not reach, the mechanism cannot be put together or jams there.",
     "Make the links that close a loop longer or more equal, shorten the driven ones, or keep away from a dead centre.",

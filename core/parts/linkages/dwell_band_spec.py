@@ -1,4 +1,4 @@
-"""What a synthesis is asked for where the output is to stand within a tolerance."""
+"""What a synthesis is needed where the output is to stand within a tolerance."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth
     if rim is None:
         return
     if ring is None:
-        raise PydanticCustomError("GL111", "rim goes with a ring gear\nleave it out", {"key": "rim"})
+        raise PydanticCustomError("GL111", "rim goes with a ring gear\nomit it", {"key": "rim"})
     if own_teeth:
         return
     root = module * (0.5 * ring + 1.25)

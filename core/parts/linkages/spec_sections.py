@@ -19,7 +19,7 @@ class InputRange(Spec):
 
 
 class PivotShafts(Spec):
-    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+    """Shafts of the frame that pass through the plane of the gears; a shaft without an entry may end before it."""
 
     A_radius: Length | None = Field(None, description="radius of the input shaft at A")
     D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
@@ -32,7 +32,7 @@ class Feed(Spec):
     belt_thickness: Distance = Field(
         0.0, description="thickness of the belt, which runs at half of it above the radius"
     )
-    pitch: Length | None = Field(None, description="pitch of the chain, with teeth in place of radius")
+    pitch: Length | None = Field(None, description="pitch of the chain, with teeth instead of radius")
     teeth: Annotated[int, Field(ge=5, le=1000, json_schema_extra={"unit": "teeth"})] | None = Field(
         None, description="teeth of the chain's sprocket"
     )
@@ -52,7 +52,7 @@ class Feed(Spec):
         if self.radius is None and len(chain) < 2:
             raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
         if chain and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nleave it out", {"key": "belt_thickness"})
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nomit it", {"key": "belt_thickness"})
         return self
 
     def _of_step(self) -> Feed:
@@ -70,7 +70,7 @@ class Feed(Spec):
             message = "of a chain step needs pitch and teeth, or pitch and ratio"
             raise PydanticCustomError("GL106", message, {"key": "teeth"})
         if self.pitch is not None and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness: leave it out", {"key": "belt_thickness"})
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness: omit it", {"key": "belt_thickness"})
         return self
 
 

@@ -118,7 +118,7 @@ def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance
         8.0
 
     Source
-        thesis 4.2.2, with the distance at the closest in place of the frame length
+        thesis 4.2.2, with the distance at the closest instead of the frame length
     """
     beside, *within = gaps(one, other, reach.nearest, reach.farthest)
     if beside >= max(within):

@@ -117,7 +117,7 @@ class Exploration(Design):
         """GL161."""
         share = self.feasible / self.designs
         what = f"share of designs that satisfy {self.problem.asked} ({self.feasible} of {self.designs})"
-        note = "checks.must_pass: all asks for it too" if self.problem.waived else ""
+        note = "checks.must_pass: all requires it too" if self.problem.waived else ""
         name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
         aside = f"{name} alone removes {worst.alone}" if worst.alone and share < _FEW else ""
         status: Status = "pass" if share >= _FEW else "warn" if self.feasible else "fail"

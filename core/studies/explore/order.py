@@ -92,7 +92,7 @@ class Variable:
         """
         if self.values:
             return digit
-        assert self.step is not None, "a continuum has no places"
+        assert self.step is not None, "a continuum has no grid"
         return _rounded(self.ends(parent)[0] + digit * self.step, self.decimals)
 
     def written(self, value: float) -> Any:

@@ -70,7 +70,7 @@ def _base(spec: StudySpec) -> Base:
     known = tuple(KINDS[kind].commands)
     command = spec.command or next((name for name in asked if name in known), known[0])
     if command not in known:
-        message = f"`{command}` does not apply to a {kind}; this kind understands: {', '.join(known)}"
+        message = f"`{command}` does not apply to a {kind}; available for this kind: {', '.join(known)}"
         raise WrongStudy([Fault("GL113", message, ("command",))])
     return Base(spec.design, command, spec.checks.warn_counts)
 
@@ -124,8 +124,8 @@ class _Reading:
         if given.values is not None:
             return Variable(path, also, tuple(given.values))
         low, high = given.from_, given.to
-        assert low is not None, "the model asks for it"
-        assert high is not None, "the model asks for it"
+        assert low is not None, "the model requires it"
+        assert high is not None, "the model requires it"
         whole = self.base.is_whole(path)
         if given.points is not None:
             return Variable(path, also, tuple(_points(low, high, given.points, log=given.log, whole=whole)))
@@ -154,7 +154,7 @@ class _Reading:
             if message:
                 key = "values" if variable.values else "from" if value == tried[0] else "to"
                 at = (*place, key) if self.spec.variables[variable.path].points is None else place
-                return Fault("GL156", f"{variable.path} = {value!r} is refused in the base: {message}", at)
+                return Fault("GL156", f"{variable.path} = {value!r} is rejected in the base: {message}", at)
         return None
 
     def names(self) -> Names:
@@ -250,7 +250,7 @@ class _Reading:
         return next(("define", key) for key, given in self.spec.define.items() if name in parse(given).names)
 
     def _longest(self, names: Iterable[str], whole: dict[str, Any]) -> dict[str, Any]:
-        """The quantities of the base, with a longer list in place of one where a variable's ends give one.
+        """The quantities of the base, with a longer list instead of one where a variable's ends give one.
 
         Notes
             A gear more makes a mesh more; only where an entry is missing in the base, other designs are asked.

@@ -172,7 +172,7 @@ def condition(text: str, names: Names, place: Place) -> Condition:
         raise FaultFound(Fault("GL152", f"{_short(text)!r} compares twice", place, helps))
     if _AMOUNT.fullmatch(left) and not _AMOUNT.fullmatch(right):
         helps = f"write {right} {_TURNED[sign]} {left}"
-        raise FaultFound(Fault("GL152", f"{_short(left)!r} is a number: the quantity stands on the left", place, helps))
+        raise FaultFound(Fault("GL152", f"{_short(left)!r} is a number: the quantity is on the left", place, helps))
     expression = names.expression(left, place)
     amount = _AMOUNT.fullmatch(right)
     if amount is not None:

@@ -23,7 +23,7 @@ LOAD_REVERSAL = Rule(
     "A tooth force, or the force of a roller between two cams, changes its sign.",
     "There the teeth change flanks through the backlash: it rattles, and while it does the second gear "
     "of the mesh lags by backlash/(2 r_w), r_w its own. Within a dwell or a synchronous zone that is an error of "
-    "place.",
+    "position.",
     "Add a constant load or a spring on the output, lower the speed, lighten what is driven, or take backlash away.",
     "roots of F_t(phi)",
     "own derivation: the flank that touches follows from the sign of F_t",
@@ -54,7 +54,7 @@ SPEED_FLUCTUATION = Rule(
     "no number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
     "Uneven speed shows in the print, and all loads of motion grow with the square of the maximum speed.",
     "Add flywheel inertia: loads.flywheel.fluctuation alone gives the minimum that is needed.",
-    "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, left out: 0.2",
+    "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, default 0.2",
     "own derivation: energy with variable inertia",
     checks=("speed-fluctuation",),
     keys=("loads.flywheel",),
@@ -66,7 +66,7 @@ BEARING_LIFE = Rule(
     "The basic rating life of a pin's bearing is below the required one, or it swings too little for rolling "
     "bodies, or "
     "helical teeth push along its axis, which forces in the plane of the machine do not show.",
-    "A bearing that fails stops the machine; one that only swings brinells at the same few places.",
+    "A bearing that fails stops the machine; one that only swings brinells at the same few positions.",
     "Take a bearing of a higher rating, or a plain one where the swing is small; less mass lowers the load.",
     "L_10 = (C/P)^p 10^6 relative turns",
     "ISO 281",

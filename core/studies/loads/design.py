@@ -239,7 +239,7 @@ class LoadsDesign(Design):
         known = [c.name for c in self._connections if isinstance(c, sorts)]
         for name in names:
             if name not in known:
-                has = f"it has {', '.join(known)}" if known else "leave it out"
+                has = f"it has {', '.join(known)}" if known else "omit it"
                 raise NoSolution(f"this machine has no joint {name!r} there: {has}", key=f"loads.{section}.{name}")
 
     # Friction that locks
@@ -742,7 +742,7 @@ class LoadsDesign(Design):
         for name in bearings:
             if name in self.unknown_joints:
                 keys = " and ".join(f"loads.{key}" for key in self.own_directions if getattr(section, key) is None)
-                message = f"the force on the bearing of {name} depends on where its neighbours stand"
+                message = f"the force on the bearing of {name} depends on the positions of its neighbours"
                 raise MissingSection(message, key=f"loads.bearings.{name}", fix=f"give {keys}")
 
     def mesh(self, name: str) -> Any:

@@ -54,7 +54,7 @@ class PinLoad:
 
     def _rate(self, mechanism: Mechanism) -> Reals:
         pin = next(each for each in mechanism.connections if each.name == self.name)
-        assert isinstance(pin, Pin), "only pins are asked for"
+        assert isinstance(pin, Pin), "only pins are evaluated"
         return rates(mechanism, pin.first, pin.second)
 
     @cached_property

@@ -198,7 +198,7 @@ class Machine:
         Notes
             Infinite, without an angle, where there are no forces with which it moves.
         """
-        assert self.friction is not None, "asked for only where there is friction"
+        assert self.friction is not None, "needed only where there is friction"
         phi = np.linspace(0.0, min(TURN, self.period), 72, endpoint=False)
         try:
             found = self.passes_ratio(phi)
@@ -212,12 +212,12 @@ class Machine:
         Raises
             SelfLocking - where there are no forces with which it moves
         """
-        assert self.friction is not None, "asked for only where there is friction"
+        assert self.friction is not None, "needed only where there is friction"
         return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
 
     def rubbing(self, share: float) -> Machine:
         """The machine with a share of its friction."""
-        assert self.friction is not None, "asked for only where there is friction"
+        assert self.friction is not None, "needed only where there is friction"
         return replace(self, friction=self.friction.scaled(share), kept={}, kept_few={}, kept_sums={})
 
     @property
@@ -271,7 +271,7 @@ class Machine:
         return rate
 
     def _between(self, name: str) -> Callable[[Reals], Reals]:
-        assert self.friction is not None, "asked for only where there is friction"
+        assert self.friction is not None, "needed only where there is friction"
         friction = self.friction
         return lambda phi: friction.rate(self.at(phi), name)
 

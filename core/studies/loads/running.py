@@ -77,7 +77,7 @@ class Running:
     def slope(self) -> float:
         """k at the input [N m s]."""
         motor = self.motor
-        assert motor is not None, "asked for only with a motor"
+        assert motor is not None, "needed only with a motor"
         if motor.slope is not None:
             return float(motor.slope * motor.ratio**2)
         slip = (motor.no_load_speed - motor.rated_speed) * RPM

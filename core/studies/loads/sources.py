@@ -110,7 +110,7 @@ def _require_link(name: str, known: tuple[str, ...], key: str) -> None:
 
 def _require_sort(load: Load, slides: bool, key: str) -> None:
     if slides and load.torque is not None:
-        raise NoSolution(f"{load.on} slides", key=f"{key}.torque", fix="give a force in place of a torque")
+        raise NoSolution(f"{load.on} slides", key=f"{key}.torque", fix="give a force instead of a torque")
     if not slides and load.force is not None and not isinstance(load.force, list):
         raise NoSolution(
             f"{load.on} turns", key=f"{key}.force", fix="give a torque, or a point and a force [x, y] that acts there"

@@ -25,7 +25,7 @@ AboveZero = Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N/
 
 
 class Body(Spec):
-    """A link's mass; what is left out is zero."""
+    """Mass of a link; keys that are not given are zero."""
 
     mass: Kilograms = Field(0.0, description="mass")
     inertia: Inertia = Field(0.0, description="moment of inertia about the centre of mass; 0: a point mass")
@@ -56,7 +56,7 @@ class Course(Spec):
     )
     interpolation: Literal["step", "linear", "cubic"] = Field("linear", description="between the pairs of the table")
     zones: Annotated[list[Zone], Field(min_length=1, max_length=1000)] | None = Field(
-        None, description="stretches of constant value, in place of a table"
+        None, description="stretches of constant value, instead of a table"
     )
 
     @model_validator(mode="after")
@@ -176,11 +176,11 @@ class Motor(Spec):
         None, description="torque that it may give all the time"
     )
     slope: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N m s"})] | None = Field(
-        None, description="torque lost per rad/s, in place of rated_speed and rated_torque"
+        None, description="torque lost per rad/s, instead of rated_speed and rated_torque"
     )
     inertia: Inertia = Field(0.0, description="moment of inertia at the motor's shaft")
     ratio: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] = Field(
-        1.0, description="motor turns per revolution of the input"
+        1.0, description="motor revolutions per revolution of the input"
     )
     max_torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
         None, description="maximum torque for a moment"
@@ -222,7 +222,7 @@ class Bearing(Spec):
             raise PydanticCustomError("GL106", "a plain bearing needs width and diameter", {"key": "kind"})
         rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
         if self.kind == "plain" and rating is not None:
-            message = f"a plain bearing has no rating life, only bearing_pressure: leave {rating} out"
+            message = f"a plain bearing has no rating life, only bearing_pressure: omit {rating}"
             raise PydanticCustomError("GL111", "{message}", {"key": rating, "message": message})
         if self.kind != "plain" and self.dynamic_rating is None:
             raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})
@@ -236,9 +236,9 @@ class Vibration(Spec):
         None, description="natural frequency"
     )
     stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="in place of frequency: of the output shaft (N m/rad) or of the slider's drive (N/mm)"
+        None, description="instead of frequency: of the output shaft (N m/rad) or of the slider's drive (N/mm)"
     )
-    damping: Coefficient | None = Field(None, description="damping ratio; left out: 0.03, assumed")
+    damping: Coefficient | None = Field(None, description="damping ratio; default: 0.03, assumed")
     allowed_residual: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="maximum vibration left in the dwell, deg or mm as the output moves"
     )
@@ -310,7 +310,7 @@ class CommonLoads(Spec):
 class Loads(CommonLoads):
     """The loads of a kind that is driven at a speed of its own."""
 
-    speed: Speed | None = Field(None, description="speed of the input, signed; left out: input_speed")
+    speed: Speed | None = Field(None, description="speed of the input, signed; default: input_speed")
 
 
 def of_body(spec: Any, name: str) -> Body:

@@ -57,7 +57,7 @@ class Vibrating:
             raise MissingSection(
                 f"loads.vibration.stiffness needs the {what} of {self.design.output}",
                 key="loads.vibration.stiffness",
-                fix="give it, or frequency in place",
+                fix="give it, or frequency instead",
             )
         return found
 
@@ -68,7 +68,7 @@ class Vibrating:
             raise NoSolution(
                 "the speed of this machine jumps: its vibration after a blow is not in the model",
                 key="loads.vibration",
-                fix="leave vibration out",
+                fix="omit vibration",
             )
         damping = ASSUMED_DAMPING if self.section.damping is None else self.section.damping
         given = "stiffness" if self.section.frequency is None else "frequency"

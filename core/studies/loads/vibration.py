@@ -38,7 +38,7 @@ def bounded(frequency: float, speed: float, key: str) -> float:
     ratio = frequency / abs(speed)
     if _LEAST_RATIO <= ratio <= _MOST_RATIO:
         return frequency
-    remedy = "moves as a rigid one does: leave vibration out"
+    remedy = "moves as a rigid one does: omit vibration"
     if ratio < _LEAST_RATIO:
         remedy = "does not follow its drive: make it stiffer"
     message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
@@ -184,7 +184,7 @@ class PeriodicResponse:
         """Z at the start of the steady state, F/(1 - e^(lam T)).
 
         Notes
-            Of a motion without the harmonic that would stand still in it, whose F is rounding, the state without that
+            Of a motion without the harmonic that would be at rest in it, whose F is rounding, the state without that
             harmonic: the mean of Z e^(-lam t) vanishes.
         """
         panels, rate = self._panels, self._rate

@@ -187,7 +187,7 @@ class RegisterDesign(Design):
         if not self.has_outputs:
             for key in ("output", "direction"):
                 if getattr(given, key) is not None:
-                    message = f"{key} belongs to machines with several outputs: here {self.words} counts, leave it out"
+                    message = f"{key} belongs to machines with several outputs: here {self.words} counts, omit it"
                     raise NoSolution(message, key=f"register.{key}")
         section: Register = given
         return section
@@ -412,7 +412,7 @@ def contribution(source: Scatter, gain: Any) -> Contribution:
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
     """A place that the machine does not have."""
     return NoSolution(
-        f"no place {named(at)} here", key="register.at", fix=f"give {', '.join(known)} or an input angle in degrees"
+        f"no position {named(at)} here", key="register.at", fix=f"give {', '.join(known)} or an input angle in degrees"
     )
 
 

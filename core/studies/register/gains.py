@@ -61,7 +61,7 @@ class Moves:
         if source.key in self.errors:
             return self.errors[source.key]
         message = f"{source.key} does not move {self.words}"
-        raise NoSolution(message, key="tolerance.sources", fix="leave it out of a register")
+        raise NoSolution(message, key="tolerance.sources", fix="omit it of a register")
 
     def is_vector(self, source: Scatter) -> bool:
         """Whether an error of it has any direction."""

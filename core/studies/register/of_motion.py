@@ -77,7 +77,7 @@ class MotionRegister(RegisterDesign):
         found = self.design.moving
         if found.input.unit != "rad":
             message = "a register is taken over an input angle"
-            raise NoSolution(message, key="drive.slide", fix="drive a link in place of a slide")
+            raise NoSolution(message, key="drive.slide", fix="drive a link instead of a slide")
         return found
 
     @cached_property
@@ -210,7 +210,7 @@ class MotionRegister(RegisterDesign):
         """Circumferential backlash of each mesh on the way [mm]."""
         meshes = tuple(each.name for each in self._at_start.connections if isinstance(each, Toothed))
         if not meshes and self.section.backlash is not None:
-            raise NoSolution("no mesh lies on the way to the output", key="register.backlash", fix="leave backlash out")
+            raise NoSolution("no mesh lies on the way to the output", key="register.backlash", fix="omit backlash")
         return self.section.backlash_of(meshes)
 
     @cached_property
@@ -218,9 +218,7 @@ class MotionRegister(RegisterDesign):
         """The contacts with cams."""
         found = [each.name for each in self._at_start.connections if isinstance(each, (Contact, SharedContact))]
         if not found:
-            raise NoSolution(
-                "no cam lies on the way to the output", key="register.cam_error", fix="leave cam_error out"
-            )
+            raise NoSolution("no cam lies on the way to the output", key="register.cam_error", fix="omit cam_error")
         return found
 
     @cached_property

@@ -25,15 +25,15 @@ class VariableSpec(Spec):
     from_: Amount | None = Field(None, alias="from", description="minimum value, in multiples of `times`")
     to: Amount | None = Field(None, description="maximum value, in multiples of `times`")
     step: Annotated[float, Field(gt=0, json_schema_extra={"unit": "the key's"})] | None = Field(
-        None, description="step of the range; default 1 for whole numbers; left out, real numbers are sampled"
+        None, description="step of the range; default 1 for whole numbers; without it real numbers are sampled"
     )
     points: Annotated[int, Field(ge=2, le=100_000, json_schema_extra=_UNIT)] | None = Field(
-        None, description="number of values from `from` to `to`, in place of step"
+        None, description="number of values from `from` to `to`, instead of step"
     )
     log: bool = Field(False, description="sampled, or divided into points, by equal ratios")
     times: str | None = Field(None, description="path of a variable above, whose multiples `from` and `to` are")
     values: Annotated[list[Value], Field(min_length=1, max_length=100_000)] | None = Field(
-        None, description="list of values, in place of from and to"
+        None, description="list of values, instead of from and to"
     )
     also: list[str] = Field([], description="keys that always take the same value")
 
@@ -45,7 +45,7 @@ class VariableSpec(Spec):
                     message = "values goes without from, to, step, points and times: give the one or the others"
                     raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
             if self.log:
-                raise PydanticCustomError("GL111", "values are taken as they are\nleave log out", {"key": "log"})
+                raise PydanticCustomError("GL111", "values are taken as they are\nomit log", {"key": "log"})
             return self
         if self.from_ is None or self.to is None:
             missing = "from" if self.from_ is None else "to"
@@ -59,7 +59,7 @@ class VariableSpec(Spec):
             numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}
             raise PydanticCustomError("GL111", words, numbers)
         if self.log and self.step is not None:
-            message = "step makes equal steps, log equal ratios: give points in place of step, or leave log out"
+            message = "step makes equal steps, log equal ratios: give points instead of step, or omit log"
             raise PydanticCustomError("GL111", message, {"key": "log"})
         if self.log and not self.from_ > 0.0:
             raise PydanticCustomError("GL108", "equal ratios need a range above 0", {"key": "from"})
@@ -102,8 +102,8 @@ class StudySpec(DesignSpec):
 
     kind: Literal["study"]
     of: str | None = Field(None, description="design file of the base design, relative to the study")
-    design: dict[str, Any] | None = Field(None, description="the base design itself, in place of of")
-    command: str | None = Field(None, description="whose checks count; default: the first that the base asks for")
+    design: dict[str, Any] | None = Field(None, description="the base design itself, instead of of")
+    command: str | None = Field(None, description="whose checks count; default: the first that the base specifies")
     variables: Annotated[dict[str, VariableSpec], Field(min_length=1, max_length=64)] = Field(
         description="by the paths of the design's keys: {from, to, step}, or {values: [...]}"
     )

@@ -17,11 +17,11 @@ NO_MECHANISM = Rule(
 )
 NOT_LINEAR = Rule(
     "GL178",
-    "slopes do not explain the scatter",
-    "The variance by the slopes at the nominal design is less than nine tenths of the sampled one (a warning).",
+    "sensitivities do not explain the variation",
+    "The variance by the sensitivities at the nominal design is less than nine tenths of the sampled one (a warning).",
     "Linear shares then point at the wrong part: the quantity has a kink, or bends within the tolerances.",
-    "Ask for Sobol' indices (--sobol), which need no linear response.",
-    "sum (slope sigma)^2 >= 0.9 variance of the samples",
+    "Request Sobol' indices (--sobol), which need no linear response.",
+    "sum (sensitivity sigma)^2 >= 0.9 variance of the samples",
     "own choice",
     ("linear-shares",),
     ("tolerance.sources", "tolerance"),
@@ -43,7 +43,7 @@ REGISTER_BUDGET = Rule(
     "The errors of the parts add up to more than register.tolerance over the stretch that prints or holds: 99.73 % of "
     "the machines do not keep it, or at worst one does not (a warning).",
     "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
-    "Improve first what stands first in the table budget.",
+    "Improve first what is listed first in the table budget.",
     "what 99.73 % keep over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),
@@ -56,7 +56,7 @@ BACKLASH_IN_DWELL = Rule(
     "The torque on the output (of a press the force on racks and cylinder) changes its sign while the output should "
     "stand or print (a warning).",
     "There the output jumps by the backlash of all meshes on its way.",
-    "Brake the output with more friction than its inertia asks for, or preload the gears.",
+    "Brake the output with more friction than its inertia requires, or preload the gears.",
     "sign of J W' w^2 + T_f sign(W) + T_load over the stretch; of a press sign of q''",
     "own derivation",
     ("backlash-in-dwell",),

@@ -1,4 +1,4 @@
-"""Sources that scatter together: their normal coordinates are correlated (a Gaussian copula)."""
+"""Sources that vary together: their normal coordinates are correlated (a Gaussian copula)."""
 
 from __future__ import annotations
 

@@ -312,7 +312,9 @@ def _lower_of_shaft(size: float, letter: str, grade: int) -> float:
 
 def _special(name: str, exist: str) -> tuple[float, ...]:
     if name not in _J:
-        raise NoSolution(f"no tolerance class {name}: of this letter there are {exist}; js (JS) serves every grade")
+        raise NoSolution(
+            f"no tolerance class {name}: of this letter there are {exist}; js (JS) is available for every grade"
+        )
     return _J[name]
 
 

@@ -120,7 +120,7 @@ def normal_between(
     Parameters
         lower, upper : float - limits of the deviation
         capability : float - C_p, positive
-        centred : float - C_pk, at most C_p; left out: the process runs in the middle
+        centred : float - C_pk, at most C_p; default: the process runs in the middle
         up : bool - towards which limit the process lies
     Example
         >>> law = normal_between(-0.02, 0.02, capability=1.33, centred=1.0)

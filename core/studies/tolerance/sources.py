@@ -98,7 +98,7 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     if faults:
         raise WrongStudy(faults)
     if not found:
-        raise _no("GL170", "no source: name at least one size that scatters", ("tolerance", "sources"))
+        raise _no("GL170", "no source: name at least one toleranced dimension", ("tolerance", "sources"))
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
         raise _no(
             "GL175",
@@ -179,7 +179,7 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
     else:
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
-        what = "holds a whole number, which does not scatter" if nominal is not None else "is no key with a number"
+        what = "holds a whole number, which does not vary" if nominal is not None else "is no key with a number"
         raise _no("GL170", f"{named(key)} {what}: name a length or an angle of this file", place)
     unit = "mm" if group == "centers" or key in parts.others else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
@@ -214,7 +214,7 @@ def _law(entry: ToleranceSource, lower: float, upper: float, place: Place) -> La
     if entry.form == "measured":
         return Law("fixed", lower, upper, mean=lower)
     if not lower < upper:
-        raise _no("GL171", f"the limits {lower:g} and {upper:g} leave no room: nothing scatters", place)
+        raise _no("GL171", f"the limits {lower:g} and {upper:g} leave no interval: nothing varies", place)
     normal = normal_between(lower, upper, entry.cp, entry.cpk, entry.shift != "down")
     if entry.form == "sigma":
         normal = Law("normal", lower, upper, 0.0, entry.sigma or 0.0)

@@ -40,7 +40,7 @@ def _wrong(code: str, text: str, key: str = "") -> PydanticCustomError:
 
 
 class ToleranceSource(Spec):
-    """How one size scatters: its limits in one of several forms, and its law."""
+    """Tolerance of one dimension: its limits in one of several forms, and its distribution."""
 
     plus_minus: Width | None = Field(None, description="limits at the same distance to either side")
     lower: Deviation | None = Field(None, description="lower limit of the deviation")
@@ -60,9 +60,9 @@ class ToleranceSource(Spec):
     width: Length | None = Field(None, description="face width of the gear")
     eccentricity: Length | None = Field(None, description="maximum distance of a gear's pitch circle from its axis")
     phase: Angle | None = Field(
-        None, description="measured direction of the eccentricity at input angle 0; left out: any"
+        None, description="measured direction of the eccentricity at input angle 0; default: any"
     )
-    measured: Deviation | None = Field(None, description="absolute size of one part in reserve: it does not scatter")
+    measured: Deviation | None = Field(None, description="absolute size of one part in reserve: it does not vary")
     law: Literal["normal", "uniform", "triangular", "truncated"] = Field(
         "normal", description="law of distribution", json_schema_extra=also("distribution")
     )
@@ -111,7 +111,7 @@ class ToleranceSource(Spec):
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
                 raise _wrong(
-                    "GL171", f"the limits {pair[0]:g} and {pair[1]:g} leave no room: the first must be the smaller"
+                    "GL171", f"the limits {pair[0]:g} and {pair[1]:g} leave no interval: the first must be the smaller"
                 )
         if self.clearance is not None and self.clearance[0] < 0:
             raise _wrong("GL171", f"a clearance of {self.clearance[0]:g} mm is an interference: give 0 or more")
@@ -130,11 +130,11 @@ class ToleranceSource(Spec):
                 "GL172", f"cpk {self.cpk:g} is below cp {self.cp:g}: say with shift: up or down where the process lies"
             )
         if self.mode is not None and self.law != "triangular":
-            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}: leave it out")
+            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}: omit it")
 
 
 class Correlation(Spec):
-    """Sources that scatter together."""
+    """Sources that vary together."""
 
     sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
     rho: Annotated[float, Field(json_schema_extra={**_ONE, "minimum": -1, "maximum": 1})] = Field(
@@ -160,7 +160,7 @@ class Tolerance(Spec):
     """Tolerances of a design, for the commands tolerance and register."""
 
     command: str | None = Field(
-        None, description="command whose quantities and checks are judged; default the file's first"
+        None, description="command whose quantities and checks are evaluated; default the file's first"
     )
     seed: Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)] = Field(
         1, description="the same seed gives the same samples"
@@ -168,9 +168,11 @@ class Tolerance(Spec):
     samples: Annotated[int, Field(ge=16, le=2**24, json_schema_extra=_ONE)] | None = Field(
         None, description="rounded up to 16 x 2^k; default 131072, 4096 where each design is computed alone"
     )
-    sources: dict[str, ToleranceSource] = Field(description="how sizes scatter, by the keys of this file")
-    correlated: list[Correlation] = Field([], description="sources that scatter together")
-    require: list[str] = Field([], description="conditions beside the checks, such as back_step_angle <= 20.4 deg")
+    sources: dict[str, ToleranceSource] = Field(description="tolerances of dimensions, by the keys of this file")
+    correlated: list[Correlation] = Field([], description="sources that vary together")
+    require: list[str] = Field(
+        [], description="conditions in addition to the checks, such as back_step_angle <= 20.4 deg"
+    )
     target_yield: Share | None = Field(
         None, description="share of designs that must be good; below it the command fails"
     )
@@ -187,7 +189,7 @@ class Tolerance(Spec):
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
                 raise _wrong(
                     "GL176",
-                    f"{named(twice[0])} stands twice in one group of correlated: name different sources",
+                    f"{named(twice[0])} is listed twice in one group of correlated: name different sources",
                     "correlated",
                 )
         return self
@@ -220,7 +222,7 @@ class Register(Spec):
     friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
     load: Torque = Field(0.0, description="torque that the machine takes from the output")
     stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | None = Field(
-        None, description="of the output shaft; left out: rigid"
+        None, description="of the output shaft; default: rigid"
     )
 
     def backlash_of(self, meshes: tuple[str, ...]) -> dict[str, float]:

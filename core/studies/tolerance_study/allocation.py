@@ -204,8 +204,8 @@ def table_rows(study: Any) -> list[tuple[Any, ...]]:
 def _why_not(sampled: float | None) -> str:
     """Why grades that reach the target by the slopes are not taken."""
     if sampled is None:
-        return "by the slopes alone; samples of like grades missed the target"
-    return f"by the slopes alone; samples prove no more than {100 * sampled:.6g} %"
+        return "by the sensitivities alone; samples of like grades missed the target"
+    return f"by the sensitivities alone; samples prove no more than {100 * sampled:.6g} %"
 
 
 def require(made: Problem) -> None:
@@ -218,7 +218,9 @@ def require(made: Problem) -> None:
     if not _limited(made):
         window = getattr(made.base.spec(), "dwell_window", None)
         line = "QUANTITY >= NUMBER" if window is None else f"tolerance_dwell_angle >= {window:g} deg"
-        message = f"--allocate chooses by the slopes of quantities, and a check names none: add require: [{line}]"
+        message = (
+            f"--allocate chooses by the sensitivities of quantities, and a check names none: add require: [{line}]"
+        )
         raise no("GL171", message, "require")
 
 

@@ -281,7 +281,7 @@ class ToleranceStudy(Design):
             if share < _EXPLAINED:
                 what = f"variance of {name} that the sensitivities explain"
                 shown = Shown(100.0 * share, 100.0 * _EXPLAINED, "%", ">=")
-                yield NOT_LINEAR.check("warn", what, share, _EXPLAINED, shown=shown, fix="ask for --sobol")
+                yield NOT_LINEAR.check("warn", what, share, _EXPLAINED, shown=shown, fix="use --sobol")
 
 
 def _scatters(spread: Spread) -> bool:

@@ -165,7 +165,8 @@ class Problem:
         for code, name in left.items():
             yield (
                 code,
-                f"{name} judges the search for {' and '.join(asked)}, done once: judge samples by a line of require",
+                f"{name} evaluates the search for {' and '.join(asked)}, done once: evaluate samples by a line "
+                f"of require",
             )
 
     def _of_other_commands(self) -> Iterator[tuple[str, str]]:
@@ -176,7 +177,7 @@ class Problem:
                 continue
             if not sampled.issuperset(kind.design_class(command).judged(command, spec)):
                 why = "samples carry no loads" if command in _ABOUT else "tolerance.command may name this command"
-                yield command, f"its checks judge no sample: {why}"
+                yield command, f"its checks evaluate no sample: {why}"
 
     @cached_property
     def names(self) -> tuple[str, ...]:

@@ -98,7 +98,7 @@ def component_sigma(source: Scatter) -> float:
 def linear_shares(
     rows: Sequence[Slope], sources: Sequence[Scatter], correlations: Mapping[tuple[str, str], float]
 ) -> list[float | None]:
-    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing scatters.
+    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing varies.
 
     A source's share is its covariance with the whole: with correlations it may be negative, and all still add up to 1.
     """
@@ -128,7 +128,7 @@ def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
     S_i = [mean(f_B f_C) - f0^2]/V (Janon),   T_i = mean((f_A - f_C)^2)/(2 V) (Jansen)
 
     Notes
-        C is A with the source's columns of B; sources that scatter together have one index, that of their group.
+        C is A with the source's columns of B; sources that vary together have one index, that of their group.
         Each replication by itself, with the mean and variance of its own; the
         interval is that of the replications.
     Source

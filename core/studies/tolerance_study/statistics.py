@@ -160,7 +160,7 @@ def capabilities(rows: Spread, lower: float | None, upper: float | None) -> tupl
         rows : Spread
         lower, upper : float or None - limits; C_p needs both, C_pk one
     Returns
-        cp, cpk : Estimate or None - None without limits, or where nothing scatters
+        cp, cpk : Estimate or None - None without limits, or where nothing varies
     Notes
         Equal to the usual indices for a normal quantity. Intervals by the replications: the quantiles of one move
         together.

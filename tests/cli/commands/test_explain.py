@@ -216,7 +216,7 @@ def test_help_has_an_example(gearlink: Any) -> None:
 
 
 @pytest.mark.parametrize(("name", "about", "words"), [
-    ("phi13", "symbol", "dwell_angle: crank angle until the output regains its place"),
+    ("phi13", "symbol", "dwell_angle: crank angle until the output is back at its starting position"),
     ("mu_min", "symbol", "min_transmission_angle: "),
     ("cam.lead_in", "key", "cam angle before the zone"),
     ("lead_in", "key", "cam angle before the zone"),
@@ -278,7 +278,10 @@ def test_text_fits_the_width(gearlink: Any, monkeypatch: pytest.MonkeyPatch, wid
 
 
 def test_no_paragraph_repeats_the_headline(gearlink: Any) -> None:
-    assert gearlink("explain", "dwell_angle").out.count("crank angle until the output regains its place") == 1
+    assert (
+        gearlink("explain", "dwell_angle").out.count("crank angle until the output is back at its starting position")
+        == 1
+    )
 
 
 @pytest.mark.quick(2)

@@ -38,7 +38,7 @@ cases:
 
 @pytest.fixture
 def injected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of cases in place of the program's own."""
+    """A folder of cases instead of the program's own."""
     monkeypatch.setattr(cases, "FOLDER", tmp_path)
     return tmp_path / "a-circle.yaml"
 

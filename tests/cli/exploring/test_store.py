@@ -271,7 +271,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 def changed(finished: bytes, folder: Path, statement: str, value: Any) -> Path:
-    """A copy of a store with something put into it in place of what a run wrote."""
+    """A copy of a store with something put into it instead of what a run wrote."""
     path = folder / "s"
     path.write_bytes(finished)
     connection = sqlite3.connect(path)

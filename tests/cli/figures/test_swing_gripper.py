@@ -214,5 +214,5 @@ def test_torques_are_left_out_where_the_file_has_none() -> None:
 )
 def test_the_motion_is_drawn_though_the_cam_is_impossible(command: str, keys: dict[str, Any]) -> None:
     figure = sheet("swing_gripper", command, **keys).figure
-    assert panel(figure, "Mechanism at the bite")
+    assert panel(figure, "Mechanism at the pick-up position")
     assert not [axes for axes in figure.axes if axes.get_title(loc="left").startswith("Torques")]

@@ -102,7 +102,7 @@ def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: st
         first = cam.points(np.array([cam.contact[0][0]])).profile[0]
         mirror = -1.0 if title.startswith("Cam of the return") else 1.0
         np.testing.assert_allclose(start, [first.real, mirror * first.imag], rtol=0.0, atol=1e-9)
-        slot = curves["slot, in which the roller changes sides"].get_xydata()
+        slot = curves["slot, in which the roller changes flank"].get_xydata()
         x, y = curves["rocker, mid-swing"].get_data()
         np.testing.assert_allclose(
             np.hypot(slot[:, 0] - x[1], slot[:, 1] - y[1]), cam.roller_radius, rtol=0.0, atol=1e-9

@@ -151,7 +151,7 @@ def _pieces(board: Board) -> dict[str, Any]:
 
 @pytest.mark.parametrize("begun", [b"GET / HT", b"POST / HTTP/1.1\r\n\r\n" * 1000])
 def test_a_reader_who_goes_away_is_no_error(capfd: pytest.CaptureFixture[str], begun: bytes) -> None:
-    at_once = struct.pack("ii", 1, 0)  # a reset, in place of an end
+    at_once = struct.pack("ii", 1, 0)  # a reset, instead of an end
     with served(Board(), lambda: "shell", 0) as address:
         place = urllib.parse.urlsplit(address)
         for _ in range(5):

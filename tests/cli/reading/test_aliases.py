@@ -1,4 +1,4 @@
-"""Standard terms are read in place of the names of keys and quantities. No tolerances: the specs are the same."""
+"""Standard terms are read instead of the names of keys and quantities. No tolerances: the specs are the same."""
 
 from __future__ import annotations
 

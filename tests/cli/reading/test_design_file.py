@@ -51,7 +51,7 @@ class Gears(Section):
     @model_validator(mode="after")
     def _one_ratio(self) -> Gears:
         if self.i3 is not None and self.idler is not None:
-            raise PydanticCustomError("GL111", "i3 excludes idler", {"key": "i3", "help": "leave one out"})
+            raise PydanticCustomError("GL111", "i3 excludes idler", {"key": "i3", "help": "omit one"})
         return self
 
 
@@ -320,7 +320,7 @@ def test_every_error_is_told_in_one_run_in_the_order_of_the_file() -> None:
          "gears: its keys are module, crank, idler, i3, pressure_angle"),
         ("gears: [1]", "GL107", "gears", "gears must be a section of keys, not a list",
          "gears: its keys are module, crank, idler, i3, pressure_angle"),
-        ("gears: {module: 2, crank: 1, idler: 3, i3: -1}", "GL111", "gears.i3", "i3 excludes idler", "leave one out"),
+        ("gears: {module: 2, crank: 1, idler: 3, i3: -1}", "GL111", "gears.i3", "i3 excludes idler", "omit one"),
         ("name: 460", "GL107", "name", "name must be text, not 460", 'put it in quotes: "460"'),
         ("name: true", "GL107", "name", "name must be text, not true", 'put it in quotes: "true"'),
         ("teeth: [1, 2, 3]", "GL107", "teeth", "teeth must have exactly 2 entries, not 3", ""),
@@ -415,7 +415,7 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
         ("0xG", "write it in decimals"),
         ("1e", "write the exponent as in 1e3"),
         ("1e5_0", "write the exponent as in 1e3"),
-        ("2O", "a letter stands for a digit: write 20"),
+        ("2O", "a letter instead of a digit: write 20"),
         ("8000/60", "write 133.3333333"),
         ("72 / 2", "write 36"),
         ("1/0", "write it in decimals"),

@@ -179,7 +179,7 @@ def test_byte_order_mark_is_no_part_of_the_text(parser: Any) -> None:
         ("? [a]\n: 1\n", (1, 3), "a key must be"),
         ("x: &x k\n*x : 1\n", (2, 1), "cannot serve as a key"),
         ("a: *x\n", (1, 4), "no anchor '&x'"),
-        ("a: &x [*x]\n", (1, 8), "inside of what it stands for"),
+        ("a: &x [*x]\n", (1, 8), "inside of its own value"),
         ("a: 1\nb: {x: 1\n", (2, 4), "'{' is never closed"),
         ("a: 'x\n", (1, 4), "never closed"),
         ("a: [1, 2\nb: 3\n", (2, 2), "'[' of line 1"),
@@ -233,7 +233,7 @@ def test_odd_signs_in_text_and_comments_are_a_writers_own() -> None:
     assert data("# 注：一\nname: 印刷机：甲\nb: 'x\u00a0y'\n") == {"name": "印刷机：甲", "b": "x\u00a0y"}
     wrong = errors("# 注：一\nname: 印刷机：甲\nb: 1\n c: 2\n")[0]
     assert (wrong.line, wrong.column) == (4, 3)
-    assert "colon that cannot stand here" in wrong.message
+    assert "colon that is not allowed here" in wrong.message
 
 
 def test_tabs_that_yaml_allows(parser: Any) -> None:

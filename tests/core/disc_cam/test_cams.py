@@ -156,7 +156,7 @@ def test_groove_and_cutter_stand_off_the_pitch_curve() -> None:
     assert np.abs(cutter - inner) == pytest.approx(30.0, rel=1e-12)
     assert design.max_radius == pytest.approx([78.0, 102.0], rel=1e-12)
     assert design.min_radius == pytest.approx([48.0, 72.0], rel=1e-12)
-    # the minimum hollow radius, where the profile bends inwards
+    # the minimum concave radius, where the profile bends inwards
     measured = radius_by_differences(lambda each: design.cams.main.points(each)[1], np.linspace(0.02, 6.26, 20_001))
     assert design.min_concave_radius == pytest.approx(measured[measured > 0.0].min(), rel=1e-3)
 

@@ -116,7 +116,7 @@ def test_refusals() -> None:
             design(GIVEN, **keys).report("analyze")
         assert refused.value.key == key
     for keys, words in (
-        ({"rod": {"length": 100.0}}, "leave it out"),
+        ({"rod": {"length": 100.0}}, "omit it"),
         ({"point": {"ratio": 0.0}}, "above 0"),
         ({"output": "slider", "point": {"ratio": 1.2}, "rod": {"rule": "minimax"}}, "rod.length"),
     ):

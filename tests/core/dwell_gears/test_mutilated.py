@@ -233,7 +233,7 @@ def test_wanted_times_that_cannot_be_had() -> None:
     ("keys", "words"),
     [
         ({"input_speed": None}, "needs the input's speed"),
-        ({"reduction": 6}, "leave it out"),
+        ({"reduction": 6}, "omit it"),
         ({"target": {"motion_turns": 1}}, "give dwell_turns"),
         ({"target": {"motion_turns": 1, "motion_time": 1, "dwell_turns": 1}}, "exclude each other"),
         ({"target": None}, "the key reduction is missing"),

@@ -48,7 +48,7 @@ STUDIES: dict[str, tuple[dict[str, Any], str, dict[str, Any], str]] = {
 
 @pytest.fixture
 def garbage() -> Iterator[list[Any]]:
-    """What only the collector can free, in place of freeing it."""
+    """What only the collector can free, instead of freeing it."""
     gc.disable()
     gc.freeze()  # else every collection walks all that the tests have loaded
     yield gc.garbage

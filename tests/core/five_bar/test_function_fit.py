@@ -273,7 +273,7 @@ def test_budget_is_kept_and_what_was_reached_is_told() -> None:
         ("five_bar_timed_points", {"target__input_angles": [1, 40, 80, 120, 200]}, "count from the first"),
         ("five_bar_points", {"target__budget": 5}, "budget goes with"),
         ("five_bar_function", {"target__positions": [[0, 0], [1, 1]]}, "exclude each other"),
-        ("five_bar_function", {"range": {"start": 0, "end": 60}}, "leave range out"),
+        ("five_bar_function", {"range": {"start": 0, "end": 60}}, "omit range"),
         ("five_bar_function", {"target__function__links": "given"}, "give range"),
         ("five_bar_function", {"target__function__name": "power"}, "a power needs one"),
         ("five_bar_function", {"target__function__x": [2, 2]}, "the same at both ends"),

@@ -77,9 +77,9 @@ def test_checks_and_refusals() -> None:
     few = press(bed__pinion__teeth=12).check("undercut")
     assert [each.status for each in few if "pinion_rack" in each.message] == ["fail"]
     for keys, words in (
-        ({"cylinder__gear_ratio": 2.0}, "leave gear_ratio out"),
+        ({"cylinder__gear_ratio": 2.0}, "omit gear_ratio"),
         ({"bed__pinion": None, "bed__rack_teeth": [30, 30]}, "rack_teeth goes with pinion"),
-        ({"loads": {"pinion_radius": 90.0}}, "leave pinion_radius out"),
+        ({"loads": {"pinion_radius": 90.0}}, "omit pinion_radius"),
     ):
         with pytest.raises(ValueError, match=words):
             press(**keys)

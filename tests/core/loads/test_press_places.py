@@ -64,7 +64,7 @@ def test_the_frame_of_the_theory_warns_and_does_not_fail() -> None:
     ],
 )
 def test_where_the_cylinder_lies_is_told(keys: dict[str, Any], words: str) -> None:
-    """53 + 272 sin 50 deg - 140 - 113 = 8.364 mm, 40 deg in its place: -25.16; 272 sin 47.33 deg = 200."""
+    """53 + 272 sin 50 deg - 140 - 113 = 8.364 mm, 40 deg instead: -25.16; 272 sin 47.33 deg = 200."""
     first, *_ = _places(_press(**{f"loads__{name}": value for name, value in keys.items()}))
     assert words in first[1]
     assert first[0] == ("pass" if first[1].startswith("cylinder to the pitch line") else "warn")

@@ -139,7 +139,7 @@ def test_the_teeth_of_a_mutilated_gear_lose_too(speed: float, friction: dict[str
 
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "two_gear_ring"])
 def test_the_check_of_power_sees_a_loss_on_the_wrong_gear(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """GL601: losses on the driving gear are 1/(2 - eta) in place of eta, (1 - eta)^2 of the power too few."""
+    """GL601: losses on the driving gear are 1/(2 - eta) instead of eta, (1 - eta)^2 of the power too few."""
     section = {"speed": 60, "links": {"output": BODY}, "forces": [{"on": "output", "torque": -20}]}
     keys: dict[str, Any] = {"loads": section} if name == "two_gear_ring" else {}
 

@@ -98,7 +98,7 @@ def test_lower_orders_give_the_same_and_no_more(name: str) -> None:
 def test_a_law_without_a_third_derivative_says_so() -> None:
     slider = _made("wide swing, slider")
     assert slider.moving.highest == 2
-    with pytest.raises(AssertionError, match="third derivative was not asked for"):
+    with pytest.raises(AssertionError, match="third derivative was not requested"):
         _ = slider.moving.at(np.zeros(1), 3).links["rocker"].turn.third
 
 

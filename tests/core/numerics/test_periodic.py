@@ -48,5 +48,5 @@ def test_far_end_counts_backwards() -> None:
 
 
 def test_function_that_does_not_settle() -> None:
-    with pytest.raises(NoSolution, match="too sharp: ask for less"):
-        cosine_series(lambda z: np.sqrt(z), math.pi, "too sharp: ask for less")
+    with pytest.raises(NoSolution, match="too sharp: specify less"):
+        cosine_series(lambda z: np.sqrt(z), math.pi, "too sharp: specify less")

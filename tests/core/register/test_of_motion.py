@@ -257,7 +257,7 @@ def test_a_slide_as_input_is_refused() -> None:
         "tolerance": {"sources": {"links.rod[2]": SIZE}},
     }
     made = factory.design(data, command="register")
-    with pytest.raises(NoSolution, match="drive a link in place of a slide") as refused:
+    with pytest.raises(NoSolution, match="drive a link instead of a slide") as refused:
         _ = made.worst
     assert refused.value.key == "drive.slide"
 

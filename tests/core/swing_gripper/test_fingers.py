@@ -34,7 +34,7 @@ def test_the_roller_meets_the_cam_in_the_frame_of_the_machine(mirrored: bool) ->
     beta = design.law.evaluate(DEGREES, 0)[0]
     opening = design.fingers.opening(DEGREES, 0)[0]
     on_arm = section.pivot + section.lever * np.exp(1j * (math.radians(section.angle) + opening))
-    # The arm turns by s beta from the bite, the cam by theta the other way.
+    # The arm turns by s beta from the pick-up position, the cam by theta the other way.
     in_machine = on_arm * np.exp(1j * sense * beta)
     in_cam = in_machine * np.exp(1j * sense * np.radians(DEGREES))
     pitch = design.fingers.cam.points(np.radians(DEGREES) + beta)[0]

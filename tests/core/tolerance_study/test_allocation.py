@@ -141,7 +141,7 @@ def test_what_the_slopes_allow_and_the_samples_refuse_is_said(monkeypatch: pytes
         coarser = tuple(grade + (i == place) for i, grade in enumerate(taken))
         remarks[coarser] = row["remark"]
         assert bool(row["remark"]) == row["one_coarser_holds"]
-    assert remarks[first] == "by the slopes alone; samples prove no more than 50 %"
+    assert remarks[first] == "by the sensitivities alone; samples prove no more than 50 %"
 
 
 @pytest.mark.parametrize(

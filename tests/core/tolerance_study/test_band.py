@@ -77,7 +77,7 @@ def test_percentiles_of_linear_scatter_are_those_of_its_normal_law() -> None:
 
 
 def test_one_by_one_the_far_percentiles_are_left_out() -> None:
-    """A long rod: the slider's place follows the crank's length by cos, the rod's by 1 to first order."""
+    """A long rod: the slider's position follows the crank's length by cos, the rod's by 1 to first order."""
     made = study(SLIDER, sources={"rod": {"plus_minus": 0.03}}, samples=16)
     (found,) = courses(made.problem)
     assert found.output == "displacement"

@@ -158,13 +158,17 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
 @pytest.mark.parametrize(
     ("name", "source", "left"),
     [
-        ("belt_feed", "links.frame", {"GL314": "dwell-edge judges the search for dwell,"}),
+        ("belt_feed", "links.frame", {"GL314": "dwell-edge evaluates the search for dwell,"}),
         (
             "two_gear_standing",
             "links.frame",
             {"GL314": "for dwell,", "gear": "tolerance.command"},
         ),
-        ("wide_lever", "links.frame", {"GL307": "target judges the search for target,", "gear": "tolerance.command"}),
+        (
+            "wide_lever",
+            "links.frame",
+            {"GL307": "target evaluates the search for target,", "gear": "tolerance.command"},
+        ),
         ("loaded_feed", "links.crank", {"loads": "samples carry no loads"}),
         ("slider_crank_tolerances", "rod", {}),
     ],

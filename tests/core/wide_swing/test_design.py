@@ -506,7 +506,7 @@ class TestChecks:
         assert [found.remedy for found in made.findings("swing", "pressure-angle")] == [(), ()]
 
     def test_shorter_rocker_has_no_cusp(self) -> None:
-        """60 mm in place of 74.55 mm: the pitch curve turns smoothly and nothing of the profile is cut away."""
+        """60 mm instead of 74.55 mm: the pitch curve turns smoothly and nothing of the profile is cut away."""
         made = design(cam=CAM | {"rocker_radius": 60.0})
         assert value(made, "contact_end") == 0.5
         assert not np.isnan(table(made, "main_cam")["x"]).any()

@@ -62,7 +62,7 @@ def _power(value: float, _: int) -> str:
 
 
 def without_numbers(axes: Axes) -> None:
-    """The grid and the ticks of an x axis whose numbers stand below another panel, as two lines in place of many."""
+    """The grid and the ticks of an x axis whose numbers stand below another panel, as two lines instead of many."""
     places = np.asarray(axes.xaxis.get_majorticklocs(), dtype=float)
     low, high = sorted(axes.get_xlim())
     places = places[(places >= low) & (places <= high)]

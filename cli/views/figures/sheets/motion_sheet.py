@@ -233,7 +233,7 @@ def press(design: Any) -> list[Course]:
 
 
 def gripper(design: Any) -> list[Course]:
-    """The gripper's arm, and the cam rocker, whose law makes the cam; both from the bite."""
+    """The gripper's arm, and the cam rocker, whose law makes the cam; both from the pick-up position."""
     from gearlink.core.machines.swing_gripper.mechanism import rocker_too
 
     found = _courses(rocker_too(design), design.shaft_speed, 4.0)

@@ -52,7 +52,7 @@ def _accelerating(axes: Axes, design: SwingGripper) -> None:
 def _cams(axes: Axes, design: SwingGripper) -> None:
     """The cams about their axis at cam angle 0, the rollers on the rocker, the shaft."""
     spec, linkage = design.spec.cam, design.linkage
-    assert spec is not None, "the cams have asked for it"
+    assert spec is not None, "the cams have requested it"
     panels.drawing(axes, "Cams at cam angle 0, to scale")
     axis, pivot = design.cam_center, np.array([linkage.input_pivot])
     for cam, color, line in zip(design.cams.discs, panels.CAM_COLORS, panels.CAM_LINES, strict=False):

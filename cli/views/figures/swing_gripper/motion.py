@@ -98,8 +98,8 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
 
 
 def mechanism(axes: Axes, design: SwingGripper) -> None:
-    """The machine at the bite; its linkage and gripper lightly at handover and far dwell, the line of centres."""
-    panels.drawing(axes, "Mechanism at the bite, to scale")
+    """Machine at the pick-up position; its linkage and gripper lightly at handover and far dwell, line of centres."""
+    panels.drawing(axes, "Mechanism at the pick-up position, to scale")
     far = design.law.starts[3]
     stations = (
         ("bite", 0.0, style.BLUE, "-"),

@@ -54,7 +54,7 @@ def has_slots(design: WideSwingDesign) -> bool:
 
 def zone_words(axes: Axes, cam: AnyCam) -> None:
     """How much of the stroke the change of sides takes, in the corner of a drawing."""
-    words = f"changes sides within ±{100.0 * cam.transition_zone:.3g} % of the stroke"
+    words = f"changes flank within ±{100.0 * cam.transition_zone:.3g} % of the stroke"
     axes.text(0.5, 0.02, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=7.5, zorder=8)
 
 
@@ -96,7 +96,7 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
         linewidth=3.4,
         solid_capstyle="butt",
         zorder=3,
-        label="slot, in which the roller changes sides",
+        label="slot, in which the roller changes flank",
     )
 
 
@@ -228,7 +228,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
         failing.past(axes, k, radius, (radius > 0.0) & (radius <= cam.roller_radius), f"{words}, undercut")
         if (radius < 0.0).any():
             hollow = np.where(radius < 0.0, -radius, np.nan)
-            axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=_DOTTED, label=f"{words}, hollow")
+            axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=_DOTTED, label=f"{words}, concave")
     _zone(axes, design)
     roller = design.section.roller_radius
     axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=f"roller radius {roller:g} mm")

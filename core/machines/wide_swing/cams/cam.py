@@ -61,7 +61,7 @@ class WideSwingCam:
         law : StrokeLaw - law of motion of the rocker
         cycle_angle : float [rad] - phi_ud, cam angle of one stroke
         center_distance, roller_radius : float [mm] - a, r_p
-        given_rocker_radius : float or None [mm] - in place of the r of (18) or (24)
+        given_rocker_radius : float or None [mm] - instead of the r of (18) or (24)
         angle_words : str - what a refusal calls the cam angle of the stroke
     Raises
         NoSolution - for lengths that are not positive, a cycle angle outside (0, 360 deg], and a twin-rocker with
@@ -217,7 +217,7 @@ class WideSwingCam:
         Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2): the pitch curvature radius has fallen to r_p at t_c
 
         Raises
-            NoSolution - where the pitch curve has a loop in place of the cusp (q <= 0)
+            NoSolution - where the pitch curve has a loop instead of the cusp (q <= 0)
         """
         p, q = self.cusp
         if q <= 0.0:

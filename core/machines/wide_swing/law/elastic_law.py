@@ -354,7 +354,7 @@ class ElasticLaw:
             if not left.size:
                 return angle
         raise NoSolution(
-            "the law of motion turns over too sharply for its places to be told",
+            "the law of motion reverses too sharply for its positions to be resolved",
             key="unloader.pivot_ratio",
             fix="raise the pivot ratio, or reduce the swing",
         )

@@ -229,7 +229,7 @@ def harmonics_table(design: WideSwingLoads, samples: int | None = None) -> Table
                 "harmonics are those of a whole revolution, and here the stroke alone is known", key="loads"
             )
         message = "harmonics are those of a whole revolution"
-        raise MissingSection(message, key="cycle_angle", fix="give cycle in place of cycle_angle")
+        raise MissingSection(message, key="cycle_angle", fix="give cycle instead of cycle_angle")
     return tables.harmonics(design, samples)
 
 
@@ -243,7 +243,7 @@ class SwingVibrating(Vibrating):
         """That of the rocker; with a slider it changes over the stroke, and a stiffness has no frequency."""
         if self.design.spec.slider is not None:
             message = "with a slider the inertia changes over the stroke"
-            raise NoSolution(message, key="loads.vibration.stiffness", fix="give loads.vibration.frequency in place")
+            raise NoSolution(message, key="loads.vibration.stiffness", fix="give loads.vibration.frequency instead")
         return super().inertia
 
     @cached_property
@@ -427,7 +427,7 @@ class WideSwingLoads(LoadsDesign):
         given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
         if self.whole or given is None:
             return
-        message = f"{given} needs the whole revolution of the cam: give cycle in place of cycle_angle"
+        message = f"{given} needs the whole revolution of the cam: give cycle instead of cycle_angle"
         if self.spec.slider is not None:
             message = f"{given} needs the full revolution of the cam; with slider only the stroke is known: omit it"
         raise MissingSection(message, key=f"loads.{given}")
@@ -438,7 +438,7 @@ class WideSwingLoads(LoadsDesign):
             key, has = f"{name}_direction", getattr(self.spec, name) is not None
             given = getattr(self.section, key) is not None
             if given and not has:
-                raise NoSolution(f"this mechanism has no {name}", key=f"loads.{key}", fix=f"leave {key} out")
+                raise NoSolution(f"this mechanism has no {name}", key=f"loads.{key}", fix=f"omit {key}")
             if has and not given and any(self.section.gravity):
                 words = f"the weight depends on which way the {name} stands"
                 raise MissingSection(words, key="loads.gravity", fix=f"give loads.{key}")

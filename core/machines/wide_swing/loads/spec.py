@@ -33,17 +33,18 @@ class SwingLoads(CommonLoads):
     """
 
     device_direction: Direction | None = Field(
-        None, description="direction from the rocker's axis D to the base pin of the device; left out: no force at D"
+        None, description="direction from the rocker's axis D to the base pin of the device; default: no force at D"
     )
     slider_direction: Direction | None = Field(
         None,
-        description="direction from D in which the slider is farthest; left out: -90, and no force at D",
+        description="direction from D in which the slider is farthest; default: -90, and no force at D",
     )
     drive_direction: Direction | None = Field(
-        None, description="direction from the cam's axis O to the crank's pivot A; left out: -60, and no force at O"
+        None, description="direction from the cam's axis O to the crank's pivot A; default: -60, and no force at O"
     )
     links: SwingMasses = Field(
-        SwingMasses.model_construct(), description="masses of cams, rod and crank-rocker; what is left out has none"
+        SwingMasses.model_construct(),
+        description="masses of cams, rod and crank-rocker; a part without an entry has no mass",
     )
     roller: Roller | None = None
     material: Material | None = None

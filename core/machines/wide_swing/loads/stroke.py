@@ -153,7 +153,7 @@ class SwingStroke:
 
     def _contact(self, k: Reals) -> LineContact:
         found = self.contact(k)
-        assert found is not None, "asked for only where the roller has a width"
+        assert found is not None, "needed only where the roller has a width"
         return found
 
     def columns(self, k: Reals) -> dict[str, tuple[Any, str]]:

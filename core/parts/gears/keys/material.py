@@ -23,10 +23,10 @@ class MaterialSpec(Spec):
         0.3, description="Poisson's ratio"
     )
     contact_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Hlim; left out: no safety against pitting"
+        None, description="sigma_Hlim; default: no safety against pitting"
     )
     bending_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Flim; left out: no safety against breaking"
+        None, description="sigma_Flim; default: no safety against breaking"
     )
     contact_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
         1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given"

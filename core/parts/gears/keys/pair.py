@@ -36,10 +36,10 @@ class PairKeys(ToothKeys):
         None, description="thickness of the rim under the tooth roots of both gears, or of each, for Y_B"
     )
     tool: Annotated[Any, Deferred("parts.gears.keys.sections:OneOrTwoTools")] | None = Field(
-        None, description="rack tool of both gears, or of each; left out: straight to the addendum"
+        None, description="rack tool of both gears, or of each; default: straight to the addendum"
     )
     pin_diameter: Annotated[Any, Deferred("parts.gears.keys.types:LengthOrTwo")] | None = Field(
-        None, description="measuring balls or pins of both gears, or of each; left out: a preferred size"
+        None, description="measuring balls or pins of both gears, or of each; default: a preferred size"
     )
     allowances: Annotated[Any, Deferred("parts.gears.keys.sections:AllowanceSpec")] | None = Field(
         None,

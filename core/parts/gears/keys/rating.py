@@ -56,14 +56,14 @@ class RoughnessSpec(Spec):
 
     flank: Roughness | TwoRoughness = Field(4.8, description="Rz of the flanks")
     root: Roughness | TwoRoughness = Field(20.0, description="Rz of the root fillets")
-    ra: Roughness | TwoRoughness | None = Field(None, description="Ra of the flanks; left out: Rz/8")
+    ra: Roughness | TwoRoughness | None = Field(None, description="Ra of the flanks; default: Rz/8")
 
 
 class LubricantSpec(Spec):
     """The oil: its viscosity at 40 deg C, and further data for the safety against scuffing."""
 
     vg: Viscosity | None = Field(None, description="viscosity class ISO VG, the viscosity at 40 deg C")
-    viscosity_40: Viscosity | None = Field(None, description="viscosity at 40 deg C, in place of vg")
+    viscosity_40: Viscosity | None = Field(None, description="viscosity at 40 deg C, instead of vg")
     viscosity_100: Viscosity | None = Field(None, description="viscosity at 100 deg C, for scuffing")
     temperature: Annotated[float, Field(ge=-50, le=250, json_schema_extra={"unit": "deg C"})] | None = Field(
         None, description="temperature of the oil, for scuffing"
@@ -93,7 +93,7 @@ class LubricantSpec(Spec):
     def at_40(self) -> float:
         """nu_40 [mm^2/s]."""
         found = self.viscosity_40 if self.vg is None else self.vg
-        assert found is not None, "the validator asks for one"
+        assert found is not None, "the validator requires one"
         return found
 
 
@@ -101,7 +101,7 @@ class ShaftSpec(Spec):
     """The shaft of the pinion, whose deflection is in the face load factor."""
 
     position: Literal["a", "b", "c", "d", "e"] = Field(
-        description="where the pinion stands by ISO 6336-1: a between bearings and the torque from the far side, b "
+        description="where the pinion is mounted by ISO 6336-1: a between bearings and the torque from the far side, b "
         "from the near side, c overhung, d and e on further shafts"
     )
     span: Reach = Field(description="distance l of the bearings")
@@ -113,9 +113,9 @@ class ShaftSpec(Spec):
 class FaceSpec(Spec):
     """What is known of the contact across the face."""
 
-    shaft: ShaftSpec | None = Field(None, description="the shaft of the pinion; left out: no deflection of a shaft")
+    shaft: ShaftSpec | None = Field(None, description="the shaft of the pinion; default: no deflection of a shaft")
     misalignment: Micrometers | None = Field(
-        None, description="F_betax before running-in as measured, in place of shaft and tolerances"
+        None, description="F_betax before running-in as measured, instead of shaft and tolerances"
     )
     modification: Modification | None = Field(None, description="of the helix: none (default), crowning, or end-relief")
 
@@ -125,7 +125,7 @@ class FaceSpec(Spec):
             return self
         for key in ("shaft", "modification"):
             if getattr(self, key) is not None:
-                message = "misalignment has all effects in it: leave {key} out"
+                message = "misalignment has all effects in it: omit {key}"
                 raise PydanticCustomError("GL111", message, {"key": key})
         return self
 
@@ -149,20 +149,20 @@ class RatingSpec(Spec):
 
     life: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "h"})] = Field(description="required life")
     material: MaterialName | TwoNames | None = Field(
-        None, description="steel or class of ISO 6336-5; left out only where material has both limits"
+        None, description="steel or class of ISO 6336-5; optional if the material gives both limits"
     )
     hardness: Hardness | TwoHardness | None = Field(
-        None, description="HV, of cast iron and normalized steel HBW; left out: usual for the steel"
+        None, description="HV, of cast iron and normalized steel HBW; default: usual for the steel"
     )
     brinell: Hardness | TwoHardness | None = Field(
-        None, description="HBW of the flank, for the work hardening; left out: hardness"
+        None, description="HBW of the flank, for the work hardening; default: hardness"
     )
     yield_strength: Stress | TwoStresses | None = Field(
-        None, description="yield point, for the notch sensitivity; left out: that of the steel"
+        None, description="yield point, for the notch sensitivity; default: that of the steel"
     )
     quality: Quality = Field("MQ", description="of the material: ML, MQ or ME")
     grade: AccuracyGrade | TwoGrades | None = Field(
-        None, description="accuracy grade of ISO 1328-1; left out: accuracy_grade"
+        None, description="accuracy grade of ISO 1328-1; default: accuracy_grade"
     )
     tolerance_edition: Literal[1995, 2013] = Field(2013, description="edition of ISO 1328-1")
     roughness: RoughnessSpec = RoughnessSpec.model_construct()
@@ -170,7 +170,7 @@ class RatingSpec(Spec):
     tip_relief: Micrometers | None = Field(None, description="C_a of both gears")
     bore: Bore | TwoBores = Field(0.0, description="bore; of a ring the outside diameter")
     web: Annotated[list[WebRatio], _TWO, Entries("[b_s/b, s_R/m]", "[0.25, 5]")] | None = Field(
-        None, description="thickness of the web over the width, and of the rim over the module; left out: solid"
+        None, description="thickness of the web over the width, and of the rim over the module; default: solid"
     )
     system: System = Field(
         "pair", description="pair, sun-planet (gear 1 the sun) or planet-ring, as seen from the carrier"
@@ -179,16 +179,16 @@ class RatingSpec(Spec):
         None, description="planets of sun-planet and planet-ring"
     )
     reduced_mass: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "kg/mm"})] | None = Field(
-        None, description="m_red, in place of the one of system and bore"
+        None, description="m_red, instead of the one of system and bore"
     )
     contacts: Contacts | TwoContacts = Field(1.0, description="load contacts of a tooth per revolution")
-    face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; left out: none")
+    face: FaceSpec | None = Field(None, description="shaft, modification, or misalignment; default: none")
     long_life: Annotated[float, Field(ge=0.85, le=1, json_schema_extra={"unit": "1"})] = Field(
         0.85, description="factor of the strength at 1e10 load cycles; 1 only for best material and experience"
     )
     pitting: Literal["none", "allowed"] = Field("none", description="whether some pits are allowed")
     mean_stress: MeanStress | TwoMeanStresses | None = Field(
-        None, description="Y_M; left out: 1, of an idler or planet 0.7"
+        None, description="Y_M; default: 1, of an idler or planet 0.7"
     )
     root_shift: Literal["generating", "nominal"] = Field(
         "generating", description="profile shift of the root: with the upper allowance, or the nominal one"
@@ -221,7 +221,7 @@ class RatingSpec(Spec):
                 }
                 raise PydanticCustomError("GL108", message, words)
         if self.system == "pair" and self.planets is not None:
-            message = "planets goes with system: sun-planet or planet-ring: leave it out"
+            message = "planets goes with system: sun-planet or planet-ring: omit it"
             raise PydanticCustomError("GL111", message, {"key": "planets"})
         if self.system != "pair" and self.planets is None and self.reduced_mass is None:
             raise PydanticCustomError(
@@ -335,11 +335,11 @@ def require_rated(spec: Any, rating: Any) -> None:
     material = spec.material
     for product in ("contact_factors", "bending_factors"):
         if material is not None and product in material.model_fields_set:
-            text = f"rating computes the factors that material.{product} gives as one product: leave it out"
+            text = f"rating computes the factors that material.{product} gives as one product: omit it"
             refuse("GL111", f"material.{product}", text)
     factors = spec.load.factors.model_fields_set
     if rating.face is not None and "face_contact" in factors:
-        refuse("GL111", "rating.face", "load.factors.face_contact gives the face load factor: leave face out, or that")
+        refuse("GL111", "rating.face", "load.factors.face_contact gives the face load factor: omit face, or that")
     limits = [None if material is None else getattr(material, f"{name}_limit") for name in ("contact", "bending")]
     if rating.material is None and None in limits:
         refuse(

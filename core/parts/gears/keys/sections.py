@@ -20,7 +20,7 @@ class ToolSpec(Spec):
 
     addendum: Coefficient = Field(1.25, description="tip of the tool below its datum line")
     rounding: Rounding | None = Field(
-        None, description="radius of the tool's tip; left out: 0.38, or less where clearance or full round ask for it"
+        None, description="radius of the tool's tip; default: 0.38, or less where clearance or full round require it"
     )
     residual_undercut: Protuberance = Field(
         0.0, description="protuberance, as high as the rounding, less the machining allowance"
@@ -104,13 +104,13 @@ class LoadSpec(Spec):
         None, description="torque of gear 1"
     )
     power: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "kW"})] | None = Field(
-        None, description="power, with speed, in place of torque"
+        None, description="power, with speed, instead of torque"
     )
     speed: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
         None, description="speed of gear 1; with torque or force for the sliding speeds alone"
     )
     tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
-        None, description="force on the reference circle, in place of torque"
+        None, description="force on the reference circle, instead of torque"
     )
     factors: FactorSpec = FactorSpec.model_construct()
 

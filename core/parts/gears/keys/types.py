@@ -41,7 +41,7 @@ class ToothKeys(Spec):
         0.25, description="clearance coefficient"
     )
     load_share: Literal["third", "half"] = Field(
-        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
+        "third", description="share of a flank pair next to another: third (1/3 to 2/3) or half"
     )
     accuracy_grade: AccuracyGrade | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"

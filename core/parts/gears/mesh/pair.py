@@ -34,7 +34,7 @@ class GearPair(PitchPair):
         module, teeth, pressure_angle, given_shift, given_distance, given_first_shift, helix_angle - as PitchPair
         addendum, clearance : float [module] - h_a*, c* of the reference profile
         tip : "full", "none" or (k_1, k_2) [module] - tip alteration; None: full for external pairs, none for a ring
-        given_tip_radius : (float, float) or None [mm] - magnitudes, in place of the tip alteration
+        given_tip_radius : (float, float) or None [mm] - magnitudes, instead of the tip alteration
         tools : (RackTool or None, ...) - tool of each gear; None: addendum and clearance of the profile
         given_spans : (int or None, ...) - teeth that a span measurement goes over; None: chosen
         cutter : PinionCutter or None - of a ring; None leaves its fillets unknown

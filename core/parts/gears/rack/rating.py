@@ -87,7 +87,7 @@ class RackSection(RootSection):
     h_Fe* = y_e - (s_e/2) tan(alpha_n) - (x_E - h_fP* + rho*/2),  s_e = pi/2 - 2 (y_e - x_E) tan(alpha_n)
 
     Parameters
-        contact_radius : float or None [module] - in place of a radius the height y_e above the datum line where the
+        contact_radius : float or None [module] - instead of a radius the height y_e above the datum line where the
             load acts; None: h_aR - pi sin(alpha_n) cos(alpha_n) (eps_alpha,n - 1), the outer point of single contact
     Notes
         The limit z_n -> infinity of `RootSection`; of an external gear with 1e7 teeth it keeps 6 digits.

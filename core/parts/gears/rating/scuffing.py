@@ -179,7 +179,7 @@ class Scuffing:
     def scuffing_temperature(self) -> float:
         """theta_Sint of the oil, by its test [deg C]."""
         stage = self._conditions.scuffing_stage
-        assert stage is not None, "the rating asks for it"
+        assert stage is not None, "the rating requires it"
         torque = _TEST_TORQUE[stage]
         thin = (100.0 / self._conditions.viscosity_40) ** 0.02
         return float(80.0 + 0.23 * torque + 0.3 * _STRUCTURE * torque * thin)

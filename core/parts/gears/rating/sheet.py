@@ -351,7 +351,7 @@ def _life(rated: Rated) -> Iterator[Line]:
 
 def _scuffing(rated: Rated) -> Iterator[Line]:
     found, given, rule = rated.scuffing, rated.conditions, f"R10 {_SCUFFING}"
-    assert found is not None, "asked for only where it stands"
+    assert found is not None, "needed only where it stands"
     inputs = _said(nu_40=given.viscosity_40, nu_100=given.viscosity_100, oil=given.oil_temperature)
     yield Line("eta", "viscosity at the oil temperature", (found.viscosity, None), "mPa s", rule, inputs)
     yield Line(

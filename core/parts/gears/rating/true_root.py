@@ -1,8 +1,8 @@
 """Root stress on the generated fillet of one tooth with its rim, the second way beside the section of ISO 6336-3.
 
 The load acts at the outer point of single contact, normal to the flank, as cos^2 over 0.24 modules to either side; a
-traction linear over the far side of the rim balances it. Within 4 %: a rim of 3 modules in place of 5 changes the
-stress by 3.5 %, root circles of 2.5 pitches in place of 1 by 1 %.
+traction linear over the far side of the rim balances it. Within 4 %: a rim of 3 modules instead of 5 changes the
+stress by 3.5 %, root circles of 2.5 pitches instead of 1 by 1 %.
 """
 
 from __future__ import annotations

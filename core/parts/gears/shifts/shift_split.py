@@ -208,7 +208,7 @@ class Diagonal:
 
         grid = [first for k in range(_POINTS + 1) if stresses(first := low + (high - low) * k / _POINTS) is not None]
         if not grid:
-            raise NoSolution("no share of the shift sum leaves both gears a root section that ISO 6336-3 could judge")
+            raise NoSolution("no share of the shift sum leaves both gears a root section that ISO 6336-3 could rate")
         roots = roots_on(ratio, grid)
         if roots:
             count = "the only share" if len(roots) == 1 else f"the better of {len(roots)} shares"

@@ -199,7 +199,7 @@ def _inverse_block(v: Reals, out: Reals, w: Reals, p: Reals, q: Reals, inv: Real
     inv /= p
     np.add(inv, out, out=p)  # tan(alpha)
     p *= p
-    p += 1e-300  # v = 0: a step of 0/1e-300 in place of 0/0
+    p += 1e-300  # v = 0: a step of 0/1e-300 instead of 0/0
     inv -= v
     inv /= p
     out -= inv

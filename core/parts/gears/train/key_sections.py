@@ -71,7 +71,7 @@ class TrainLoad(LoadSpec):
     """What the teeth carry: torque, power with speed, or tangential force, at one gear; its mates have it by teeth."""
 
     gear: str | None = Field(
-        None, description="the gear whose torque, speed and tangential force these are; left out: the first"
+        None, description="the gear whose torque, speed and tangential force these are; default: the first"
     )
 
 
@@ -80,11 +80,9 @@ class TrainMaterial(Spec):
 
     elastic_modulus: Stress | _Stresses = Field(206000.0, description="modulus of elasticity")
     poisson: Poisson | _Poissons = Field(0.3, description="Poisson's ratio")
-    contact_limit: Stress | _Stresses | None = Field(
-        None, description="sigma_Hlim; left out: no safety against pitting"
-    )
+    contact_limit: Stress | _Stresses | None = Field(None, description="sigma_Hlim; default: no safety against pitting")
     bending_limit: Stress | _Stresses | None = Field(
-        None, description="sigma_Flim; left out: no safety against breaking"
+        None, description="sigma_Flim; default: no safety against breaking"
     )
     contact_factors: Factor | _Factors = Field(1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given")
     bending_factors: Factor | _Factors = Field(

@@ -37,7 +37,7 @@ class TrainKeys(ToothKeys):
     """Names of the gears, in the order of the lists."""
 
     profile_shift: Annotated[Any, Deferred("parts.gears.train.key_sections:Shifts")] | None = Field(
-        None, description="profile shift coefficients, a list with one for each gear; left out: 0"
+        None, description="profile shift coefficients, a list with one for each gear; default: 0"
     )
     helix_hand: Annotated[Any, Deferred("parts.gears.train.key_sections:Hands")] | None = Field(
         None, description="hands of helix, a list with one for each gear, for drawing and exports"
@@ -48,7 +48,7 @@ class TrainKeys(ToothKeys):
         json_schema_extra=also("tip_alteration"),
     )
     tool: Annotated[Any, Deferred("parts.gears.train.key_sections:Tools")] | None = Field(
-        None, description="rack tool of all gears, or of each; left out: straight to the addendum"
+        None, description="rack tool of all gears, or of each; default: straight to the addendum"
     )
     cutter: Annotated[Any, Deferred("parts.gears.keys.sections:CutterSpec")] | None = Field(
         None, description="pinion cutter of a ring: only then its fillets are known"
@@ -60,10 +60,10 @@ class TrainKeys(ToothKeys):
         None, description="thickness of the rim under the tooth roots of all gears, or of each, for Y_B"
     )
     span_teeth: Annotated[Any, Deferred("parts.gears.train.key_sections:Spans")] | None = Field(
-        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+        None, description="teeth that the span measurement of each gear goes over; default: chosen"
     )
     pin_diameter: Annotated[Any, Deferred("parts.gears.train.key_sections:Pins")] | None = Field(
-        None, description="measuring balls or pins of all gears, or of each; left out: a preferred size"
+        None, description="measuring balls or pins of all gears, or of each; default: a preferred size"
     )
     allowances: Annotated[Any, Deferred("parts.gears.train.key_sections:TrainAllowances")] | None = Field(
         None, description="allowances of the tooth thickness of every gear"
@@ -122,7 +122,7 @@ class TrainKeys(ToothKeys):
 
         require_rated(self, self.rating)
         if self.rating.system != "pair":
-            message = "system is that of a gear-pair: leave it out, and give reduced_mass where planets matter"
+            message = "system is that of a gear-pair: omit it, and give reduced_mass where planets matter"
             raise PydanticCustomError("GL111", message, {"key": "rating.system"})
         return self
 
@@ -131,11 +131,11 @@ class TrainKeys(ToothKeys):
         rings = self.rings()
         for key in ("cutter", "assembly"):
             if getattr(self, key) is not None and not any(rings):
-                raise PydanticCustomError("GL111", "{key} goes with a ring gear\nleave it out", {"key": key})
+                raise PydanticCustomError("GL111", "{key} goes with a ring gear\nomit it", {"key": key})
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
-            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            message = "spur gears have no hand of helix: omit it, or give helix_angle"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         for (one, other), internal in zip(pairwise(self.helix_hand), map(any, pairwise(rings)), strict=True):
             if (one == other) != internal:

@@ -29,26 +29,26 @@ class TrainRoughness(RoughnessSpec):
 
     flank: Roughness | _Roughnesses = Field(4.8, description="Rz of the flanks")
     root: Roughness | _Roughnesses = Field(20.0, description="Rz of the root fillets")
-    ra: Roughness | _Roughnesses | None = Field(None, description="Ra of the flanks; left out: Rz/8")
+    ra: Roughness | _Roughnesses | None = Field(None, description="Ra of the flanks; default: Rz/8")
 
 
 class TrainRating(RatingSpec):
     """Life, material, accuracy, surface and oil; what stands for each gear is one value, or a list with all of them."""
 
     material: MaterialName | Annotated[list[MaterialName], _MANY] | None = Field(
-        None, description="steel or class of ISO 6336-5; left out only where material has both limits"
+        None, description="steel or class of ISO 6336-5; optional if the material gives both limits"
     )
     hardness: Hardness | Annotated[list[Hardness | None], _MANY] | None = Field(
-        None, description="HV, of cast iron and normalized steel HBW; left out: usual for the steel"
+        None, description="HV, of cast iron and normalized steel HBW; default: usual for the steel"
     )
     brinell: Hardness | Annotated[list[Hardness | None], _MANY] | None = Field(
-        None, description="HBW of the flank, for the work hardening; left out: hardness"
+        None, description="HBW of the flank, for the work hardening; default: hardness"
     )
     yield_strength: Stress | Annotated[list[Stress | None], _MANY] | None = Field(
-        None, description="yield point, for the notch sensitivity; left out: that of the steel"
+        None, description="yield point, for the notch sensitivity; default: that of the steel"
     )
     grade: AccuracyGrade | Annotated[list[AccuracyGrade], _MANY] | None = Field(
-        None, description="accuracy grade of ISO 1328-1; left out: accuracy_grade"
+        None, description="accuracy grade of ISO 1328-1; default: accuracy_grade"
     )
     roughness: TrainRoughness = TrainRoughness.model_construct()
     bore: Bore | Annotated[list[Bore], _MANY] = Field(0.0, description="bore; of a ring the outside diameter")
@@ -56,7 +56,7 @@ class TrainRating(RatingSpec):
         1.0, description="load contacts of a tooth per revolution"
     )
     mean_stress: MeanStress | Annotated[list[MeanStress], _MANY] | None = Field(
-        None, description="Y_M; left out: 1, of an idler or planet 0.7"
+        None, description="Y_M; default: 1, of an idler or planet 0.7"
     )
 
     def of(self, places: Any) -> RatingSpec:

@@ -65,8 +65,8 @@ def _angle(p: float, q: float, opposite: float) -> float:
     if near < 0.0 or far < 0.0:
         raise NoSolution(
             (
-                f"the linkage stands within rounding of a change point (sides {p:.6g}, {q:.6g} and "
-                f"{opposite:.6g} mm lie in line)"
+                f"the linkage is within rounding of a change point (sides {p:.6g}, {q:.6g} and "
+                f"{opposite:.6g} mm are collinear)"
             ),
             fix="shorten the crank",
         )

@@ -320,7 +320,7 @@ def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> 
 def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
     """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `loop._rates`.
 
-    Rows used: 1/n^2 = one m and 1/R = one r in place of n and R, g' and h.
+    Rows used: 1/n^2 = one m and 1/R = one r instead of n and R, g' and h.
     """
     t, tt, one, m, r, _, hn, g_1, h, _, u_1 = rows
     a, d, e, s = reading.a, reading.d, reading.e, float(reading.s)

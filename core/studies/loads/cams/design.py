@@ -138,7 +138,7 @@ class CamLoadsDesign(LoadsDesign):
         import numpy as np
 
         contact = self.contact(name, phi)
-        assert contact is not None, "asked for only with a width"
+        assert contact is not None, "needed only with a width"
         return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
 
     def _radius(self, name: str, phi: Reals) -> Reals:

@@ -391,12 +391,12 @@ WRONG: list[tuple[dict[str, Any], str, str]] = [
         "planet-ring is that of a gear and its ring",
     ),
     ({"rating": {"system": "sun-planet"}}, "planets", "needs planets"),
-    ({"rating": {"planets": 3}}, "planets", "leave it out"),
+    ({"rating": {"planets": 3}}, "planets", "omit it"),
     ({"rating": {"face": {"misalignment": 5.0, "modification": "crowning"}}}, "modification", "all effects"),
-    ({"rating": {"face": {}}, "load": {"factors": {"face_contact": 1.2}}}, "rating.face", "leave face out"),
+    ({"rating": {"face": {}}, "load": {"factors": {"face_contact": 1.2}}}, "rating.face", "omit face"),
     ({"load": {"speed": None}}, "load.speed", "needs load.speed"),
     ({"face_width": None}, "face_width", "needs face_width"),
-    ({"material": {"contact_factors": 0.9}}, "material.contact_factors", "leave it out"),
+    ({"material": {"contact_factors": 0.9}}, "material.contact_factors", "omit it"),
     ({"teeth": [23, "rack"], "profile_shift": [0.2, 0.0]}, "rating", "gear on a rack"),
 ]
 

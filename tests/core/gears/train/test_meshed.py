@@ -286,7 +286,7 @@ def test_a_given_link_beside_shifts_leaves_backlash():
 
 def test_a_given_link_without_shifts_is_the_centre_distance():
     base = KINDS["ring"]
-    with pytest.raises(NoSolution, match="leave it out"):
+    with pytest.raises(NoSolution, match="omit it"):
         design(base | {"links": LINKS | {"crank": 14.1}}, command="analyze").linkage  # noqa: B018
 
 
