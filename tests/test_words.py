@@ -21,7 +21,7 @@ WORDS = {
     r"\bas made\b": "as manufactured",
     r"\b(come|comes|coming|bring|brings|brought|way|is) home\b": "return",
     r"\bway back\b": "return stroke",
-    r"\bfilms?\b(?![\"(]| thickness)": "animation",
+    r"(?<!oil )(?<!lubricant )\bfilms?\b(?![\"(]| thickness)": "animation",
     r"\byours to choose\b": "required",
     r"\bmay be left out\b": "optional",
     r"\b(to spare|in hand)\b": "margin, reserve",
