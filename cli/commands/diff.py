@@ -425,7 +425,7 @@ def _show(found: Difference, options: Options) -> None:
     from gearlink.cli.render.terminal import console_for, room_for_names, show_grid
 
     console = console_for(options)
-    for part, told in parts_of(found, partial(number, digits=9)):
+    for part, told in parts_of(found, partial(number, digits=_digits(options))):
         rows = [tuple(map(visible, row)) for row in told]
         grid = _grid(part, rows, console)
         if room_for_names(grid, console) >= max(len(row[0]) for row in rows):
@@ -441,6 +441,13 @@ def _show(found: Difference, options: Options) -> None:
             show_grid(_grid(head, own, console, room), console)
             console.print()
     print(_verdict(found))
+
+
+def _digits(options: Options) -> int:
+    """Significant digits of values: by default as many as show a change that counts."""
+    if options.digits is None:
+        return 9
+    return 17 if isinstance(options.digits, str) else options.digits
 
 
 def _broken(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -25,10 +26,12 @@ Application = Annotated[float, typer.Option("--application", min=0.1, max=10.0, 
 Grade = Annotated[int, typer.Option("--grade", min=1, max=11, help="accuracy grade of ISO 1328-1")]
 Oil = Annotated[float, typer.Option("--vg", min=1.0, max=1e4, help="viscosity of the oil at 40 deg C, mm^2/s")]
 Crowned = Annotated[bool, typer.Option("--crowned", help="the helix is crowned")]
+_BEST = 10
+"""Pairs that are shown first."""
 WidthRatio = Annotated[float, typer.Option("--width-ratio", min=0.05, max=3.0, help="maximum face width over d1")]
 
 
-@takes("format", "color", "quiet")
+@takes("format", "all", "digits", "color", "quiet", all="show every pair, not the best ten alone")
 def gears(
     options: Options,
     ratio: Annotated[float, typer.Option("--ratio", metavar="I", min=1e-3, max=1e3, help="teeth 2 over teeth 1")],
@@ -62,8 +65,8 @@ def gears(
 ) -> None:
     """Find whole teeth and modules for a ratio at a centre distance, the best first.
 
-    x1 is shared for equal sliding; margin is how far it may move until undercut, a thin tip, a root fillet or a small
-    contact ratio is met, negative where one is met already. Of more than 1000 pairs the nearest to the ratio are shown.
+    x1 is shared for equal sliding; margin is the distance of x1 from undercut, a thin tip, a root fillet or a small
+    contact ratio, negative beyond one. Of more than 1000 pairs the nearest to the ratio are shown.
     With --torque and --speed each pair is rated by ISO 6336: the minimum face width that carries the load for the life
     with S_H 1 and S_F 1.4, the narrowest first. Exit status 1: no pair meets the conditions.
 
@@ -139,11 +142,15 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
     from gearlink.cli.commands.design import print_report
     from gearlink.cli.patience import patience
     from gearlink.core.base.report import Report
+    from gearlink.core.base.wording import amount
     from gearlink.core.parts.gears.shifts.search import candidates, table_of
 
     with patience("searching for gears", quiet=options.quiet):
         table = table_of(candidates(task)) if carried is None else _rated(task, carried, sought)
-    print_report(Report(kind="gear-search", name="gears", command="gears", tables=(table,)), options)
+    shown = _first(table, _BEST) if options.brief else table
+    print_report(Report(kind="gear-search", name="gears", command="gears", tables=(shown,)), options)
+    if table.length > shown.length:
+        print(f"{amount(table.length - shown.length, 'more pair')}: --all")
     if table.length:
         return ExitCode.OK
     if not options.quiet:
@@ -152,6 +159,11 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
         )
         print(f"no pair meets these conditions: {remedy}", file=sys.stderr)
     return ExitCode.FINDING
+
+
+def _first(table: Table, count: int) -> Table:
+    """The first rows of a table."""
+    return replace(table, data=tuple(column[:count] for column in table.data))
 
 
 def _rated(task: PairTask, carried: Carried, sought: bool) -> Table:

@@ -37,8 +37,9 @@ def register(app: typer.Typer) -> None:
 
 
 @takes(
-    *("format", "plot", "plot_format", "dpi", "out", "overrides", "color", "quiet"),
+    *("format", "plot", "plot_format", "dpi", "out", "overrides", "all", "digits", "color", "quiet"),
     plot="write the figure NAME-chart.png",
+    all="show every row",
 )
 def _chart(
     options: Options,

@@ -124,7 +124,7 @@ def _check(
     raise typer.Exit(run_check(places, options, verbose=verbose))
 
 
-@takes("color")
+@takes("digits", "color", digits="significant digits of values, or full; default: 9")
 def _diff(
     old: Annotated[str, typer.Argument(metavar="OLD", help="design file, or result written with --format json")],
     new: Annotated[str, typer.Argument(metavar="NEW", help="the same sort of file")],

@@ -23,7 +23,7 @@ def show(study: Exploration, report: Report, options: Options) -> None:
     console.print(Text(_counts(study)))
     front = next(table for table in report.tables if table.name == "front")
     if study.kept:
-        show_table(_shown(study, front), console, most=SHOWN)
+        show_table(_shown(study, front), console, most=SHOWN, digits=options.digits)
         for line in _below(study):
             console.print(Text(line))
     _why(study, console)

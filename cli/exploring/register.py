@@ -17,7 +17,7 @@ def register(app: typer.Typer) -> None:
     app.command("explore")(_explore)
 
 
-@takes("format", "plot", "plot_format", "out", "overrides", "strict", "color", "quiet")
+@takes("format", "plot", "plot_format", "out", "overrides", "digits", "strict", "color", "quiet")
 def _explore(
     source: Annotated[str, typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
     options: Options,

@@ -45,8 +45,10 @@ def show(report: Report, options: Options) -> None:
                 show_grid(grid, console)
         if console.width < _WIDE and console.is_terminal and not options.quiet:
             print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
+    alone = not report.quantities
+    most = sys.maxsize if alone and options.all else _MOST_ROWS
     for table in report.tables:
-        show_table(table, console, scale=scales(report), digits=options.digits)
+        show_table(table, console, most, scale=scales(report), digits=options.digits, alone=alone)
     show_findings(report, console)
 
 
@@ -259,14 +261,16 @@ def show_table(
     *,
     scale: Mapping[str, float] = _ALONE,
     digits: int | str | None = 6,
+    alone: bool = False,
 ) -> None:
     """Print a table, thinned to so many rows and folded to the width; one of several meshes in parts.
 
     `scale` has the largest number of each unit in the report around it; `digits` as in `numbers.drawn`.
+    `alone`: in a report of tables, whose rows --all and --format csv show.
     """
     if table.columns[:1] == ("mesh",):
         for part in _by_mesh(table):
-            show_table(part, console, most, scale=scale, digits=digits)
+            show_table(part, console, most, scale=scale, digits=digits, alone=alone)
         return
     # Every row of a table that begins with a word says something else; a list that holds one is read whole.
     words = [isinstance(column[0], str) for column in table.data] if table.length else [False]
@@ -275,7 +279,8 @@ def show_table(
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
     cells = readable_rows(table, step, scale, digits)
-    thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
+    every = "--all" if alone else f"--table {table.name} --format csv"
+    thinned = f", {thinning(step, table)} (all with {every})" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     if step == 1:
         table, cells = with_intervals(table, cells)

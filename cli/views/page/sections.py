@@ -1,4 +1,4 @@
-"""The sections of a page as HTML: verdict, film, input, and for each command its sheet, results, findings, tables."""
+"""The sections of a page as HTML: verdict, key results, animation, input, and for each command its sheet, results, findings, tables."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from html import escape
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning, with_intervals
+from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.cli.views.page.sheets import as_data
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
@@ -93,9 +93,11 @@ def _file(name: str) -> str:
 
 
 def head(spec: Any, reports: Sequence[Report]) -> str:
-    """Name, kind and verdict."""
+    """Name, kind, verdict, the key results of each command and the checks that do not pass."""
     kind = f"{escape(spec.kind)}, computed with gearlink {VERSION}"
-    return f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(reports)}'
+    return (
+        f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(reports)}{"".join(_key_results(reports))}'
+    )
 
 
 def film(design: Design, pictures: int = 0) -> str:
@@ -127,6 +129,29 @@ def _verdict(reports: Sequence[Report]) -> str:
             many = "s" if status == "warn" and count > 1 else ""
             words.append(f'<span class="{status}">{count} {word}{many}</span>')
     return f"<p>Checks: {', '.join(words) or 'none'}</p>"
+
+
+def _key_results(reports: Sequence[Report]) -> Iterator[str]:
+    """What was required and what was reached, by command, and the findings of checks that do not pass."""
+    for report in reports:
+        scale = scales(report)
+        rows = (
+            (
+                each.title.replace("_", " "),
+                drawn(quiet(each.quantity.value, scale.get(each.quantity.unit, 0.0)), each.quantity.unit),
+                "" if each.quantity.unit == "1" else each.quantity.unit,
+                "" if each.asked is None else f"{each.how} {number(each.asked, 6)}",
+                each.quantity.name,
+            )
+            for each in report.key
+        )
+        if report.key:
+            heads = (f"key results of {report.command}", "value", "unit", "required", "name")
+            yield "\n" + table(heads, rows, numeric=(1,))
+    found = [(c.status, f"{c.code} {c.name}", "\n".join(c.lines)) for r in reports for c in r.checks]
+    found = sorted((row for row in found if row[0] != "pass"), key=lambda row: row[0])
+    if found:
+        yield "\n" + table(("status", "check", "finding"), found, numeric=(), marked=True)
 
 
 def _keys(node: Any, path: str = "") -> Iterator[tuple[str, str]]:
