@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.cli.views.figures.sheets.true_size import Scale
+    from gearlink.core.base.design import Design
 
 
 def run_sheet(
@@ -41,15 +42,32 @@ def run_sheet(
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
-            made = sheets_of(whole_design(kind, spec), size)
+            design = whole_design(kind, spec)
+            made = sheets_of(design, size)
             chosen, paths = _chosen(made, names, spec, source), []
+            failed = _failures(design) if any(map(_of_cams, chosen)) else ""
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
-                paths.append(_write(made, chosen[number], spec, options))
+                name = chosen[number]
+                paths.append(_write(made, name, spec, options, failed if _of_cams(name) else ""))
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
         print("\n".join(wrote(path) for path in paths), file=sys.stderr)
-    return ExitCode.OK
+    return ExitCode.FINDING if failed else ExitCode.OK
+
+
+def _of_cams(name: str) -> bool:
+    """Whether a sheet is for the workshop: it bears what fails."""
+    return name == "pressure" or name.startswith("drawing")
+
+
+def _failures(design: Design) -> str:
+    """The checks of the cams that fail."""
+    from gearlink.cli.views.figures.write import failures
+
+    asked: tuple[str, ...] = design.spec.commands()
+    outline = design.outline("cam" if "cam" in asked else asked[0])
+    return failures(check for name in outline.checks for check in design.check(name))
 
 
 def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
@@ -75,13 +93,21 @@ def _who_has() -> str:
     return f"the kinds with sheets are {', '.join(kinds())}"
 
 
-def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
+def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) -> Path:
+    from gearlink.cli.views.figures.drawing import style
     from gearlink.cli.views.figures.drawing.placing import settled
     from gearlink.cli.views.figures.write import save
 
     ending = options.plot_format.value
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
-    write_atomically(path, lambda stream: save(lambda: settled(made[name]()), spec.name, stream, ending, options.dpi))
+
+    def draw() -> Figure:
+        figure = made[name]()
+        if failed:
+            style.stamp(figure, f"not for manufacture: {failed}")
+        return settled(figure)
+
+    write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi))
     return path
 
 

@@ -86,8 +86,7 @@ def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
 
 def _period(axes: Axes, design: GearedFiveBar) -> None:
     """The x axis over as many revolutions as bring the linkage home."""
-    axes.set_xlim(0.0, 360.0 * design.period_turns)
-    style.turns(axes, design.period_turns)
+    style.degrees(axes, 0.0, 360.0 * design.period_turns)
 
 
 def _velocity(axes: Axes, design: GearedFiveBar) -> None:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_MANY = 24
+"""Standstills of a curve that needs a thin line."""
 _WORDS = {
     "input_length": "input AB",
     "coupler_length": "BC, CD, DE",
@@ -55,9 +57,8 @@ def _curve(axes: Axes, design: GearedSixBar, name: str, ylabel: str, order: int)
     if order:
         axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     x, y = _closed(design, data, name)
-    axes.plot(x, y, color=style.BLUE, linewidth=1.6)
-    axes.set_xlim(float(x[0]), float(x[-1]))
-    _ticks(axes, design)
+    axes.plot(x, y, color=style.BLUE, linewidth=1.6 if len(design.dwell_crank_angles) < _MANY else 0.9)
+    style.degrees(axes, float(x[0]), float(x[-1]))
     if order:
         time_axes.in_time(axes, design.angular_speed, order, "rad")
     elif design.dwell_crank_angles:
@@ -73,13 +74,7 @@ def _closed(design: GearedSixBar, data: dict[str, Any], name: str) -> tuple[Any,
     return linkage.closed(data["input_angle"], whole), linkage.closed(data[name], gain)
 
 
-def _ticks(axes: Axes, design: GearedSixBar) -> None:
-    if design.period_turns is not None:
-        style.turns(axes, design.period_turns)
-
-
 def _transmission(axes: Axes, design: GearedSixBar) -> None:
     x, y = _closed(design, linkage.columns(design, "motion"), "transmission_angle")
     linkage.transmission(axes, design, x, y, "input angle [deg]", turn=False)
-    axes.set_xlim(float(x[0]), float(x[-1]))
-    _ticks(axes, design)
+    style.degrees(axes, float(x[0]), float(x[-1]))

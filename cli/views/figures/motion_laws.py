@@ -26,7 +26,7 @@ _HEADINGS = {
 }
 _AXES = ("rise s", "velocity v", "acceleration a", "jerk j")
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
-_DASHES: Any = ("-", style.LONG, style.DOTTED, style.CHAIN, style.DASHED, "-", style.LONG, style.DOTTED)
+_DASHES: Any = ("-", style.LONG, style.DOTTED, style.CHAIN, style.DASHED)
 # Of all rest-to-speed laws these are drawn where none is named: the others hardly differ from one of them.
 _SHOWN = (
     "half-cycloidal",
@@ -134,8 +134,5 @@ def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:
 
 
 def _looks(count: int) -> list[dict[str, Any]]:
-    """Colours and dashes that tell the curves apart."""
-    colors = islice(cycle(_COLORS), count)
-    return [
-        {"color": color, "linestyle": _DASHES[(i + i // len(_COLORS)) % len(_DASHES)]} for i, color in enumerate(colors)
-    ]
+    """Colours and dashes that tell 35 curves apart: there are 7 colours and 5 dashes, without a common divisor."""
+    return [{"color": c, "linestyle": d} for c, d in islice(zip(cycle(_COLORS), cycle(_DASHES), strict=False), count)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,16 +17,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+TURN = 2.0 * math.pi
 _WORDS = {
     "crank_length": "crank AB",
     "coupler_length": "coupler BC",
     "rocker_length": "rocker CD",
     "frame_length": "frame AD",
-    "gear_ratio": "gear ratio, −z2/z5 (ring: z2/z5)",
-    "standstill_coupler_ratio": "w2/w1 at a standstill",
-    "dwell_teeth_ratio": "maximum z5/z2 with a standstill",
+    "gear_ratio": "gear ratio, −z₂/z₅ (ring: z₂/z₅)",
+    "standstill_coupler_ratio": "ω₂/ω₁ at a standstill",
+    "dwell_teeth_ratio": "maximum z₅/z₂ with a standstill",
     "dwell_crank_angles": "standstills",
     "back_step_angle": "back-step of the output",
+    "tolerance_dwell_angle": "window within the tolerance",
+    "tolerance_dwell_start": "start of the window",
     "min_transmission_angle": "minimum transmission angle",
 }
 
@@ -40,9 +43,10 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
     charts: list[linkage.Panel] = [
         _output,
+        *([_magnified] if design.tolerance_dwell is not None else []),
         linkage.over_crank,
         partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),
-        partial(_curve, title="Coupler speed", ylabel="w2/w1", name="coupler_ratio"),
+        partial(_curve, title="Coupler speed", ylabel="ω₂/ω₁", name="coupler_ratio"),
         partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
     ]
     return linkage.sheet(title, design, mechanism, _WORDS, charts)
@@ -82,6 +86,35 @@ def _output(axes: Axes, design: TwoGearFourBar) -> None:
     axes.plot(*linkage.over_turn(design, "output_angle", gained), color=style.BLUE, linewidth=1.6, label="output")
     look = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.DOTTED}
     axes.plot([0.0, linkage.TURN], [0.0, gained], **look, label="mean")
+    panels.legend_above(axes, 2)
+
+
+def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
+    """The output about its dwell, counted from the middle of the tolerance, and the window asked for."""
+    from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
+
+    found, band = design.tolerance_dwell, math.degrees(design.output_tolerance or 0.0)
+    assert found is not None, "drawn only with it"
+    start, width = math.degrees(found.start), math.degrees(found.crank_angle)
+    degrees = np.linspace(start - 0.25 * width, start + 1.25 * width, 481)
+    angle = np.degrees(np.unwrap(OUTPUT.rates(design.moving, np.radians(degrees), 0)[0]))
+    inside = angle[(degrees >= start) & (degrees <= start + width)]
+    angle -= 0.5 * (inside.min() + inside.max())
+    linkage.chart(axes, "Dwell, magnified", "output from the\nmiddle [deg]", turn=False)
+    axes.fill_between([start, start + width], -band, band, color=style.GREEN, alpha=0.25, linewidth=0,
+                      label=f"within ±{band:g}° over {width:.5g}°", gid="within")  # fmt: skip
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes.plot(degrees, angle, color=style.BLUE, linewidth=1.6, gid="magnified")
+    linkage.standstills(axes, [turn + place for place in design.dwell_crank_angles for turn in (0.0, -TURN, TURN)])
+    window = getattr(design, "window", None)
+    asked = design.spec.dwell_window if window is None else math.degrees(window)
+    if asked is not None:
+        short = asked > width
+        look: Any = {"color": style.WRONG if short else style.GREY, "linewidth": 2.5, "solid_capstyle": "butt"}
+        ends = start + 0.5 * (width - asked), start + 0.5 * (width + asked)
+        axes.plot(ends, [-1.4 * band] * 2, **look, label=f"asked for: {asked:g}°", gid="fails" if short else "asked")
+    axes.set_xlim(float(degrees[0]), float(degrees[-1]))
+    axes.set_ylim(-2.0 * band, 2.0 * band)
     panels.legend_above(axes, 2)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -45,10 +45,22 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
     from gearlink.cli.views.figures.drawing import style
 
     made = panels(command, design)
-    failed = dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail")
-    if failed:
-        style.stamp(made, "fails: " + ", ".join(failed))
+    if failed := failures(checks):
+        style.stamp(made, f"fails: {failed}")
     return settled(made, known)
+
+
+def failures(checks: Iterable[Check]) -> str:
+    """What fails, each check once with the first value that does: "GL402 undercut -14 mm"; "" where nothing does."""
+    from gearlink.cli.views.figures.drawing import style
+
+    found: dict[str, str] = {}
+    for check in checks:
+        if check.status == "fail":
+            value = "" if check.value is None else f" {style.number(check.value, 4)} {check.unit}".removesuffix(" 1")
+            bound = "" if not value or check.limit is None else f" (limit {style.number(check.limit, 4)})"
+            found.setdefault(f"{check.code} {check.name}", value + bound)
+    return ", ".join(name + value for name, value in found.items())
 
 
 def panels(command: str, design: Design) -> Figure:

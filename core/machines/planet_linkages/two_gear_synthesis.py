@@ -330,10 +330,15 @@ class DwellSynthesis(TwoGearFourBar):
             return min(half, self._aimed_at) if self.window is None else self._flattest[1]
         return half if self.window is None else max(half, self._flattest[1])
 
+    @property
+    def output_tolerance(self) -> float | None:
+        """The tolerance asked for [rad]; without one half of the band which the back-step fills."""
+        return self.asked_tolerance or self.dwell_tolerance
+
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
-        """The longest dwell within the tolerance asked for; without one within the band which the back-step fills."""
-        tolerance = self.asked_tolerance or self.dwell_tolerance
+        """The longest dwell within that tolerance."""
+        tolerance = self.output_tolerance
         return None if tolerance is None else kernel.tolerance_dwell(self.drive, tolerance)
 
     @property

@@ -242,11 +242,11 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
     """Torque on the rocker axis with and without the device, over the speed."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.law.balancing import drive_balancing_ratio, speed_sweep
+    from gearlink.core.machines.wide_swing.law.balancing import drive_balancing_ratio
 
-    share, spec, motion = _speed_shares(), design.spec, design.motion
-    inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, design.unloading.size.reserve)
-    without, left = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
+    share, spec = _speed_shares(), design.spec
+    losses = spec.unloader.residual, design.unloading.size.reserve
+    without, left = torque_peaks(design, share)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = without / left
     columns = {
@@ -259,6 +259,15 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
         columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
         columns["dynamic_coefficient"] = (design.unloading.dynamic_coefficients(share.tolist()), "1")
     return Table.of("balance", columns)
+
+
+def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
+    """Peaks on the rocker axis without and with the device [N m], over (N,) shares of the design speed."""
+    from gearlink.core.machines.wide_swing.law.balancing import speed_sweep
+
+    losses = design.spec.unloader.residual, design.unloading.size.reserve
+    motion = design.motion
+    return speed_sweep(design.unloading.even_inertia, motion.plain_law, motion.stroke_time, share, *losses)
 
 
 def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Table:

@@ -18,6 +18,7 @@ DWELL: Any = {"facecolor": "#CFE8F7", "linewidth": 0, "zorder": 0}
 BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "linewidth": 0, "zorder": 0.5}
 """A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
 TURN = 360.0
+_MOST_LINES = 12
 _APART, _LEGEND = 0.062, 0.048
 """Shares of the panel's height, which is much the same on every sheet: rows of numbers, where there is room for them,
 and an entry of the legend above them."""
@@ -138,7 +139,12 @@ def shade(axes: Axes, look: Any, start: float, width: float, label: str | None =
 
 
 def standstills(axes: Axes, places: Sequence[float], label: str | None = None) -> None:
-    """Lines at crank angles [rad]."""
+    """Lines at crank angles [rad]; of many a mark each at the foot of the panel, for lines would hide the curves."""
+    if len(places) > _MOST_LINES:
+        rug: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "linestyle": "none"}
+        at = [math.degrees(place) for place in places]
+        axes.plot(at, [0.0] * len(at), "|", color=style.GREY, markersize=7.0, label=label, gid="standstills", **rug)
+        return
     for place in places:
         look: dict[str, Any] = {"color": style.GREY, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 1}
         axes.axvline(math.degrees(place), label=label, **look)

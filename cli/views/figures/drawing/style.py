@@ -21,6 +21,8 @@ BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
 PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
 MARGIN = 8.0 / 25.4
 """White edge of a page [in], which printers need."""
+_PARTS = (1, 2, 5, 10, 15, 30, 60, 180, 360)
+"""Parts of a turn that numbers along an axis count in [deg]."""
 GRID = 0.6
 """Width of the lines of a grid."""
 _TITLE = 12
@@ -52,8 +54,10 @@ def stamp(made: Figure, words: str) -> None:
     """A line in red below the title, before the layout."""
     lines = fill(words, 105)
     title = made._suptitle  # type: ignore[attr-defined]  # get_suptitle gives its words alone
-    title.set_text(title.get_text() + "\n" * (1 + lines.count("\n")))
-    made.text(0.5, 1.0, lines, fontsize=9, fontweight="bold", color=RED, ha="center", va="top", gid="fails")
+    if title is not None:
+        title.set_text(title.get_text() + "\n" * (1 + lines.count("\n")))
+    top = 1.0 - 0.1 / made.get_figheight()
+    made.text(0.5, top, lines, fontsize=9, fontweight="bold", color=WRONG, ha="center", va="top", gid="fails")
 
 
 def place_title(made: Figure) -> None:
@@ -92,9 +96,12 @@ def full_turn(axes: Axes, step: int = 60) -> None:
     numbers_at(axes, range(0, 361, step))
 
 
-def turns(axes: Axes, count: int) -> None:
-    """Numbers along an x axis over so many revolutions, in degrees."""
-    numbers_at(axes, range(0, 360 * count + 1, 60 if count == 1 else 180 if count <= 3 else 360 * -(-count // 8)))
+def degrees(axes: Axes, start: float, end: float, most: int = 8) -> None:
+    """An x axis over angles [deg] with at most so many parts: of some degrees, half turns, or whole turns."""
+    whole = 360 * math.ceil((end - start) / (360.0 * most) - 1e-9)
+    step = next((part for part in _PARTS if (end - start) / part <= most + 1e-9), whole)
+    axes.set_xlim(start, end)
+    numbers_at(axes, [step * i for i in range(math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9) + 1)])
 
 
 def numbers_at(axes: Axes, places: Sequence[float]) -> None:

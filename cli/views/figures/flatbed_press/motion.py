@@ -22,6 +22,8 @@ HIGHLIGHTED = 2
 BED, CYLINDER, LEAST = style.BLUE, style.GREEN, style.RED
 
 _ROWS = 720
+_SHAFT = 2.0 / 130.0
+"""Width of a velocity arrow [inch]."""
 
 
 def draw(command: str, design: FlatbedPress) -> Figure:
@@ -133,8 +135,8 @@ def _arrows(
         scale_units="xy",
         scale=1.0,
         color=style.ORANGE,
-        units="dots",
-        width=2.0,
+        units="inches",  # of the page: dots would make them thicker in PDF and thinner in a fine picture
+        width=_SHAFT,
         headwidth=4.5,
         headlength=6.0,
         headaxislength=5.5,

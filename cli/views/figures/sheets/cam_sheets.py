@@ -55,8 +55,8 @@ def _limit(design: Any) -> float:
 
 
 def pressure(design: Any) -> Figure:
-    """The pressure angle round the cam angle, as a radius, and on the outline of each cam by its thickness of line."""
-    made = panels.page(f"{design.spec.name}: pressure angle", 0.62)
+    """The pressure angle as a radius in the direction of its contact on the cam, and as the width of the profile."""
+    made = panels.page(f"{design.spec.name}: pressure angle", 0.5)
     grid: Any = made.add_gridspec(1, 2, width_ratios=(1.15, 1.0))
     polar: Any = made.add_subplot(grid[0], projection="polar")
     _polar(polar, design)
@@ -68,10 +68,11 @@ def _polar(axes: Any, design: Any) -> None:
     theta = np.linspace(0.0, _TURN, 1441)
     for cam, color, line in zip(discs(design), panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         worst = cam.max_pressure_angle
-        angle = np.degrees(np.abs(cam.pressure_angle(theta)))
-        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {math.degrees(worst.place):.4g}°"
-        axes.plot(theta, angle, color=color, linestyle=line, linewidth=1.5, label=label)
-        axes.plot([worst.place], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
+        angle, way = np.degrees(np.abs(cam.pressure_angle(theta))), np.unwrap(np.angle(cam.points(theta)[0]))
+        there = float(np.interp(worst.place, theta, way))
+        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at cam angle {math.degrees(worst.place):.4g}°"
+        axes.plot(way, angle, color=color, linestyle=line, linewidth=1.5, label=label, gid=f"pressure-{cam.name}")
+        axes.plot([there], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
     limit = _limit(design)
     axes.plot(theta, np.full_like(theta, limit), color=style.BLACK, linestyle=style.DASHED, label=f"limit {limit:g}°")
     axes.set_ylim(0.0)
@@ -79,13 +80,16 @@ def _polar(axes: Any, design: Any) -> None:
     axes.tick_params(labelsize=8)
     axes.set_rlabel_position(22.5)
     axes.grid(color=style.LIGHT, linewidth=0.6)
-    axes.set_title("|pressure angle| [deg] over the cam angle", loc="left", fontsize=9, fontweight="bold", pad=18)
+    axes.set_title(
+        "|pressure angle| [deg] on the cam, from its start mark", loc="left", fontsize=9, fontweight="bold", pad=18
+    )
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), frameon=False, fontsize=8)
 
 
 def _outlines(axes: Axes, design: Any) -> None:
     """The profiles; the line is as thick as the pressure angle is large, and red above the limit."""
     from matplotlib.collections import LineCollection
+    from matplotlib.lines import Line2D
 
     panels.drawing(axes, "Profiles, line width by pressure angle")
     theta, limit = np.linspace(0.0, _TURN, 721), _limit(design)
@@ -94,11 +98,20 @@ def _outlines(axes: Axes, design: Any) -> None:
         angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
         ends = np.stack([np.column_stack([z.real, z.imag]) for z in (profile[:-1], profile[1:])], axis=1)
         colors = [style.WRONG if a > limit else color for a in angle.tolist()]
-        widths = 0.5 + 5.0 * angle / limit
-        axes.add_collection(LineCollection(list(ends), linewidths=widths, colors=colors))
+        worst = cam.max_pressure_angle
+        at = complex(cam.points(np.array([worst.place]))[1][0])
+        axes.plot([at.real], [at.imag], "o", color=color, markersize=4.5, zorder=4)
+        axes.add_collection(LineCollection(list(ends), linewidths=_width(angle / limit), colors=colors))
         axes.plot(profile.real, profile.imag, color=color, linewidth=0.4, label=f"{cam.name}")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10)
-    panels.legend_below(axes, 2)
+    for share in (0.0, 0.5, 1.0):
+        axes.add_line(Line2D([], [], color=style.GREY, linewidth=_width(share), label=f"{share * limit:g}°"))
+    panels.legend_below(axes, 3)
+
+
+def _width(share: Any) -> Any:
+    """Width of a profile's line [pt] by the pressure angle as a share of its limit."""
+    return 0.5 + 5.0 * share
 
 
 def drawing(design: Any, index: int) -> Figure:
@@ -127,6 +140,8 @@ def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:
     roller = panels.cam_outline(axes, cam, style.BLACK)
     theta = np.linspace(0.0, _TURN, 361)
     for radius, words in ((cam.min_radius, "minimum"), (cam.max_radius, "maximum")):
+        if _is_cut(cam) and words == "maximum":  # an undercut profile does not reach it
+            continue
         circle = radius * np.exp(1j * theta)
         axes.plot(circle.real, circle.imag, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED)
         way = np.exp(1j * math.radians(235.0 if words == "minimum" else 305.0)) * radius
@@ -147,6 +162,11 @@ def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:
     panels.cam_axis(axes, 0j, (cam,), cam.sense, shaft)
     reach = abs(roller) + 1.2 * cam.roller_radius
     axes.plot([-cam.max_radius * 1.1, reach], [0.0, 0.0], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
+
+
+def _is_cut(cam: DiscCam) -> bool:
+    """Whether the roller cuts into the profile."""
+    return cam.min_curvature_radius.value <= cam.roller_radius
 
 
 def keyway(bore: float) -> tuple[float, float] | None:
@@ -186,7 +206,7 @@ def _notes(cam: DiscCam, shaft: float) -> list[str]:
         f"cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
         bore,
         *([key.removeprefix(", ")] if key else []),
-        f"profile from R {cam.min_radius:.5g} to R {cam.max_radius:.5g} mm",
+        f"profile from R {cam.min_radius:.5g} " + ("mm, undercut" if _is_cut(cam) else f"to R {cam.max_radius:.5g} mm"),
         f"minimum convex radius of the pitch curve {least:.5g} mm"
         if math.isfinite(least)
         else "pitch curve never convex",

@@ -45,7 +45,8 @@ class Course:
     at : place and its derivatives by the input angle at such places, as many as are known [unit, unit/rad, ...]
     unit : "mm" or "rad"; places in rad are shown in degrees
     speed : of the input [rad/s], None where it is not known
-    bands : stretches with a name and a colour [deg]; derivatives may jump where they end
+    bands : stretches with a name and a colour [deg]
+    joints : where derivatives may jump [deg]
     per : unit of the input of the derivatives, "rad", or "mm" of a slide, whose x and speed are in mm as well
     rates : what `at` gives at x
     """
@@ -58,6 +59,7 @@ class Course:
     speed: float | None = None
     bands: tuple[panels.Phase, ...] = ()
     per: str = "rad"
+    joints: tuple[float, ...] = ()
     rates: tuple[Reals, ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -71,7 +73,6 @@ class Course:
         sign = 1.0 if greatest else -1.0
         values = sign * self.rates[order]
         top, height = float(values.max()), float(np.ptp(values))
-        joints = tuple({place for phase in self.bands for place in (phase.end, phase.end % 360.0)})
         best = -math.inf, 0.0
         for i in np.flatnonzero(_humps(values) & (values >= top - _NEAR * height)).tolist():
             low, high = self._beside(i)
@@ -79,7 +80,7 @@ class Course:
             def rate(x: Reals) -> Reals:
                 return np.asarray(self.at(x)[order])
 
-            found = extremes_over([(rate, greatest)], low, high, joints=joints, samples=_FEW, fewest=_FEW)[0]
+            found = extremes_over([(rate, greatest)], low, high, joints=self.joints, samples=_FEW, fewest=_FEW)[0]
             value, place = float(values[i]), float(self.x[i])
             if sign * found.value > value + _EQUAL * height:
                 value, place = sign * found.value, found.place
@@ -142,6 +143,7 @@ def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Cours
             each.course.unit,
             speed,
             tuple(panels.Phase(name, math.degrees(low), math.degrees(high)) for name, low, high in each.phases),
+            joints=tuple(after.tolist()),
         )
         for each in motion.outputs
     ]
@@ -177,9 +179,11 @@ def draw(design: Any) -> Figure:
 def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
     values = np.degrees(course.rates[0]) if course.unit == "rad" and order == 0 else course.rates[order]
     panels.turn_panel(axes, _per_angle(course, order), course.over if last else "")
-    axes.set_xlim(float(course.x[0]), float(course.x[-1]))
-    if float(course.x[-1]) == 360.0:
-        axes.set_xticks(range(0, 361, 60))
+    if course.per == "rad":
+        style.degrees(axes, float(course.x[0]), float(course.x[-1]))
+    else:
+        axes.set_xlim(float(course.x[0]), float(course.x[-1]))
+        panels.few_ticks(axes.xaxis)
     if order:
         axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     axes.plot(course.x, values, color=_COLORS[order], linewidth=1.6, gid=f"{_NAMES[order]}-{course.name}")
@@ -229,7 +233,19 @@ def press(design: Any) -> list[Course]:
 
         bed, cylinder = _courses(bare(design).moving, design.input_speed)
         return [replace(bed, name="Bed, without its cam"), cylinder]
-    return _courses(design.moving, design.input_speed)
+    bed, cylinder = _courses(design.moving, design.input_speed)
+    zone, back = cylinder.bands, panels.Phase("back", _turning(bed), 360.0)
+    return [replace(bed, bands=(*zone, back)), cylinder]
+
+
+def _turning(course: Course) -> float:
+    """Where a course that starts at its minimum has its maximum [deg]."""
+    from gearlink.core.numerics.extremes import extremes_over
+
+    def place(x: Reals) -> Reals:
+        return np.asarray(course.at(x)[0])
+
+    return extremes_over([(place, True)], float(course.x[0]), float(course.x[-1]))[0].place
 
 
 def gripper(design: Any) -> list[Course]:

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_STROKES = {"forward": "#CFE8F7", "back": "#E6D9EE", "contact": "#CFE8F7", "free": "#F2F2F2"}
 _INNER, _STEP = 3.0, 1.0
 
 
@@ -53,9 +52,8 @@ def draw(design: Any) -> Figure:
         angle = math.radians(degrees)
         axes.plot([angle, angle], [_INNER, top], color=style.RED, linewidth=1.4, label=f"{words}, {degrees:.5g}°")
     for phase in narrow:
-        axes.bar(
-            0.0, 0.0, color=_tint(phase), edgecolor=style.GREY, linewidth=0.8, label=f"{phase.name}, {_limits(phase)}"
-        )
+        look: dict[str, Any] = {"color": PHASE_TINTS[phase.name], "edgecolor": style.GREY, "linewidth": 0.8}
+        axes.bar(0.0, 0.0, **look, label=f"{phase.name}, {_limits(phase)}")
     axes.plot([], [], " ", label=f"angle: {over}, clockwise from the top")
     axes.plot([], [], " ", label="rings from outside: " + ", ".join(ring.name for ring in rings))
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), frameon=False, fontsize=8)
@@ -67,7 +65,7 @@ def _ring(axes: Axes, ring: Ring, bottom: float) -> list[panels.Phase]:
     narrow = []
     for phase in ring.stretches:
         start, width = math.radians(phase.start), math.radians(phase.end - phase.start)
-        look: dict[str, Any] = {"color": _tint(phase), "edgecolor": style.GREY, "linewidth": 0.8}
+        look: dict[str, Any] = {"color": PHASE_TINTS[phase.name], "edgecolor": style.GREY, "linewidth": 0.8}
         axes.bar(start, 0.92 * _STEP, width, bottom, align="edge", **look)
         if width * (bottom + 0.5 * _STEP) > 0.13 * len(phase.name):
             _name(axes, phase, start + 0.5 * width, bottom + 0.46 * _STEP)
@@ -77,12 +75,9 @@ def _ring(axes: Axes, ring: Ring, bottom: float) -> list[panels.Phase]:
     return narrow
 
 
-def _tint(phase: panels.Phase) -> str:
-    return PHASE_TINTS.get(phase.name) or _STROKES[phase.name]
-
-
 def _limits(phase: panels.Phase) -> str:
-    return f"{phase.start % 360.0:.4g}–{phase.end % 360.0:.4g}°"
+    """Both ends; a stretch up to the end of the turn ends at 360."""
+    return f"{phase.start % 360.0:.4g}–{phase.end % 360.0 or 360.0:.4g}°"
 
 
 def _name(axes: Axes, phase: panels.Phase, angle: float, radius: float, *, strong: bool = False) -> None:

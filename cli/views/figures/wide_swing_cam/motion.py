@@ -130,12 +130,19 @@ def legend_row(axes: Axes, drawing: Axes) -> None:
 
 def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Torque peaks on the rocker axis over the speed; where it is shaded the device does harm."""
-    table = design.table("balance")
-    speed, without, with_device = table.data[:3]
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.design import torque_peaks
+    from gearlink.core.numerics.extremes import minimum_over
+
+    rows: Any = design.table("balance").data[0]
+    least = minimum_over(lambda n: torque_peaks(design, n / design.spec.speed)[1], float(rows[0]), float(rows[-1]))
+    speed = np.unique(np.concatenate([rows, np.linspace(rows[0], rows[-1], 241), [least.place]]))
+    without, with_device = torque_peaks(design, speed / design.spec.speed)
     style.curves(axes, "speed [rev/min]", "torque peak [N m]")
     panels.small_ticks(axes)
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")
-    axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device")
+    axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device", gid="with-device")
     usual = design.spec.speed / math.sqrt(2.0)
     axes.axvspan(0.0, design.unloading.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
     axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
@@ -154,6 +161,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     if lowest is not None:
         axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=_DOTTED, label="minimum working speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
+    panels.extreme(axes, least.place, least.value, above=True, unit=" N m", at=" rev/min")
     panels.legend_under_heading(axes, "Torque on the rocker axis", 2)
 
 
