@@ -118,3 +118,67 @@ def words(figure: Any) -> list[str]:
 def labels(axes: Any) -> list[str]:
     """The words of a legend."""
     return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def meetings(figure: Any) -> list[str]:
+    """Words of a placed figure that lie on other words, on a mark of their panel, or beside the page."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    figure.draw(renderer)
+    seen = [(text, _box(text, renderer)) for text in _read(figure)]
+    found = [
+        f"{one.get_text()!r} on {other.get_text()!r}"
+        for i, (one, box) in enumerate(seen)
+        for other, far in seen[:i]
+        if min(box[2], far[2]) - max(box[0], far[0]) > 1.5 and min(box[3], far[3]) - max(box[1], far[1]) > 1.5
+    ]
+    page = figure.bbox
+    found += [f"{text.get_text()!r} beside the page" for text, box in seen if box[0] < -0.5 or box[2] > page.x1 + 0.5]
+    for axes in figure.axes:
+        marks = [box for line in axes.lines for box in _marks(line, axes)]
+        for text, box in seen:
+            if text.axes is axes and text in axes.texts:
+                met = [m for m in marks if min(box[2], m[2]) - max(box[0], m[0]) > 2.5
+                       and min(box[3], m[3]) - max(box[1], m[1]) > 2.5]  # fmt: skip
+                found += [f"{text.get_text()!r} on a mark"] if met else []
+    return found
+
+
+def _read(figure: Any) -> list[Any]:
+    """All words that can be read, but those that are slanted, which do not fill their boxes."""
+    from matplotlib.axis import Axis
+    from matplotlib.text import Text
+
+    found, numbers = [], set()
+    for axis in figure.findobj(Axis):
+        low, high = sorted(axis.get_view_interval())
+        ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+        own = {label for tick in ticks for label in (tick.label1, tick.label2)}
+        numbers |= own - {
+            label
+            for tick in ticks
+            if axis.axes.axison and axis.get_visible() and low - 1e-9 <= tick.get_loc() <= high + 1e-9
+            for label in (tick.label1, tick.label2)
+        }
+        if not axis.axes.axison:
+            numbers |= {axis.label, axis.get_offset_text()}
+    for text in figure.findobj(Text):
+        if text not in numbers and text.get_visible() and text.get_text().strip() and text.get_rotation() % 90.0 == 0.0:
+            found.append(text)
+    return found
+
+
+def _box(text: Any, renderer: Any) -> Any:
+    return text.get_window_extent(renderer).extents
+
+
+def _marks(line: Any, axes: Any) -> list[Any]:
+    """Boxes of the marks of a line in its panel, half as large as their size says."""
+    if line.get_marker() in (None, "", " ", "None", "none", "|", "+") or line.get_markersize() < 3.0:
+        return []
+    xy = line.get_transform().transform(np.column_stack(line.get_data(orig=False)).astype(float))
+    half = 0.5 * min(line.get_markersize(), 6.0) * axes.figure.dpi / 72.0
+    low, high = axes.bbox.extents[:2], axes.bbox.extents[2:]
+    inside = np.isfinite(xy).all(axis=1) & (xy >= low).all(axis=1) & (xy <= high).all(axis=1)
+    return [np.concatenate([p - half, p + half]) for p in xy[inside]]

@@ -15,6 +15,7 @@ from gearlink.cli.views.figures.gears.mesh import COLORS, Mesh, gear_zone, mesh_
 from gearlink.cli.views.figures.gears.path_of_contact import contact_path, zone_frame, zone_legend, zone_size
 from gearlink.cli.views.figures.gears.values import gear_text, headed, ruled, value_rows
 from gearlink.cli.views.scenes.rack import rack_body, rack_scene
+from gearlink.cli.views.scenes.scene import Body, Scene, placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.rack.geometry import RackGeometry
 
@@ -33,6 +34,8 @@ _ROW = 0.0115
 """Share of a page's height that a row of a table takes."""
 _REMARK = 60
 """Letters of a remark in a row of the values, which has the width of its table to itself."""
+_LONG = 6.0
+"""Tip radii of the gear that a rack is drawn long."""
 _RATED = ("contact_stress", "safety_pitting", "root_stress", "safety_bending")
 
 
@@ -119,12 +122,33 @@ def rack_and_gear(axes: Axes, design: GearPairDesign) -> None:
     assert rack is not None, "chosen by the figure"
     style.drawing(axes)
     panels.heading(axes, f"Gear 1, z = {rack.pair.teeth[0]}; rack, z = {design.rack_teeth}")
-    scene_axes.draw(axes, rack_scene(rack, design.rack_teeth, design.rack_back, np.zeros(1)))
-    drop, distance = -1.12 * rack.pair.tip_radius[0], rack.center_distance
+    radius, drawn = rack.pair.tip_radius[0], design.rack_teeth
+    if drawn * rack.pitch_on_line > _LONG * radius:  # the gear would be a dot beside it
+        drawn -= 2 * math.ceil(0.5 * (drawn - _LONG * radius / rack.pitch_on_line))
+    scene = rack_scene(rack, design.rack_teeth, design.rack_back, np.zeros(1), drawn)
+    scene_axes.draw(axes, scene)
+    if drawn < design.rack_teeth:
+        _break_lines(axes, scene, f"{drawn} of {design.rack_teeth} teeth shown")
+    drop, distance = -1.12 * radius, rack.center_distance
     ends = complex(0.0, drop), complex(distance, drop)
     style.dimension(axes, *ends, f"a = {distance:.6g} mm", shift=(-26, -4), from_points=(0j, complex(distance)))
     axes.margins(0.08)
     axes.autoscale_view()
+
+
+def _break_lines(axes: Axes, scene: Scene, words: str) -> None:
+    """A zigzag at either end of a rack that goes on, and how much of it is shown."""
+    body = next(part for part in scene.parts if isinstance(part, Body) and part.name.startswith("rack"))
+    points = placed(body, 0)
+    left, right = float(points.real.min()), float(points.real.max())
+    wide = right - left
+    for end in (float(points.imag.min()), float(points.imag.max())):
+        x = left + wide * np.array([-0.4, 0.35, 0.45, 0.55, 0.65, 1.4])
+        y = end + wide * np.array([0.0, 0.0, 0.3, -0.3, 0.0, 0.0])
+        axes.plot(x, y, color=style.BLACK, linewidth=0.9, zorder=6, gid="break")
+    axes.annotate(
+        words, (right + 0.4 * wide, float(points.imag.max())), (4, -10), textcoords="offset points", fontsize=7
+    )
 
 
 def rack_zone(axes: Axes, rack: RackMesh) -> None:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY, style.RED)
+_GROUND = ("frame", "ground", "base", "fixed")
+"""Words by which the name of a link says that it stands."""
+_NEAR_MIDDLE = 0.2
 _ALONE = 0.5  # gears that all sit on one pin, which a check tells
 
 
@@ -65,8 +68,9 @@ def pin_places(design: GearTrainMobility) -> dict[str, complex]:
 
 def _link(axes: Axes, name: str, points: list[complex]) -> None:
     """A binary link as a bar, one with more pins as a plate; the frame in grey."""
-    color = style.GREY if name == "frame" else style.BLACK
-    if name == "frame":
+    fixed = any(word in _GROUND for word in name.lower().replace("_", " ").replace("-", " ").split())
+    color = style.GREY if fixed else style.BLACK
+    if fixed:
         for point in points:
             style.pivot(axes, point)
     if len(points) > 2:
@@ -75,7 +79,12 @@ def _link(axes: Axes, name: str, points: list[complex]) -> None:
     axes.plot([p.real for p in ends], [p.imag for p in ends], color=color, linewidth=2.4, zorder=2)
     middle = sum(points, 0j) / len(points)
     look: dict[str, Any] = {"fontsize": 8, "color": color, "ha": "center", "va": "center", "zorder": 5}
-    axes.text(0.86 * middle.real, 0.86 * middle.imag, name, path_effects=style.outlined(), **look)
+    if len(points) == 2 and abs(middle) > _NEAR_MIDDLE:  # outside of its link, clear of it whatever its length
+        away = middle / abs(middle)
+        look |= {"ha": "left" if away.real > 0.2 else "right" if away.real < -0.2 else "center"}
+        middle *= 1.0 + 0.09 / abs(middle)
+    axes.text(middle.real, middle.imag, name, path_effects=style.outlined(), **look)
+    axes.update_datalim([(1.2 * middle.real, 1.2 * middle.imag)])
 
 
 def _fixing(

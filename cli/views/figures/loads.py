@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.views.figures.drawing import panels, style, time_axes
+from gearlink.cli.views.figures.drawing import failing, panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,16 +33,33 @@ def pressures(axes: Axes, design: Any) -> None:
     """Hertzian pressure of each roller, and what is allowed."""
     x, columns = _contact(axes, design, "Hertzian pressure", "p [N/mm²]")
     for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
-        axes.plot(x, columns[f"{name}_pressure"], color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
+        pressure = columns[f"{name}_pressure"]
+        axes.plot(x, pressure, color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
+        _too_much(axes, design, x, pressure)
     _allowed(axes, design)
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 3)
 
 
-def _allowed(axes: Axes, design: Any) -> None:
+def _allowed_pressure(design: Any) -> float | None:
+    """What the file allows [N/mm²]; None where it says nothing."""
     material = design.section.material
-    if material is not None and material.allowed_pressure is not None:
-        limit = material.allowed_pressure
+    return None if material is None else material.allowed_pressure
+
+
+def _too_much(axes: Axes, design: Any, x: Any, pressure: Any) -> None:
+    """A pressure in red where it is above what is allowed."""
+    import numpy as np
+
+    limit = _allowed_pressure(design)
+    if limit is not None:
+        values = np.asarray(pressure, dtype=float)
+        failing.past(axes, x, values, np.nan_to_num(values) > limit, "above what is allowed")
+
+
+def _allowed(axes: Axes, design: Any) -> None:
+    limit = _allowed_pressure(design)
+    if limit is not None:
         axes.axhline(limit, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=f"allowed {limit:g}")
 
 
@@ -57,6 +75,8 @@ def _contact(axes: Axes, design: Any, title: str, ylabel: str) -> tuple[Any, dic
 
 def residual(axes: Axes, design: Any) -> None:
     """Vibration that is left in the dwell, over the speed, with the working speed and what is allowed."""
+    import numpy as np
+
     table = design.table("spectrum")
     speed, amplitude = table["speed"], table["residual"]
     unit = table.units[table.columns.index("residual")]
@@ -68,6 +88,10 @@ def residual(axes: Axes, design: Any) -> None:
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
     allowed = design.section.vibration.allowed_residual
+    here = float(np.interp(at, speed, amplitude))
+    if allowed is not None and here > allowed:
+        words = f"{here:.4g} {unit} at this speed"
+        axes.plot([at], [here], "o", color=style.WRONG, markersize=6.0, zorder=7, label=words, gid="fails")
     if allowed is not None:
         axes.axhline(allowed, color=style.RED, linewidth=1.0, linestyle=style.DASHED, label=f"allowed {allowed:g}")
     axes.set_xlim(float(speed[0]), float(speed[-1]))
@@ -84,11 +108,13 @@ def profile(axes: Axes, design: Any, name: str) -> None:
     turned = np.radians(design.cam_degrees(phi))
     contact = roller.position - roller.radius * roller.normal
     points = np.exp(-1j * roller.sense * turned) * contact
-    _colored(axes, points, design.contact(name, phi).pressure, f"{name} cam: pressure [N/mm²]")
+    pressure = design.contact(name, phi).pressure
+    _colored(axes, points, pressure, f"{name} cam: pressure [N/mm²]", _allowed_pressure(design))
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 
 
-def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
+def _colored(axes: Axes, points: Any, values: Any, title: str, limit: float | None) -> None:
+    """A profile by its pressure, on a scale from 0 to what is allowed, where that is known; red above it."""
     import numpy as np
     from matplotlib.collections import LineCollection
 
@@ -101,7 +127,14 @@ def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
     known = whole & np.isfinite(level)
     lines = LineCollection(pieces[known].tolist(), cmap="viridis", linewidths=2.6)
     lines.set_array(level[known])
+    lines.set_clim(0.0, limit if limit is not None else None)
     axes.add_collection(lines)
+    above = known & (np.nan_to_num(level) > (math.inf if limit is None else limit))
+    if above.any():
+        words = f"above {limit:g}"
+        look: dict[str, Any] = {"colors": style.WRONG, "linewidths": 3.2, "label": words, "gid": "fails"}
+        axes.add_collection(LineCollection(pieces[above].tolist(), **look))
+        panels.legend_above(axes, 1)
     undercut = whole & ~known
     if undercut.any():
         red = LineCollection(pieces[undercut].tolist(), colors=style.RED, linewidths=2.6, label="undercut")
@@ -132,7 +165,7 @@ def stroke_sheet(design: Any) -> Figure:
     if has["residual"]:
         residual(next(grid), design)
     if has["pressure"]:
-        stroke_profile(next(grid), design.strokes[0])
+        stroke_profile(next(grid), design.strokes[0], _allowed_pressure(design))
     return made
 
 
@@ -150,16 +183,20 @@ def stroke_pressures(axes: Axes, design: Any) -> None:
     panels.legend_above(axes, 4)
 
 
-def stroke_profile(axes: Axes, stroke: Any) -> None:
+def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
     """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
     import numpy as np
+
+    from gearlink.core.machines.wide_swing.cams.outline import dwell_arc
 
     parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
     gap = 0.5 * (parts[0][-1] + parts[1][0])
     k = np.concatenate([parts[0], [gap], parts[1]])
     points, pressure = stroke.cam.points(stroke.at.profile(k)[0]).profile, stroke.contact(k).pressure
+    rest = dwell_arc(stroke.cam)
     points[len(parts[0])] = complex(np.nan, np.nan)
-    _colored(axes, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]")
+    axes.plot(rest.real, rest.imag, color=style.GREY, linewidth=0.9, label="_rest of the turn")
+    _colored(axes, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]", limit)
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 
 
@@ -176,6 +213,8 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
         values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
         x = table[f"{later}cam_angle"]
         axes.plot(x, values, color=color, linewidth=1.5, linestyle=line, label=stroke.words)
+        if column.endswith("pressure"):
+            _too_much(axes, design, x, values)
     rests = design.pressing.rests if in_rest is not None else ()
     for number, rest in enumerate(rests):
         phi = np.linspace(rest.start, rest.start + rest.width, 61)
@@ -191,8 +230,15 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
 
 
 Panel = Callable[["Axes", "LoadsDesign"], None]
+_LOCI = "Pins: force on the second link in the axes of the frame, a mark every 30° of the input; dotted: it jumps"
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK, style.GREY)
 _POLAR_COLUMNS = 3
+_MOST_CURVES = 5
+_XY = ("_x", "_y")
+_SAME = 1e-9
+"""Of a force: joints whose forces differ by less are drawn once."""
+_LEAST_JUMP, _STEEPER = 0.08, 6.0
+"""A jump of a locus: a share of its size, so many times what the steps beside it are."""
 _LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
 """Curves of one panel differ in their lines as well, for grey print."""
 
@@ -211,6 +257,8 @@ def draw(design: Any) -> Figure:
         panel(axes, design)
     time_axes.once(stacked, 2e3 * math.pi / design.speed)
     places = [(len(curves) + i // _POLAR_COLUMNS, i % _POLAR_COLUMNS) for i in range(len(pins) + len(cams) + 1)]
+    if pins:
+        made.supxlabel(_LOCI, fontsize=7.5)
     for (row, column), name in zip(places, [*pins, *(f"cam {cam}" for cam in cams), ""], strict=True):
         axes = made.add_subplot(grid[row, column])
         if name.startswith("cam "):
@@ -227,7 +275,9 @@ def _panels_of(design: Any) -> tuple[list[Panel], list[str], list[str]]:
     if design.locked:
         return ([] if hasattr(design, "strokes") else [_inertia]), [], []
     curves = [panel for panel, wanted in _CURVES if wanted(design)]
-    pins = [name for name in design.pins if design.has(name) and name not in design.unknown_joints]
+    curves[2:2] = _joint_panels(design)
+    known = {name for name in design.pins if design.has(name) and name not in design.unknown_joints}
+    pins = [names[0] for names in _alike(design, _columns(design, "joints"), _XY) if names[0] in known]
     return curves, pins, _cams(design)
 
 
@@ -243,7 +293,7 @@ def _cams(design: Any) -> list[str]:
 def _profile(axes: Axes, design: Any, name: str) -> None:
     if hasattr(design, "strokes"):
         stroke = next(each for each in design.strokes if each.name == name)
-        stroke_profile(axes, stroke)
+        stroke_profile(axes, stroke, _allowed_pressure(design))
     else:
         profile(axes, design, name)
 
@@ -318,22 +368,59 @@ def _teeth(axes: Axes, design: LoadsDesign) -> None:
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     for name, color, line in zip(design.meshes_found, cycle(_COLORS), cycle(_LINES)):
         look: Any = {"color": color, "linestyle": line}
-        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.4, label=name, **look)
+        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.4, label=_words([name]), **look)
         places = design.meshes_found[name].reversal_places
         axes.plot([math.degrees(p) for p in places], [0.0] * len(places), "o", color=style.RED, markersize=4)
     panels.legend_above(axes, 4)
 
 
-def _forces(axes: Axes, design: LoadsDesign) -> None:
-    """Magnitude of the force of every pin."""
-    _over_turn(axes, design, "Joint forces", "force [N]")
+def _joint_panels(design: LoadsDesign) -> list[Panel]:
+    """Panels of the joint forces, the largest first: few curves in each, on a scale of their own."""
     columns = _columns(design, "joints")
-    for i, name in enumerate(n for n in design.pins if n in columns):
-        # A machine has more pins than there are colours or lines, not than pairs of them.
-        look: Any = {"color": _COLORS[i % len(_COLORS)], "linestyle": _LINES[(i + i // len(_COLORS)) % len(_LINES)]}
-        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.2, label=name, **look)
+    groups = sorted(_alike(design, columns, ("",)), key=lambda names: -float(columns[names[0]].max()))
+    count = math.ceil(len(groups) / _MOST_CURVES)
+    share = math.ceil(len(groups) / max(count, 1))
+    return [partial(_forces, groups=groups[share * i : share * (i + 1)], first=i == 0) for i in range(count)]
+
+
+def _alike(design: LoadsDesign, columns: dict[str, Any], parts: Sequence[str]) -> list[list[str]]:
+    """The joints of a table, those together whose forces have the same parts: "" for the magnitude, "_x", "_y"."""
+    import numpy as np
+
+    found: list[list[str]] = []
+    for name in (name for name in design.pins if name in columns):
+        same = (
+            names
+            for names in found
+            if all(np.allclose(columns[name + end], columns[names[0] + end], rtol=_SAME) for end in parts)
+        )
+        if (names := next(same, None)) is not None:
+            names.append(name)
+        else:
+            found.append([name])
+    return found
+
+
+def _words(names: Sequence[str]) -> str:
+    """Joints or meshes as they are called on sheets.
+
+    Example
+        >>> _words(["A", "F_pinion"])
+        'A, F pinion'
+    """
+    return ", ".join(name.replace("_", " ") for name in names)
+
+
+def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *, first: bool) -> None:
+    """Magnitude of the force of some pins, with the maximum of each."""
+    _over_turn(axes, design, "Joint forces" if first else "Joint forces, smaller ones", "force [N]")
+    columns = _columns(design, "joints")
+    for names, color, line in zip(groups, cycle(_COLORS), cycle(_LINES)):
+        values = columns[names[0]]
+        label = f"{_words(names)}, ≤ {float(f'{values.max():.3g}'):g} N"
+        axes.plot(_angles(columns, design), _closed(values), color=color, linestyle=line, linewidth=1.3, label=label)
     axes.set_ylim(bottom=0.0)
-    panels.legend_above(axes, 8)
+    panels.legend_above(axes, 4)
 
 
 def _speed(axes: Axes, design: LoadsDesign) -> None:
@@ -366,21 +453,59 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
 def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
     """Force on the second link of a joint as a curve, round the joint."""
     columns = _columns(design, "joints")
-    _locus(axes, f"Pin {name}", columns[f"{name}_x"], columns[f"{name}_y"], style.BLUE)
+    names = next(names for names in _alike(design, columns, _XY) if name in names)
+    title = f"Pin{'s' if len(names) > 1 else ''} {_words(names)}"
+    _locus(axes, title, columns[f"{name}_x"], columns[f"{name}_y"], style.BLUE)
+    _angle_marks(axes, columns, columns[f"{name}_x"], columns[f"{name}_y"])
 
 
 def _shaking(axes: Axes, design: LoadsDesign) -> None:
     columns = _columns(design, "frame")
     _locus(axes, "Shaking force", columns["force_x"], columns["force_y"], style.RED)
+    _angle_marks(axes, columns, columns["force_x"], columns["force_y"])
+
+
+def _angle_marks(axes: Axes, columns: dict[str, Any], x: Any, y: Any) -> None:
+    """Marks every 30 deg of the input's first turn, with the angle every quarter."""
+    for i, angle in enumerate(columns["input_angle"].tolist()):
+        if angle % 30.0 == 0.0 and angle < _TURN:
+            size = 3.6 if angle % 90.0 == 0.0 else 2.0
+            axes.plot([x[i]], [y[i]], "o", color=style.BLACK, markersize=size, zorder=4, gid="angle-mark")
+            if angle % 90.0 == 0.0:
+                place, look = (x[i], y[i]), {"fontsize": 6.0, "path_effects": style.outlined(), "zorder": 6}
+                axes.annotate(f"{angle:.0f}°", place, (3, 3), textcoords="offset points", **look)
+
+
+def _jumps(points: Any) -> Any:
+    """Numbers of the steps of a closed locus that are jumps: loads begin or end there.
+
+    Example
+        >>> import numpy as np
+        >>> _jumps(np.array([0, 1, 2, 30, 31, 32, 0]) + 0j).tolist()
+        [2, 5]
+    """
+    import numpy as np
+
+    steps = np.abs(np.diff(points))
+    usual = np.maximum(np.roll(steps, 1), np.roll(steps, -1))
+    return np.flatnonzero((steps > _LEAST_JUMP * np.abs(points).max()) & (steps > _STEEPER * usual))
 
 
 def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
+    """A force as a curve about its joint; what is drawn dotted is a jump."""
+    import numpy as np
+
     style.curves(axes, "", "")
     panels.heading(axes, f"{title} [N]")
     axes.set_aspect("equal", adjustable="datalim")
-    axes.plot(_closed(x), _closed(y), color=color, linewidth=1.4)
+    whole = _closed(x) + 1j * _closed(y)
+    places = _jumps(whole)
+    torn = np.insert(whole, places + 1, complex(math.nan, math.nan))
+    axes.plot(torn.real, torn.imag, color=color, linewidth=1.4)
+    for i in places:
+        chord = whole[i : i + 2]
+        axes.plot(chord.real, chord.imag, color=color, linewidth=0.7, linestyle=style.DOTTED, gid="jump")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=9)
-    axes.plot(x[:1], y[:1], "o", color=color, markersize=4)
     panels.small_ticks(axes)
     from gearlink.cli.views.figures.drawing.ticks import RoundNumbers
 
@@ -396,7 +521,6 @@ def _always(_design: LoadsDesign) -> bool:
 _CURVES: tuple[tuple[Panel, Callable[[Any], bool]], ...] = (
     (_torque, _always),
     (_inertia, _always),
-    (_forces, _always),
     (_teeth, lambda design: bool(design.meshes_found)),
     (_speed, lambda design: design.speed_min is not None),
     (forces, lambda design: hasattr(design, "own_rollers")),

@@ -15,9 +15,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.cli.views.scenes.scene import Scene
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
 
 _TURN = 2.0 * math.pi
+_SMALL = 1.0 / 12.0
+"""Of the rod: a shorter crank is drawn a second time, magnified."""
 
 
 def draw(command: str, design: SliderCrankDesign) -> Figure:
@@ -55,9 +58,27 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     axes.plot([], [], color=style.BLACK, linewidth=2.4, label="half-way in crank angle")
     near, far = (complex(point) for point in scene.marks[2].point[1:])
     _dimensions(axes, design, near, far)
+    if part.crank_length < _SMALL * part.rod:
+        _crank_alone(axes, scene, ahead, part.crank_length)
     axes.margins(0.06)
     axes.autoscale_view()
     panels.legend_below(axes)
+
+
+def _crank_alone(axes: Axes, scene: Scene, ahead: Scene, crank: float) -> None:
+    """A crank that is short beside its rod, magnified beside the rod."""
+    detail = axes.inset_axes((0.64, 0.38, 0.35, 0.24), zorder=9)
+    scene_axes.draw(detail, scene, ahead=ahead)
+    center = complex(scene.marks[0].point[0])
+    way = center + crank * np.exp(1j * np.linspace(0.0, _TURN, 121))
+    detail.plot(way.real, way.imag, color=style.GREY, linewidth=0.8, linestyle=style.DASHED)
+    detail.set_aspect("equal")
+    detail.set_xlim(center.real - 1.7 * crank, center.real + 1.7 * crank)
+    detail.set_ylim(center.imag - 1.7 * crank, center.imag + 1.7 * crank)
+    detail.set_title("crank, magnified [mm]", loc="left", fontsize=7)
+    detail.tick_params(labelsize=6, colors=style.GREY)
+    for text in detail.texts:
+        text.set_clip_on(True)
 
 
 def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: complex) -> None:

@@ -24,7 +24,10 @@ def draw(study: ToleranceStudy) -> Figure:
     """The sheet: a row for each quantity, those of the requirements first, and one for each output over the cycle."""
     names, courses = study.varying[:_MOST], [one for one in study.courses if _scatters(one)]
     height = max(1, len(names)) + len(courses)
-    made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * height)
+    title = f"{study.spec.name}: tolerance"
+    if study.result.passes:
+        title += f", yield {style.number(100.0 * study.result.good.value, 4)} %"
+    made = panels.page(title, 0.12 + 0.22 * height)
     grid = made.add_gridspec(height, 2, width_ratios=[1.25, 1.0])
     for row, name in enumerate(names):
         _histogram(made.add_subplot(grid[row, 0]), study, name)
@@ -86,20 +89,40 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     values = study.result.values[name]
     values = values[~np.isnan(values)]
     unit = study.units[name]
-    style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
+    words = name.replace("_", " ")
+    style.curves(axes, f"{words} [{unit}]" if unit != "1" else words, "density")
     panels.small_ticks(axes)
     axes.ticklabel_format(axis="x", useOffset=False)
     bins = min(_MOST_BINS, math.ceil(2.0 * math.cbrt(len(values))))  # more show the few samples, not the density
-    axes.hist(values, bins=bins, density=True, histtype="stepfilled", color=style.SKY)  # one patch for sixty
+    axes.hist(values, bins=bins, density=True, histtype="stepfilled", color=style.SKY, gid="density")  # one patch
     axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
     low, _, high = study.result.spreads[name].quantiles
     for place, label in ((low.value, "0.135 and 99.865 %"), (high.value, None)):
         axes.axvline(place, color=style.BLUE, linewidth=1.0, linestyle=style.DASHED, label=label)
     for i, limit in enumerate(one for one in study.limits(name) if one is not None):
         axes.axvline(limit, color=style.RED, linewidth=1.6, linestyle=style.CHAIN, label=None if i else "limit")
+    _beyond(axes, *study.limits(name))
     axes.set_yticks([])
     _numbers_that_fit(axes)
     panels.legend_under_heading(axes, _headline(study, name), 3)
+
+
+def _beyond(axes: Axes, lower: float | None, upper: float | None) -> None:
+    """What lies beyond the limits, tinted."""
+    left, right = axes.get_xlim()
+    words: str | None = "rejected"
+    for start, end in ((left, lower), (upper, right)):
+        if start is not None and end is not None and start < end:
+            look: dict[str, Any] = {
+                "color": style.WRONG,
+                "alpha": 0.13,
+                "linewidth": 0,
+                "label": words,
+                "gid": "beyond",
+            }
+            axes.axvspan(max(start, left), min(end, right), **look)
+            words = None
+    axes.set_xlim(left, right)
 
 
 def _numbers_that_fit(axes: Axes) -> None:
@@ -109,9 +132,14 @@ def _numbers_that_fit(axes: Axes) -> None:
 
 
 def _headline(study: ToleranceStudy, name: str) -> str:
+    """The name of a quantity, its deviation, and its capability where it has a limit."""
+    from gearlink.core.studies.tolerance_study.statistics import capabilities
+
     spread = study.result.spreads[name]
-    unit = study.units[name]
-    return f"{name}: sigma {style.number(spread.sigma.value, 3, scale=0.0)} {unit}".removesuffix(" 1")
+    unit = "" if study.units[name] == "1" else f" {study.units[name]}"
+    capability = capabilities(spread, *study.limits(name))[1]
+    able = "" if capability is None else f", Cpk {style.number(capability.value, 3)}"
+    return f"{name.replace('_', ' ')}: σ {style.number(spread.sigma.value, 3, scale=0.0)}{unit}{able}"
 
 
 def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
@@ -133,6 +161,7 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     shares.sort(key=lambda row: row[1])
     error = [row[2] for row in shares] if kind == "total" else None
     places = range(len(shares))
-    axes.barh(places, [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    bars = axes.barh(places, [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    axes.bar_label(bars, [f"{100.0 * row[1]:.0f} %" for row in shares], padding=2.0, fontsize=7)
     axes.set_yticks(places, [row[0] for row in shares])
-    axes.set_xlim(0.0, None)
+    axes.set_xlim(0.0, 1.12 * axes.get_xlim()[1])

@@ -14,6 +14,7 @@ from gearlink.cli.quiet import without_notes
 from gearlink.cli.views.figures.drawing.placing import Places, settled
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import FILES
+from gearlink.core.base.wording import short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,15 +53,13 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 
 def failures(checks: Iterable[Check]) -> str:
     """What fails, each check once with the first value that does: "GL402 undercut -14 mm"; "" where nothing does."""
-    from gearlink.cli.views.figures.drawing import style
-
     found: dict[str, str] = {}
     for check in checks:
         if check.status == "fail":
-            value = "" if check.value is None else f" {style.number(check.value, 4)} {check.unit}".removesuffix(" 1")
-            bound = "" if not value or check.limit is None else f" (limit {style.number(check.limit, 4)})"
+            value = "" if check.value is None else f" {short(check.value)} {check.unit}".removesuffix(" 1")
+            bound = "" if not value or check.limit is None else f" (limit {short(check.limit)})"
             found.setdefault(f"{check.code} {check.name}", value + bound)
-    return ", ".join(name + value for name, value in found.items())
+    return ", ".join(name + value for name, value in found.items()).replace("^2", "²")
 
 
 def panels(command: str, design: Design) -> Figure:

@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlink.cli.views.scenes.colors import BLUE, ORANGE
 from gearlink.cli.views.scenes.gears import gear, holes_for
-from gearlink.cli.views.scenes.scene import TURN, Mark, Reals, Scene, track
+from gearlink.cli.views.scenes.scene import TURN, Mark, Readout, Reals, Scene, track
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.parts.gears.outline.mesh_phase import driven_turn
 
@@ -44,10 +44,11 @@ def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scen
         gear(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
     )
     behind, before = bodies[::-1] if pair.internal else bodies
-    return Scene(
-        parts=(*behind, *before),
-        marks=(Mark(one, pivot=True), Mark(two, pivot=True)),
+    readouts = tuple(
+        Readout(f"gear {label}", "°", np.degrees(turn - turn.flat[0]))
+        for label, turn in zip(labels, (first, second), strict=True)
     )
+    return Scene(parts=(*behind, *before), marks=(Mark(one, pivot=True), Mark(two, pivot=True)), readouts=readouts)
 
 
 def loop_pitches(teeth: tuple[int, int]) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.cli.views.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.views.scenes.gears import gear
-from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Reals, Scene, track
+from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Readout, Reals, Scene, track
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.rack.geometry import RackGeometry
 from gearlink.core.parts.gears.rack.profile import RackProfile
@@ -23,13 +23,14 @@ _LEAST_STROKE = 1.0
 """Pitches to each side."""
 
 
-def rack_scene(rack: RackMesh, teeth: int, back: float, fraction: Reals) -> Scene:
+def rack_scene(rack: RackMesh, teeth: int, back: float, fraction: Reals, drawn: int = 0) -> Scene:
     """Gear and rack over a loop; at its start and in its middle two flanks touch at the pitch point.
 
     Parameters
         teeth : int - of the rack
         back : float [mm] - thickness of its body below the root line
         fraction : of the loop, there and back
+        drawn : int - teeth about its middle that are drawn, as odd or even as all of them; 0: all
     """
     pair, geometry = rack.pair, RackGeometry(rack)
     radius = pair.reference_radius[0]
@@ -37,7 +38,12 @@ def rack_scene(rack: RackMesh, teeth: int, back: float, fraction: Reals) -> Scen
     turn = geometry.first_space[0] + travel / radius
     driver = gear(pair, 0, track(0.0, fraction), turn, 1.0, BLUE, "1", "gear 1")
     place = rack.center_distance + 1j * (geometry.first_space[1] + travel)
-    return Scene(parts=(rack_body(rack, teeth, back, place), *driver), marks=(Mark(track(0.0, fraction), pivot=True),))
+    body = replace(rack_body(rack, drawn or teeth, back, place), name=f"rack, z = {teeth}")
+    readouts = (
+        Readout("gear 1", "°", np.degrees(turn - geometry.first_space[0])),
+        Readout("rack", " mm", travel),
+    )
+    return Scene(parts=(body, *driver), marks=(Mark(track(0.0, fraction), pivot=True),), readouts=readouts)
 
 
 def rack_body(rack: RackMesh, teeth: int, back: float, place: Points) -> Body:

@@ -69,6 +69,7 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
     whole = DEPTH.rates(design.moving, TURN * loop(721), 0)[0]
     links = design.moving.at(psi, 1).links
     d, e, f = (links[name].origin.value for name in ("crank", "rod", "slider"))
+    size = min(0.2 * rod, max(1.5 * float(np.ptp(whole)), 0.05 * rod))  # beside a short stroke no block that hides it
     ways = np.array([whole.min() - 0.15 * rod, whole.max() + 0.15 * rod])
     dead = [-offset - 1j * place + 0.11 * rod * np.array([-1.0, 1.0]) for place in (whole.min(), whole.max())]
     return Scene(
@@ -76,7 +77,7 @@ def build(design: SliderCrankDesign, fraction: Reals) -> Scene:
             Line(points=-offset - 1j * ways),
             *(Line(points=points, dashed=True) for points in dead),
             fixed_circle(0j, crank),
-            block(f, 0.16 * rod, 0.2 * rod, BLUE),
+            block(f, 0.8 * size, size, BLUE),
             *_racks(design, psi),
             Chain(joints=(d, e, f)),
         ),

@@ -160,3 +160,126 @@ def test_what_fails_is_named_once_with_its_value() -> None:
     assert text.startswith("GL301 gear-collision")
     assert text.count("GL301") == 1
     assert "mm" in text
+
+
+@pytest.mark.slow
+def test_joint_forces_are_few_in_a_panel_and_named_in_words() -> None:
+    """Thirteen like curves had stood in one panel, with the names of the program."""
+    made, figure = sheet("loaded_press", "loads")
+    table = made.table("joints")
+    drawn = {}
+    for axes in figure.axes:
+        if axes.get_title(loc="left").startswith("Joint forces"):
+            curves = [line for line in axes.lines if "≤" in line.get_label()]
+            assert len(curves) <= 5
+            drawn |= {line.get_label().partition(",")[0]: np.asarray(line.get_ydata()) for line in curves}
+    assert "F pinion" in drawn
+    assert set(drawn) == {name.replace("_", " ") for name in made.pins if name in table.columns}
+    for name in made.pins:
+        assert np.array_equal(drawn[name.replace("_", " ")][:-1], table[name])
+    assert {"mesh 12", "rack lower"} <= set(labels(panel(figure, "Tooth forces")))
+
+
+@pytest.mark.slow
+def test_joints_with_the_same_force_are_drawn_once() -> None:
+    _, figure = sheet("loaded_gripper", "loads")
+    named = [line.get_label() for axes in figure.axes for line in axes.lines]
+    assert any(label.startswith("D, E, ≤") for label in named)
+    assert not any(label.startswith("E, ≤") for label in named)
+
+
+@pytest.mark.slow
+def test_a_jump_of_a_force_is_no_curve() -> None:
+    made, figure = sheet("loaded_press", "loads")
+    axes = panel(figure, "Pin H")
+    force = np.asarray(made.table("joints")["H_x"]) + 1j * np.asarray(made.table("joints")["H_y"])
+    (_, *others) = axes.lines
+    jumps = [line for line in others if line.get_gid() == "jump"]
+    assert jumps
+    (solid,) = [line for line in axes.lines if len(line.get_xdata()) > 100]
+    x, y = solid.get_data()
+    steps = np.abs(np.diff(np.asarray(x) + 1j * np.asarray(y)))
+    assert np.nanmax(steps) < 0.08 * np.abs(force).max()
+    marks = [line for line in others if line.get_gid() == "angle-mark"]
+    assert len(marks) == 12
+    assert marks[3].get_xdata()[0] == pytest.approx(force[90].real)
+
+
+@pytest.mark.slow
+def test_a_pressure_above_what_is_allowed_is_red_on_curve_and_cam() -> None:
+    made, figure = sheet("loaded_wide_swing", "loads", speed=400)
+    (curve_above,) = [each for each in tagged(figure, "fails") if each.axes is panel(figure, "Hertzian pressure")]
+    shown = np.asarray(curve_above.get_ydata(), dtype=float)
+    assert np.nanmax(shown) == pytest.approx(made.hertz_pressure_max, rel=1e-9)
+    assert np.nanmin(shown) > 1190.0
+    cam = panel(figure, "cam: pressure")
+    (above,) = [each for each in cam.collections if each.get_gid() == "fails"]
+    by_pressure = next(each for each in cam.collections if each.get_gid() != "fails")
+    assert by_pressure.get_clim() == (0.0, 1200.0)
+    assert 0 < len(above.get_segments()) < len(by_pressure.get_segments())
+    (dot,) = [each for each in tagged(figure, "fails") if each.axes is panel(figure, "Residual")]
+    assert dot.get_xdata()[0] == pytest.approx(400.0)
+    assert dot.get_ydata()[0] > made.section.vibration.allowed_residual
+
+
+@pytest.mark.slow
+def test_a_roller_that_lifts_off_is_red() -> None:
+    made, figure = sheet("swing_gripper", "gripper", speed=18000)
+    (lost,) = tagged(figure, "fails")
+    x, y = (np.asarray(each, dtype=float) for each in lost.get_data())
+    seen = np.isfinite(y)
+    table = made.table("forces", samples=len(x))
+    torque = np.asarray(table["contact_torque_main"], dtype=float)
+    assert np.all(seen[torque < made.spec.spring.reserve])
+    assert seen.sum() <= (torque < made.spec.spring.reserve).sum() + 8
+    assert not tagged(sheet("swing_gripper", "gripper").figure, "fails")
+
+
+@pytest.mark.slow
+def test_yield_and_capability_stand_on_the_picture() -> None:
+    require = ["back_step_angle <= 20.30 deg"]
+    made, figure = sheet("candy_feed_tolerances", "tolerance", tolerance__samples=128, tolerance__require=require)
+    assert f"yield {100.0 * made.result.good.value:.4g} %" in figure.get_suptitle()
+    axes = panel(figure, "back step angle")
+    table = made.table("quantities")
+    cpk = dict(zip(table["quantity"], table["cpk"], strict=True))["back_step_angle"]
+    assert axes.get_title(loc="left").endswith(f"Cpk {style.number(cpk, 3)}")
+    (rejected,) = [patch for patch in axes.patches if patch.get_gid() == "beyond"]
+    assert rejected.get_x() == pytest.approx(20.3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("teeth", [200, 201])
+def test_a_gear_is_seen_beside_a_long_rack(teeth: int) -> None:
+    """Of a rack of 200 teeth the middle is drawn, and says so; the flanks touch where they did."""
+    made, figure = sheet("rack_drive", "gear", rack_teeth=teeth)
+    axes = figure.axes[0]
+    assert len(tagged(figure, "break")) == 2
+    assert any(text.endswith(f"of {teeth} teeth shown") for text in words(figure))
+    rack = next(patch for patch in axes.patches if patch.get_label() == f"rack, z = {teeth}")
+    high = np.ptp(rack.get_xy()[:, 1])
+    assert high < 6.5 * made.rack.pair.tip_radius[0]
+    whole = next(patch for patch in sheet("rack_drive", "gear", rack_teeth=21 + teeth % 2).figure.axes[0].patches
+                 if patch.get_label().startswith("rack"))  # fmt: skip
+    one, other = (np.unique(np.round(body.get_xy()[:, 1] % made.rack.pitch_on_line, 6)) for body in (rack, whole))
+    assert np.isin(one, other).mean() > 0.8
+
+
+def test_a_short_crank_is_drawn_magnified() -> None:
+    _, figure = sheet("ty460_slider_crank", "crank", rod=9000.0, offset=-100.0)
+    (detail,) = figure.axes[0].child_axes
+    low, high = detail.get_xlim()
+    assert high - low < 4.0 * 160.0
+    assert not sheet("ty460_slider_crank", "crank").figure.axes[0].child_axes
+
+
+def test_a_frame_stands_on_hatched_ground_whatever_more_it_is_called() -> None:
+    pins = {"frame of the machine": "AD", "crank": "AB", "coupler": "BC", "rocker": "CD"}
+    links = {name: {"pins": list(ends), "length": 1.0} for name, ends in pins.items()}
+    data = {"kind": "gear-train-mobility", "name": "chain", "links": links}
+    _, figure = sheet(data)
+    grounds = [line for line in figure.axes[0].lines if line.get_markersize() == 19.0]
+    assert len(grounds) == 2
+    for text in figure.axes[0].texts:
+        if text.get_text() in links:
+            assert abs(complex(*text.get_position())) > 0.75

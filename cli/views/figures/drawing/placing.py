@@ -31,8 +31,10 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     drawing to scale widens its limits by them. So the limits are those from before the layout.
     """
     from gearlink.cli.views.figures.drawing import style
+    from gearlink.cli.views.figures.drawing.labels import clear
 
     if made.get_layout_engine() is None:  # true to size: its panels stand where they are
+        clear(made)
         return made
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     labels = _labels(made)
@@ -49,6 +51,7 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
         axes.set_position(box)
         axes.set_xlim(x, auto=None)
         axes.set_ylim(y, auto=None)
+    clear(made)
     return made
 
 

@@ -54,7 +54,7 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     axes.set_xlim(*contour.window[0])
     axes.set_ylim(*contour.window[1])
     _named(axes, "x₁", "x₂")
-    _key(key, axes.get_legend_handles_labels()[0], 3)
+    _key(key, axes.get_legend_handles_labels()[0], 3, -0.14)
 
 
 def _free(axes: Axes, contour: BlockingContour) -> None:
@@ -96,12 +96,13 @@ def _named(axes: Axes, across: str, up: str) -> None:
     axes.set_ylabel(up, fontsize=8)
 
 
-def _key(axes: Axes, handles: Sequence[Any], columns: int) -> None:
-    """The legend in axes of its own."""
+def _key(axes: Axes, handles: Sequence[Any], columns: int, left: float = 0.0) -> None:
+    """The legend in axes of its own, from so far beside its left end."""
     axes.set_axis_off()
     labels = [str(handle.get_label()) for handle in handles]
     look: dict[str, Any] = {"fontsize": 6.5, "frameon": False, "handlelength": 1.8, "columnspacing": 0.7}
-    legend = axes.legend(handles, labels, loc="upper left", ncols=columns, borderaxespad=0.0, **look)
+    place: Any = {"loc": "upper left", "bbox_to_anchor": (left, 1.0), "borderaxespad": 0.0}
+    legend = axes.legend(handles, labels, ncols=columns, **place, **look)
     legend.set_in_layout(False)
 
 
@@ -155,6 +156,10 @@ def _sliding_axes(axes: Axes) -> None:
     _named(axes, "ρ₁ in mm", "specific sliding ζ")
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, _SLIDING[0]), min(high, _SLIDING[1]))
+    if low < _SLIDING[0]:
+        least = min(float(min(line.get_ydata())) for line in axes.get_lines()[:2])  # type: ignore[arg-type]
+        words = f"down to ζ = {style.number(least, 4)}"
+        axes.text(0.5, 0.02, words, transform=axes.transAxes, fontsize=7, ha="center", color=style.GREY)
 
 
 def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:

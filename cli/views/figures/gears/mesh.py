@@ -83,6 +83,7 @@ def _axis_distance(axes: Axes, pair: GearPair) -> None:
         shift=(0, -4),
         from_points=(0j, complex(pair.center_distance)),
     )
+    axes.update_datalim([(0.0, 1.18 * drop)])  # room for the words
 
 
 def _teeth(mesh: Mesh, gear: int, chord: float, count: int, first: float) -> Points | None:

@@ -90,7 +90,7 @@ class Course:
 
     def _beside(self, i: int) -> tuple[float, float]:
         """A little beyond the neighbours of a place, which lie within the course."""
-        step = 1.01 * float(self.x[1] - self.x[0])
+        step = 1.01 * float(np.diff(self.x).max())
         place = float(self.x[i])
         return max(place - step, float(self.x[0])), min(place + step, float(self.x[-1]))
 
@@ -120,7 +120,8 @@ def _courses(motion: Any, speed: float | None, steps: float = 2.0) -> list[Cours
     joints = np.array(given.joints)
     after = np.degrees(joints)
     before = after - _BEFORE * np.spacing(after)
-    x = np.unique(np.concatenate([np.linspace(start, end, math.ceil(steps * (end - start)) + 1), after, before]))
+    even = np.linspace(start, end, math.ceil(steps * (end - start)) + 1)
+    x = np.unique(np.concatenate([even, after, before[after > start]]))
 
     def at(course: Any) -> Callable[[Reals], tuple[Reals, ...]]:
         def rates(x: Reals) -> tuple[Reals, ...]:

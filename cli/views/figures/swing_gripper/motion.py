@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style, time_axes
+from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.scene import Chain
 from gearlink.cli.views.scenes.swing_gripper import build, drum_center
 
@@ -84,6 +84,8 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
         words = f"{name} roller, ≥ {style.number(values[least], 4)} N m"
         axes.plot(column["theta"], values, color=color, linewidth=1.6, linestyle=line, label=words)
         axes.plot([column["theta"][least]], [values[least]], "o", color=color, markersize=4.5)
+        lost = values < (0.0 if design.spec.spring is None else design.spec.spring.reserve)
+        failing.past(axes, column["theta"], values, lost, "lifts off")
     spring = design.spec.spring
     assert spring is not None, "drawn only where the file has a spring"
     closing = design.closing_torque
