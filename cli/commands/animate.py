@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
@@ -18,9 +19,13 @@ from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.views.scenes.loops import build, moves, moving_kinds, pictures_for
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from gearlink.cli.views.films.stage import Stage
     from gearlink.cli.views.scenes.scene import Scene
     from gearlink.core.base.design import Design
+    from gearlink.core.base.kind import Kind
+    from gearlink.core.base.report import Check
 
 _SIZE = re.compile(r"(\d{3,4})x(\d{3,4})")
 _LEAST_SIZE, _MOST_SIZE = 160, 3840
@@ -35,6 +40,7 @@ class Asked:
     fps: int = 25
     seconds: float | None = None
     size: str = "960x720"
+    show: str = ""
 
 
 def run_animate(source: str, asked: Asked, options: Options) -> int:
@@ -61,6 +67,12 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
     """The design of a file and its scene; whatever the mechanism refuses becomes a located error."""
     import numpy as np
 
+    from gearlink.cli.views.scenes import shown
+
+    try:
+        wanted = shown.wishes(asked.show)
+    except shown.WrongShow as error:
+        raise wrong_show(error) from None
     loaded, kind = open_design(source, options)
     if not moves(kind.name):
         raise wrong_kind(loaded, f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}")
@@ -71,7 +83,27 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
             count = pictures_for(build(design, np.arange(_PROBES) / _PROBES), asked.fps)
         else:
             count = max(2, round(asked.seconds * asked.fps))
-        return design, build(design, np.arange(count) / count)
+        try:
+            return design, shown.build(design, np.arange(count) / count, wanted, checks_of(kind, spec))
+        except shown.WrongShow as error:
+            raise wrong_show(error) from None
+
+
+def wrong_show(error: Exception) -> DesignFileError:
+    """What `--show` asks for and cannot be had, as an error of the command line."""
+    return DesignFileError([Diagnostic("GL115", str(error), "<command line>", key="--show")])
+
+
+def checks_of(kind: Kind, spec: Any) -> Sequence[Check]:
+    """The findings of all commands of a file; of one that refuses the design there are none."""
+    from gearlink.core.base.errors import NoSolution
+    from gearlink.core.base.kind import FileDesigns
+
+    designs, found = FileDesigns(kind, spec), []
+    for command in spec.commands():
+        with suppress(NoSolution):
+            found += designs.of(command).report(command, findings_only=True).checks
+    return found
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -10,6 +10,15 @@ import typer
 from gearlink.cli.options import Options, PlotFormat
 from gearlink.cli.typer_options import Spec, offers, option, takes
 
+Show = Annotated[
+    str,
+    typer.Option(
+        "--show",
+        metavar="WHAT,...",
+        help="draw on the mechanism: velocity, acceleration, force (each also as :POINT), path:POINT, centres, ghosts",
+    ),
+]
+
 
 class MovingFormat(StrEnum):
     """How a moving picture is written."""
@@ -79,14 +88,17 @@ def _animate(
         typer.Option(min=0.1, max=120.0, help="length of the loop; default: 4, or longer where teeth move fast"),
     ] = None,
     size: Annotated[str, typer.Option(metavar="WIDTHxHEIGHT", help="size of the figure in pixels")] = "960x720",
+    show: Show = "",
 ) -> None:
     """Animate the mechanism as a seamless loop, NAME-motion.gif; HTML has controls, mp4 needs ffmpeg.
 
-    Example: gearlink animate design.yaml --format html --seconds 8
+    Instants at which a check fails have a red frame.
+
+    Example: gearlink animate design.yaml --format html --show velocity,path:C
     """
     from gearlink.cli.commands.animate import Asked, run_animate
 
-    raise typer.Exit(run_animate(spec, Asked(format.value, fps, seconds, size), options))
+    raise typer.Exit(run_animate(spec, Asked(format.value, fps, seconds, size, show), options))
 
 
 @takes("plot_format", "dpi", "out", "overrides", "quiet")

@@ -32,6 +32,17 @@ def bar(draw: ImageDraw, start: complex, end: complex, width: float, color: str)
     draw.polygon(flat(np.array([start + side, end + side, end - side, start - side])), fill=color)
 
 
+def arrow(draw: ImageDraw, start: complex, end: complex, width: float, color: str) -> None:
+    """An arrow from point to point, its head shorter where the arrow is short."""
+    if start == end:
+        return
+    way = (end - start) / abs(end - start)
+    head = min(5.0 * width, 0.6 * abs(end - start))
+    bar(draw, start, end - 0.8 * head * way, width, color)
+    corners = end + head * way * np.array([0.0, -1.0 + 0.36j, -1.0 - 0.36j])
+    draw.polygon(flat(corners), fill=color)
+
+
 def disc(draw: ImageDraw, at: complex, radius: float, fill: str, edge: str, width: int) -> None:
     """A disc with an edge."""
     box = [at.real - radius, at.imag - radius, at.real + radius, at.imag + radius]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,7 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from gearlink.cli.views.films.stage import Box, ChartScale, Stage
-from gearlink.cli.views.scenes.scene import Body, Chain, Chart, Line, Points, Reals, Scene
+from gearlink.cli.views.scenes.scene import Arrow, Chain, Chart, Line, Part, Points, Reals, Scene
 
 
 def page(stage: Stage, fps: float) -> str:
@@ -66,11 +67,20 @@ def player_data(
             for mark, shift in zip(scene.marks, letters, strict=True)
         ],
         "readouts": stage.texts(),
+        "keys": [
+            {"p": [round(at.real, 2), round(at.imag, 2)], "long": round(long, 2), "words": words, "color": color}
+            for at, long, words, color in stage.scales()
+        ],
+        "framed": [int(stage.framed(i)) for i in range(stage.count)] if scene.faults else [],
+        "faults": [stage.failing(i) for i in range(stage.count)] if scene.faults else [],
         "chart": None if scene.chart is None else _chart(scene.chart),
     }
 
 
-def _part(stage: Stage, part: Body | Chain | Line, on_body: Iterator[complex]) -> dict[str, Any]:
+def _part(stage: Stage, part: Part, on_body: Iterator[complex]) -> dict[str, Any]:
+    if isinstance(part, Arrow):
+        ends = stage.pixels(part.start), stage.pixels(part.start + part.vector)
+        return {"is": "arrow", "p": _xy(ends[0]), "q": _xy(ends[1]), "color": part.color, "name": part.name}
     look = {"color": part.color, "width": part.width}
     if isinstance(part, Line):
         return {"is": "line", "p": _xy(stage.pixels(part.points)), "dashed": part.dashed, **look}
@@ -117,12 +127,15 @@ def _figures(values: Reals) -> list[float]:
     return [float(f"{value:.6g}") for value in values.tolist()]
 
 
-def _xy(points: Points) -> list[float]:
+def _xy(points: Points) -> list[Any]:
     """x, y, x, y ... in hundredths of a pixel."""
     return _rounded(np.column_stack([points.real, points.imag]).ravel(), 2)
 
 
-def _rounded(values: Reals, places: int) -> list[float]:
+def _rounded(values: Reals, places: int) -> list[Any]:
+    """Numbers for JSON; what is not there is null."""
     # A sum with 0.0 makes 0.0 of -0.0.
     rounded: list[float] = (np.round(values, places) + 0.0).tolist()
-    return rounded
+    if np.isfinite(values).all():
+        return rounded
+    return [value if math.isfinite(value) else None for value in rounded]

@@ -75,6 +75,7 @@ function filmPlayer(root, DATA) {
       path(part.p, false); paint(part); pen.setLineDash([]);
     },
     body(part, i) {
+      if (part.p[2 * i] === null) return;
       pen.save();
       pen.translate(part.p[2 * i], part.p[2 * i + 1]); pen.rotate(part.t[i]);
       path(part.o, false); paint(part);
@@ -82,11 +83,37 @@ function filmPlayer(root, DATA) {
     },
     chain(part, i) {
       const p = part.p.flatMap(joint => [joint[2 * i], joint[2 * i + 1]]);
+      if (p.includes(null)) return;
       path(p, false); pen.lineCap = "round"; paint(part); pen.lineCap = "butt";
       if (part.marked)
         for (let k = 0; k < p.length; k += 2) disc(p[k], p[k + 1], 1.7 + part.width / 2, "#ffffff", part.color, 1.4);
     },
   };
+  draw.arrow = function (part, i) {
+    const [x, y, u, v] = [part.p[2 * i], part.p[2 * i + 1], part.q[2 * i], part.q[2 * i + 1]];
+    if (x !== null && u !== null) arrow(x, y, u - x, v - y, part.color);
+  };
+  function arrow(x, y, u, v, color) {
+    const long = Math.hypot(u, v), head = Math.min(10, 0.6 * long);
+    if (long < 0.05) return;
+    const a = u / long * head, b = v / long * head, left = x + u - a, low = y + v - b;
+    path([x, y, left + 0.2 * a, low + 0.2 * b]); pen.strokeStyle = color; pen.lineWidth = 1.8; pen.stroke();
+    path([x + u, y + v, left + 0.36 * b, low - 0.36 * a, left - 0.36 * b, low + 0.36 * a], true);
+    pen.fillStyle = color; pen.fill();
+  }
+  function keysAndFaults(i) {
+    for (const key of DATA.keys || []) {
+      if (key.long) arrow(key.p[0], key.p[1], key.long, 0, key.color);
+      words(key.words, key.p[0] + key.long + 0.5 * DATA.text, key.p[1], letters, key.color, "left", "middle", "#ffffff");
+    }
+    const wrong = DATA.faults && DATA.faults[i] || [];
+    if (!wrong.length) return;
+    if (DATA.framed[i]) {
+      pen.strokeStyle = "#d00000"; pen.lineWidth = 5; pen.strokeRect(2.5, 2.5, DATA.width - 5, DATA.height - 5);
+    }
+    wrong.forEach((line, k) =>
+      words(line, 10, 10 + 1.25 * letters * k, letters, "#d00000", "left", "top", "#ffffff"));
+  }
   function ground(m, i) {
     const x = m.p[2 * i], y = m.p[2 * i + 1], size = 0.5 * DATA.text;
     path([x, y, x - size, y + 1.7 * size, x + size, y + 1.7 * size], true);
@@ -122,9 +149,10 @@ function filmPlayer(root, DATA) {
         words(part.label, part.p[2 * i] + part.shift[0], part.p[2 * i + 1] + part.shift[1], letters, part.color,
           "center", "middle", part.fill || "#ffffff");
     for (const m of DATA.marks)
-      if (m.text)
+      if (m.text && m.p[2 * i] !== null)
         words(m.text, m.p[2 * i] + away * m.shift[0], m.p[2 * i + 1] + away * m.shift[1], letters, "#222222",
           "center", "middle", "#ffffff");
+    keysAndFaults(i);
   }
 
   // The strip: curves over the loop with their bands, drawn in pixels of the screen.

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image, ImageDraw
 
-from gearlink.cli.views.films.brush import FINER, bar, dashes, disc, flat, font, thinned
+from gearlink.cli.views.films.brush import FINER, arrow, bar, dashes, disc, flat, font, thinned
 from gearlink.cli.views.films.stage import ChartScale, Stage
-from gearlink.cli.views.scenes.colors import BLACK, GREY, LIGHT, WHITE
-from gearlink.cli.views.scenes.scene import Body, Chain, Line, Part, Points, placed
+from gearlink.cli.views.scenes.colors import BLACK, GREY, LIGHT, WHITE, WRONG
+from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, placed
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -88,11 +88,17 @@ class Raster:
                 self._body(draw, part, i)
             elif isinstance(part, Chain):
                 self._chain(draw, part, i)
+            elif isinstance(part, Arrow):
+                ends = part.start[i] + np.array([0.0, part.vector[i]])
+                if np.isfinite(ends).all():
+                    arrow(draw, *self._fine(ends).tolist(), round(1.8 * FINER), part.color)
         for mark in self.stage.scene.marks:
             if mark.pivot:
                 self._pivot(draw, mark.point[i : i + 1])
 
     def _body(self, draw: ImageDraw.ImageDraw, body: Body, i: int) -> None:
+        if not np.isfinite(body.place[i]):
+            return
         points = flat(self._fine(placed(body, i)))
         if body.fill:
             draw.polygon(points, fill=body.fill)
@@ -100,6 +106,8 @@ class Raster:
 
     def _chain(self, draw: ImageDraw.ImageDraw, chain: Chain, i: int) -> None:
         joints = self._fine(np.array([joint[i] for joint in chain.joints]))
+        if not np.isfinite(joints).all():
+            return
         width = max(1, round(chain.width * FINER))
         for start, end in pairwise(joints):
             bar(draw, start, end, width, chain.color)
@@ -165,8 +173,19 @@ class Raster:
         for body, shift in zip(labelled, labels, strict=True):
             self._haloed(made, self._pixel(body.place, i) + shift, body.label, body.color, body.fill or WHITE)
         for mark, shift in zip(self.stage.scene.marks, letters, strict=True):
-            if mark.text:
+            if mark.text and np.isfinite(mark.point[i]):
                 self._haloed(made, self._pixel(mark.point, i) + shift, mark.text, BLACK, WHITE)
+
+        self._fails(made, draw, i)
+
+    def _fails(self, made: Picture, draw: ImageDraw.ImageDraw, i: int) -> None:
+        """A red frame and what fails, at the pictures at which something does."""
+        size, words = self.stage.text_size, self.stage.failing(i)
+        if self.stage.framed(i):
+            width = max(3, size // 4)
+            draw.rectangle([0, 0, made.width - 1, made.height - 1], outline=WRONG, width=width)
+        for row, line in enumerate(words):
+            draw.text((0.9 * size, (4.0 + 1.2 * row) * size), _MINUS.sub("−", line), font=self._font, fill=WRONG)
 
     def _pixel(self, points: Points, i: int) -> complex:
         return complex(self.stage.pixels(points[i : i + 1])[0])
@@ -215,12 +234,24 @@ def backdrop(stage: Stage) -> Picture:
     while len(title) > 1 and draw.textlength(title, font=letters) > room:
         title = title.rstrip("…")[:-1] + "…"
     draw.text((0.9 * size, 0.6 * size), title, font=letters, fill=BLACK)
+    _keys(draw, stage)
     if stage.scene.chart is not None:
         scale = ChartScale(stage.scene.chart, stage.chart_room)
         _chart(draw, scale)
         _curves(made, scale)
         _chart_words(draw, scale, size)
     return made
+
+
+def _keys(draw: ImageDraw.ImageDraw, stage: Stage) -> None:
+    """The scales of the arrows, in the lower left corner of the mechanism's room."""
+    letters = font(0.85 * FINER * stage.text_size)
+    for start, length, words, color in stage.scales():
+        at = FINER * start
+        if length > 0.0:
+            arrow(draw, at, at + FINER * length, round(1.8 * FINER), color)
+        draw.text((at.real + FINER * (length + 0.5 * stage.text_size), at.imag), words, font=letters, fill=color,
+                  anchor="lm")  # fmt: skip
 
 
 def _line(draw: ImageDraw.ImageDraw, line: Line, stage: Stage) -> None:

@@ -10,7 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from gearlink.cli.views.scenes import lettering
-from gearlink.cli.views.scenes.scene import Body, Chain, Chart, Line, Points, Readout, Reals, Scene
+from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Chart, Line, Part, Points, Readout, Reals, Scene
+
+_FAULTS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +86,7 @@ class Stage:
         """What parts and marks reach over all pictures: x from, x to, y from, y to [mm]."""
         reaches = [reach for part in self.scene.parts for reach in _reaches(part)]
         reaches += [(mark.point, 0.0) for mark in self.scene.marks]
+        reaches = [(p[np.isfinite(p)], r) for p, r in reaches if np.isfinite(p).any()]
         x = [(float(p.real.min()) - r, float(p.real.max()) + r) for p, r in reaches]
         y = [(float(p.imag.min()) - r, float(p.imag.max()) + r) for p, r in reaches]
         return min(a for a, _ in x), max(b for _, b in x), min(a for a, _ in y), max(b for _, b in y)
@@ -142,6 +145,21 @@ class Stage:
         letters, labels = ([self.scale * shift.conjugate() for shift in each] for each in found)
         return letters, labels
 
+    def scales(self) -> list[tuple[complex, float, str, str]]:
+        """Where the key of each arrow stands, its length [pixels], its words and colour: rows from the lower left."""
+        room, size, keys = self.room, self.text_size, self.scene.keys
+        rows = [complex(room.left, room.bottom - 1.15 * size * (len(keys) - k - 0.5)) for k in range(len(keys))]
+        return [(at, self.scale * key.length, key.words, key.color) for at, key in zip(rows, keys, strict=True)]
+
+    def framed(self, i: int) -> bool:
+        """Whether something is known to fail at a picture."""
+        return any(fault.placed and fault.at[i] for fault in self.scene.faults)
+
+    def failing(self, i: int) -> list[str]:
+        """What fails at a picture, at most three lines of it."""
+        words = [fault.words for fault in self.scene.faults if fault.at[i]]
+        return words if len(words) <= _FAULTS else [*words[: _FAULTS - 1], f"and {len(words) - _FAULTS + 1} more"]
+
     def texts(self) -> list[list[str]]:
         """The values beside each picture, one list per value."""
         return [readings(readout) for readout in self.scene.readouts]
@@ -164,12 +182,14 @@ def readings(readout: Readout) -> list[str]:
     ]
 
 
-def _reaches(part: Body | Chain | Line) -> list[tuple[Points, float]]:
+def _reaches(part: Part) -> list[tuple[Points, float]]:
     """Points that a part passes, with the distance that it reaches about them."""
     if isinstance(part, Line):
         return [(part.points, 0.0)]
     if isinstance(part, Chain):
         return [(joint, 0.0) for joint in part.joints]
+    if isinstance(part, Arrow):
+        return [(part.start + part.vector, 0.0)]
     if part.repeats != 1:
         return [(part.place, float(np.abs(part.outline).max()))]
     few = part.outline[:: max(1, len(part.outline) // 90)]

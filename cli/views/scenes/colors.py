@@ -24,6 +24,8 @@ PHASE_TINTS = {
 }
 """Phases of a motion."""
 GREY, LIGHT, WHITE = "#777777", "#DDDDDD", "#ffffff"
+WRONG = "#D00000"
+"""What fails."""
 
 
 def pale(color: str, share: float = 0.18) -> str:

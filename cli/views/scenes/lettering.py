@@ -57,11 +57,16 @@ def _clearest(
     """The shift that keeps farthest from all that is taken, as far as `enough`, circles included; up and right among
     equals. A letter on a circle can still be read, so that of two shifts as near to one the freer counts."""
     places = point[:, None] + distance * _WAYS[None, :]
-    free = np.min([clearance(places) for clearance in taken], axis=0)
-    clear = np.min([free, *(clearance(places) for clearance in circles)], axis=0)
+    free = np.min([_known(clearance(places)) for clearance in taken], axis=0)
+    clear = np.min([free, *(_known(clearance(places)) for clearance in circles)], axis=0)
     room = np.minimum(enough, clear).mean(axis=0) + 0.5 * np.minimum(enough, free).mean(axis=0)
     upwards = (_WAYS * np.exp(-0.125j * TURN)).real
     return complex(distance * _WAYS[int(np.argmax(room + 0.02 * enough * upwards))])
+
+
+def _known(distances: Reals) -> Reals:
+    """What is not there at a position is far."""
+    return np.asarray(np.nan_to_num(distances, nan=np.inf, posinf=np.inf))
 
 
 def _from_point(point: Points) -> _Clearance:

@@ -118,7 +118,42 @@ class Readout:
     values: Reals
 
 
-Part: TypeAlias = Body | Chain | Line
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Arrow:
+    """A vector at a point; where either is NaN there is none.
+
+    start, vector : (N,) tracks [mm of the drawing]
+    name : what it is, in the legend
+    """
+
+    start: Points
+    vector: Points
+    color: str
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """An arrow of known length that tells the scale of others.
+
+    length : float [mm of the drawing]; 0: words alone
+    """
+
+    words: str
+    color: str
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What fails, in words, and at which positions; where no place of the loop is known to fail it is said at all."""
+
+    words: str
+    at: NDArray[np.bool_]
+    placed: bool = True
+
+
+Part: TypeAlias = Body | Chain | Line | Arrow
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +164,8 @@ class Scene:
     marks: tuple[Mark, ...] = ()
     chart: Chart | None = None
     readouts: tuple[Readout, ...] = ()
+    keys: tuple[Key, ...] = ()
+    faults: tuple[Fault, ...] = ()
 
 
 def track(value: Any, fraction: Reals) -> Points:

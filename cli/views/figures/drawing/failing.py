@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.scenes.shown import clashes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from gearlink.cli.views.scenes.scene import Reals, Scene
-    from gearlink.core.studies.clearance.bodies import Clearance, Layout
 
 _THICK: Any = {"color": style.WRONG, "linewidth": 3.2, "zorder": 7, "solid_capstyle": "round"}
 
@@ -35,21 +35,6 @@ def at(axes: Axes, degrees: float, words: str) -> None:
     """A line at an angle [deg] at which something fails."""
     look: dict[str, Any] = {"color": style.WRONG, "linewidth": 1.6, "linestyle": style.DASHED, "zorder": 6}
     axes.axvline(degrees, **look, label=words, gid="fails")
-
-
-def layouts_of(design: Any) -> Iterable[Layout]:
-    """The bodies of a design, plane by plane; none of one without gears in a plane."""
-    if hasattr(type(design), "layouts"):
-        return tuple(design.layouts)
-    return (design.layout,) if hasattr(type(design), "layout") else ()
-
-
-def clashes(design: Any) -> Iterator[Clearance]:
-    """Pairs of bodies that fail: gears nearer than limits.gear_gap, shafts of the file that are not clear."""
-    least = getattr(design.spec.limits, "gear_gap", 0.0)
-    for layout in layouts_of(design):
-        yield from (pair for pair in layout.gear_pairs if pair.gap < least)
-        yield from (pair for pair in layout.shaft_pairs if pair.gap < 0.0 and not pair.bare)
 
 
 def bodies(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene], turns: float = 1.0) -> None:

@@ -32,7 +32,7 @@ DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
 LONG: Any = (0, (6, 1.8))
 """Long dashes, of the second of two curves that are not limits."""
-WRONG = "#D00000"
+WRONG = colors.WRONG
 """What fails: no curve has this colour."""
 CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
 """A dash-dotted line, as of axes and pitch circles."""

@@ -1,0 +1,662 @@
+"""What is shown on a mechanism besides its links: vectors, paths, earlier positions, instant centres, what fails.
+
+All of it comes from the motion of the design, whatever its kind; a scene that stands elsewhere than the motion, as that
+of a press does, is found by its joints.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from gearlink.cli.views.scenes import loops, of_motion
+from gearlink.cli.views.scenes.colors import BLACK, GREEN, GREY, PURPLE, RED, WRONG
+from gearlink.cli.views.scenes.scene import (
+    TURN,
+    Arrow,
+    Body,
+    Chain,
+    Fault,
+    Key,
+    Line,
+    Mark,
+    Part,
+    Points,
+    Reals,
+    Scene,
+    circle,
+    placed,
+)
+from gearlink.core.base.errors import GearlinkError, NoSolution, named
+from gearlink.core.mechanism import vectors
+from gearlink.core.mechanism.joints import Pin
+from gearlink.core.mechanism.links import FRAME
+
+if TYPE_CHECKING:
+    from gearlink.core.base.report import Check
+    from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Input
+    from gearlink.core.numerics.arrays import Mask
+    from gearlink.core.studies.clearance.bodies import Clearance, Layout
+
+Maker: TypeAlias = Callable[[Any, Reals], Scene]
+WORDS = ("velocity", "acceleration", "force", "path", "centres", "ghosts")
+"""What can be asked for; with `:POINT` at one point alone, which of a path is required."""
+_LONGEST, _GHOSTS, _APART = 0.28, 4, 1.0 / 24.0
+"""Longest arrow by the size of the drawing; earlier positions, and their distance in the loop."""
+_SAMPLES, _FAR = 180, 1.15
+_PROBES, _FEW = 15, 4
+_COLORS = {"velocity": GREEN, "acceleration": PURPLE, "force": RED}
+_NEAR = 1e-4
+"""Of the size of the drawing, less than the width of a line: a direction of the file has a few digits."""
+_OFF = complex(math.nan, math.nan)
+_DEGREES = re.compile(r"(-?\d[\d.]*(?:e[-+]?\d+)?) deg")
+
+
+class WrongShow(GearlinkError):
+    """What was asked to be shown cannot be: an unknown word, or what the design has not."""
+
+
+class Wish(NamedTuple):
+    """One thing that is to be shown, at one point where it has a name."""
+
+    what: str
+    point: str = ""
+
+
+def wishes(text: str) -> tuple[Wish, ...]:
+    """What an option `--show` asks for.
+
+    Raises
+        WrongShow - for a word that is none, and a path without a point
+    Example
+        >>> wishes("velocity,path:C")
+        (Wish(what='velocity', point=''), Wish(what='path', point='C'))
+    """
+    found = []
+    for part in filter(None, text.replace(" ", "").split(",")):
+        what, _, point = part.partition(":")
+        if what not in WORDS:
+            raise WrongShow(f"--show knows no {named(what)}; it knows {', '.join(WORDS)}")
+        if what == "path" and not point:
+            raise WrongShow("--show path needs a point: path:POINT")
+        if point and what in ("ghosts", "centres"):
+            raise WrongShow(f"--show {what} takes no point")
+        found.append(Wish(what, point))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where a scene has what the motion has: z -> turn z + shift, of a mirrored one turn conj(z) + shift.
+
+    Fields
+        inputs : function of fractions of the loop - inputs of the motion
+    """
+
+    inputs: Callable[[Reals], Reals]
+    turn: complex = 1.0
+    shift: complex = 0.0
+    mirrored: bool = False
+
+    def at(self, points: Points) -> Points:
+        """Points of the motion in the scene."""
+        return np.asarray(self.along(points) + self.shift)
+
+    def back(self, shift: complex) -> complex:
+        """A direction of the scene in the motion."""
+        found = shift / self.turn
+        return found.conjugate() if self.mirrored else found
+
+    def along(self, vector: Points) -> Points:
+        """Directions of the motion in the scene."""
+        return np.asarray(self.turn * (np.conj(vector) if self.mirrored else vector))
+
+
+# Where the scene stands
+
+
+def _frames(one: Points, other: Points) -> Iterator[tuple[complex, complex, bool]]:
+    """Rigid motions that take one list of points to another, by least squares; the same place first."""
+    yield 1.0, 0.0, False
+    for mirrored in (False, True):
+        given = np.conj(one) if mirrored else one
+        from_, to = given - given.mean(), other - other.mean()
+        turn = complex((np.conj(from_) * to).sum())
+        if abs(turn) > 0.0:
+            turn /= abs(turn)
+            yield turn, complex(other.mean() - turn * given.mean()), mirrored
+
+
+def frame_of(design: Any, build: Maker) -> Frame | None:
+    """Where a scene stands; None where no rigid motion takes all joints of the motion to those of the scene.
+
+    Notes
+        Accepted only if something that moves agrees: a joint, or a body that turns with its link. Of a scene that goes
+        on beyond the range of the motion the positions within it count.
+    """
+    motion, fraction = design.moving, np.linspace(0.0, 0.93, _PROBES)
+    scene = build(design, fraction)
+    for inputs in _inputs(design, build, scene):
+        q = inputs(fraction)
+        inside = within(motion.input, q)
+        if inside.sum() < _FEW:
+            continue
+        try:
+            mechanism = motion.at(q[inside], 0)
+        except NoSolution:
+            continue
+        pins = {each.name: each.at for each in mechanism.connections if isinstance(each, Pin)}
+        pairs = [(pins[mark.text], np.asarray(mark.point)[inside]) for mark in scene.marks if mark.text in pins]
+        one = np.concatenate([pair[0] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
+        other = np.concatenate([pair[1] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
+        for turn, shift, mirrored in _frames(one, other):
+            found = Frame(inputs, turn, shift, mirrored)
+            size = 1.0 + float(np.abs(one - one.mean()).max())
+            if float(np.abs(found.at(one) - other).max()) > _NEAR * size:
+                continue
+            if _moves(found, q[inside], mechanism, _Tracks.of(scene, inside), size):
+                return found
+    return None
+
+
+def within(given: Input, q: Reals) -> Mask:
+    """Which inputs are within the range of a motion; all of one that repeats."""
+    if given.turns is not None:
+        return np.ones(q.shape, dtype=bool)
+    return np.asarray((q >= given.start - 1e-9) & (q <= given.end + 1e-9))
+
+
+def _inputs(design: Any, build: Maker, scene: Scene) -> Iterator[Callable[[Reals], Reals]]:
+    """How inputs may run over the loop: over the period, as the scene's first value says, as its first gear turns."""
+    given = design.moving.input
+    yield lambda fraction: of_motion.inputs(given, fraction)
+    if scene.readouts and scene.readouts[0].unit == "°":
+        yield lambda fraction: np.radians(build(design, fraction).readouts[0].values)
+    gears = [i for i, part in enumerate(scene.parts) if isinstance(part, Body) and part.pitch]
+    if gears:
+
+        def by_gear(fraction: Reals) -> Reals:
+            turn = build(design, np.append(0.0, fraction)).parts[gears[0]].turn  # type: ignore[union-attr]
+            return np.asarray(given.start + turn[1:] - turn[0])
+
+        yield by_gear
+
+
+class _Tracks(NamedTuple):
+    """What moves in a scene: places of joints and bodies, and how far bodies have turned [rad]."""
+
+    places: list[Points]
+    turns: list[Reals]
+
+    @classmethod
+    def of(cls, scene: Scene, inside: Mask) -> _Tracks:
+        bodies = [part for part in scene.parts if isinstance(part, Body)]
+        places = [np.asarray(mark.point) for mark in scene.marks] + [np.asarray(body.place) for body in bodies]
+        places += [np.asarray(joint) for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
+        return cls([each[inside] for each in places], [body.turn[inside] for body in bodies if body.repeats])
+
+
+def _moves(frame: Frame, q: Reals, mechanism: Mechanism, shown: _Tracks, size: float) -> bool:
+    """Whether something that moves in the motion moves so in the scene; what turns evenly tells where all does."""
+    tracks = [np.asarray(each.at) for each in mechanism.connections if hasattr(each, "at")]
+    tracks += [link.origin.value for link in mechanism.links.values()]
+    for track in tracks:
+        if float(np.ptp(track.real) + np.ptp(track.imag)) <= _NEAR:
+            continue
+        # a roller may be that of one cam, then that of another
+        apart = np.min([np.abs(frame.at(track) - other) for other in shown.places], axis=0)
+        if float(apart.max()) <= _NEAR * size:
+            return True
+    sense = -1.0 if frame.mirrored else 1.0
+    turns = [sense * (link.turn.value - link.turn.value[0]) for link in mechanism.links.values()]
+    uneven = [turn for turn in turns if float(np.abs(turn - (q - q[0]) * (turn[-1] / (q[-1] - q[0]))).max()) > 1e-9]
+    return any(
+        float(np.ptp(turn)) > 1e-3 and float(np.abs(turn - (body - body[0])).max()) <= _NEAR
+        for turn in uneven or turns
+        for body in shown.turns
+    )
+
+
+# Scenes with more on them
+
+
+def build(design: Any, fraction: Reals, wanted: Sequence[Wish] = (), checks: Sequence[Check] = ()) -> Scene:
+    """The scene of a design over fractions of its loop with what is asked for, and red where a check fails.
+
+    Parameters
+        wanted : what is shown
+        checks : findings of the design; those that fail are marked at their instants
+    Raises
+        WrongShow - where the design has not what is asked for
+    """
+    own = loops.builder(design.kind)
+    if not wanted:
+        return _with_faults(own(design, fraction), design, fraction, own, checks)
+    maker, frame = own, frame_of(design, own)
+    if frame is None:
+        maker, given = of_motion.build, design.moving.input
+        frame = Frame(lambda each: of_motion.inputs(given, each))
+    return _with_faults(_shown(design, fraction, maker, frame, wanted), design, fraction, maker, checks)
+
+
+def _shown(design: Any, fraction: Reals, maker: Maker, frame: Frame,
+           wanted: Sequence[Wish]) -> Scene:  # fmt: skip
+    scene = maker(design, fraction)
+    picture = Picture(design, fraction, maker, frame)
+    behind, before, marks, keys = [], [], list(scene.marks), list(scene.keys)
+    for wish in wanted:
+        parts, words, key = picture.of(wish)
+        (behind if wish.what == "ghosts" else before).extend(parts)
+        marks += words
+        keys += key
+    return replace(scene, parts=(*behind, *scene.parts, *before), marks=tuple(marks), keys=tuple(keys))
+
+
+def _reach(scene: Scene) -> float:
+    """The greater side of a scene [mm]."""
+    whole = _points(scene)
+    return float(max(np.ptp(whole.real), np.ptp(whole.imag), 1e-9))
+
+
+def _points(scene: Scene) -> Points:
+    bodies = [part for part in scene.parts if isinstance(part, Body)]
+    points = [placed(body, i) for body in bodies for i in range(len(body.place))]
+    points += [np.asarray(joint) for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
+    points += [np.asarray(mark.point) for mark in scene.marks]
+    return np.concatenate(points)
+
+
+Found: TypeAlias = tuple[list[Part], list[Mark], list[Key]]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What is drawn on the scene of one design at fractions of its loop."""
+
+    design: Any
+    fraction: Reals
+    maker: Maker
+    frame: Frame
+
+    @cached_property
+    def _probes(self) -> Scene:
+        """The scene at some positions of its loop."""
+        return self.maker(self.design, np.linspace(0.0, 0.93, _PROBES))
+
+    @cached_property
+    def size(self) -> float:
+        """The greater side of the drawing [mm]."""
+        return _reach(self._probes)
+
+    @cached_property
+    def box(self) -> tuple[complex, complex]:
+        """Middle of the drawing, and half its width and height [mm]."""
+        whole = _points(self._probes)
+        low, high = complex(whole.real.min(), whole.imag.min()), complex(whole.real.max(), whole.imag.max())
+        return 0.5 * (low + high), 0.5 * (high - low) + 1e-9 * self.size * (1 + 1j)
+
+    def _beside(self, track: Callable[[Mechanism], Points]) -> complex:
+        """From a point that lies beyond the drawing to a body of the drawing that moves as it does; 0 within it."""
+        at = self.frame.at(track(self._mechanism(0, np.linspace(0.0, 0.93, _PROBES))))
+        middle, half = self.box
+        off = at - middle
+        if (np.abs(off.real) <= 1.02 * half.real).all() and (np.abs(off.imag) <= 1.02 * half.imag).all():
+            return 0j
+        for part in self._probes.parts:
+            if isinstance(part, Body) and float(np.ptp(part.turn)) == 0.0:
+                apart = part.place - at
+                if float(np.abs(apart - apart[0]).max()) <= _NEAR * self.size:
+                    return complex(apart[0]) + complex(part.outline[:-1].mean())
+        return 0j
+
+    def of(self, wish: Wish) -> Found:
+        """Parts, marks and keys of one wish.
+
+        Raises
+            WrongShow
+        """
+        if wish.what in ("velocity", "acceleration"):
+            return self._vectors(wish)
+        made: dict[str, Callable[[Wish], Found]] = {
+            "force": self._forces, "path": self._path, "centres": self._centres, "ghosts": self._ghosts,
+        }  # fmt: skip
+        return made[wish.what](wish)
+
+    def _mechanism(self, order: int, fraction: Reals | None = None) -> Mechanism:
+        """The links there; beyond the range of the motion at its end."""
+        given, q = self.design.moving.input, self.frame.inputs(self.fraction if fraction is None else fraction)
+        if given.turns is None:
+            q = np.minimum(np.maximum(q, given.start), given.end)
+        found: Mechanism = self.design.moving.at(np.asarray(q), order)
+        return found
+
+    def _known(self, track: Points) -> Points:
+        """A track of the motion in the scene, which is not there beyond the range of the motion."""
+        inside = within(self.design.moving.input, self.frame.inputs(self.fraction))
+        return np.where(inside, self.frame.at(track), _OFF)
+
+    @property
+    def _whole(self) -> Reals:
+        return np.arange(_SAMPLES) / _SAMPLES
+
+    def _places(self, point: str) -> dict[str, vectors.Place]:
+        """The points of a wish by name."""
+        whole = self._mechanism(0, self._whole)
+        try:
+            return {point: vectors.place_of(whole, point)} if point else vectors.moving_points(whole)
+        except vectors.UnknownPoint as error:
+            raise WrongShow(str(error)) from None
+
+    def _arrows(self, what: str, tracks: dict[str, tuple[Points, Points]], most: float, unit: str) -> Found:
+        """Arrows of one scale, the longest of the whole loop a set share of the drawing, and the key of the scale."""
+        if most <= 0.0 or not math.isfinite(most):
+            return [], [], [Key(f"{what}: none", _COLORS[what], 0.0)]
+        scale = _LONGEST * self.size / most
+        parts: list[Part] = [
+            Arrow(start=self._known(at), vector=scale * self.frame.along(vector), color=_COLORS[what],
+                  name=f"{what} {name}")
+            for name, (at, vector) in tracks.items()
+        ]  # fmt: skip
+        round_ = round_below(most)
+        return parts, [], [Key(f"{what} {round_:g} {unit}", _COLORS[what], scale * round_)]
+
+    def _vectors(self, wish: Wish) -> Found:
+        """Velocity or acceleration, in real time where the speed of the input is known."""
+        order = 1 if wish.what == "velocity" else 2
+        speed = speed_of(self.design)
+        factor = 1.0 if speed is None else speed**order
+        places = self._places(wish.point)
+        now, whole = self._mechanism(order), self._mechanism(order, self._whole)
+        most = max(
+            (float(np.abs(vectors.rates_of(whole, each).derivative(order)).max()) for each in places.values()),
+            default=0.0,
+        )
+        tracks = {}
+        for name, each in places.items():
+            rates = vectors.rates_of(now, each)
+            beside = self._beside(lambda links, at=each: vectors.rates_of(links, at).value)  # type: ignore[misc]
+            tracks[name] = rates.value + self.frame.back(beside), factor * rates.derivative(order)
+        per = self.design.moving.input.unit
+        unit = ("mm/s", "mm/s²")[order - 1] if speed is not None else (f"mm/{per}", f"mm/{per}²")[order - 1]
+        return self._arrows(wish.what, tracks, abs(factor) * most, unit)
+
+    def _forces(self, wish: Wish) -> Found:
+        """Forces on the second link of each joint, and of teeth on the second gear, at the constant speed."""
+        loaded = loads_design(self.design)
+        if loaded is None:
+            raise WrongShow("--show force needs the loads of the design: a section `loads`")
+        if loaded.locked:
+            raise WrongShow("--show force: friction locks the mechanism, so that it has no forces")
+        machine, unknown = loaded.machine, tuple(loaded.unknown_joints)
+        now = vectors.loads_of(machine.reactions(self._loaded(machine, self.fraction)), unknown)
+        whole = vectors.loads_of(machine.reactions(self._loaded(machine, self._whole)), unknown)
+        if wish.point and wish.point not in now:
+            raise WrongShow(f"--show force:{wish.point}: the connections are {', '.join(now)}")
+        chosen = {name: each for name, each in now.items() if wish.point in ("", name)}
+        most = max((float(np.nanmax(np.abs(whole[name].force))) for name in chosen), default=0.0)
+        return self._arrows("force", {name: (each.at, each.force) for name, each in chosen.items()}, most, "N")
+
+    def _loaded(self, machine: Any, fraction: Reals) -> Reals:
+        """Inputs of the loads, which may run over another period than the motion."""
+        given, q = machine.motion.input, self.frame.inputs(fraction)
+        if given.turns is None:
+            return np.asarray(np.minimum(np.maximum(q, given.start), given.end))
+        return np.asarray(q)
+
+    def _path(self, wish: Wish) -> Found:
+        """The path of a point, with a tick every 30 deg of a turning input, numbers at every 90, and its direction."""
+        place = self._places(wish.point)[wish.point]
+        path = self.frame.at(vectors.rates_of(self._mechanism(0, np.linspace(0.0, 1.0, 361)), place).value)
+        parts: list[Part] = [Line(points=path, color=BLACK, width=1.4, name=f"path of {wish.point}")]
+        given, marks = self.design.moving.input, []
+        if given.unit == "rad" and given.end - given.start <= TURN * (1.0 + 1e-9):
+            degrees = np.arange(math.ceil(math.degrees(given.start) / 30.0 - 1e-9) * 30.0,
+                                math.degrees(given.end) - 1e-6, 30.0)  # fmt: skip
+            point = vectors.rates_of(self.design.moving.at(np.radians(degrees), 1), place)
+            at, way = self.frame.at(point.value), self.frame.along(point.first)
+            for k, degree in enumerate(degrees.tolist()):
+                across = 1j * way[k] / abs(way[k]) if abs(way[k]) > 1e-9 * self.size else 1j
+                long = 0.012 if round(degree) % 90 else 0.02
+                tick = at[k] + long * self.size * across * np.array([-1.0, 1.0])
+                parts.append(Line(points=tick, color=BLACK, width=1.2))
+                if round(degree) % 90 == 0:
+                    marks.append(Mark(np.full(self.fraction.shape, complex(at[k])), f"{degree:g}°"))
+        parts += [self._head(path, k) for k in (30, 150, 270)]
+        return parts, marks, [Key(f"path of {wish.point}", BLACK, 0.0)]
+
+    def _head(self, path: Points, k: int) -> Part:
+        """An arrow head on a path, in its direction."""
+        way = path[k + 1] - path[k - 1]
+        way = way / abs(way) if abs(way) > 0.0 else 1.0
+        head = path[k] + 0.018 * self.size * way * np.array([1.0, -1.0 + 0.6j, -1.0 - 0.6j, 1.0])
+        return Line(points=head, color=BLACK, width=1.4)
+
+    def _centres(self, _wish: Wish) -> Found:
+        """Instant centres against the frame of the links that no pin of the frame holds, with rays to two joints."""
+        now = self._mechanism(1)
+        held = {name for each in now.connections if isinstance(each, Pin) and FRAME in (each.first, each.second)
+                for name in (each.first, each.second)}  # fmt: skip
+        parts: list[Part] = []
+        marks = []
+        for name, link in now.links.items():
+            pole = self._known(vectors.centre(now, name))
+            turning = np.abs(link.turn.first) > 1e-9
+            middle, half = self.box
+            off = pole - middle
+            far = ~((np.abs(off.real) < _FAR * half.real) & (np.abs(off.imag) < _FAR * half.imag)) | ~turning
+            pole = np.where(far, _OFF, pole)
+            if name in held or not np.isfinite(pole).any():
+                continue
+            ends = [each.at for each in now.connections if isinstance(each, Pin) and name in (each.first, each.second)]
+            parts += [Chain(joints=(pole, self.frame.at(end)), color=GREY, width=0.8, marked=False) for end in ends[:2]]
+            dot = Body(outline=circle(0.009 * self.size), place=pole, turn=np.zeros(pole.shape), color=RED, fill=RED,
+                       repeats=0)  # fmt: skip
+            parts.append(dot)
+            marks.append(Mark(pole, f"P {name}"))
+        return parts, marks, [Key("P: instant centre against the frame", RED, 0.0)] if parts else []
+
+    def _ghosts(self, _wish: Wish) -> Found:
+        """Earlier positions, the paler the older."""
+        parts: list[Part] = []
+        given = self.design.moving.input
+        step = _APART / max(given.turns or 1, 1)
+        for k in range(_GHOSTS, 0, -1):
+            earlier = self.maker(self.design, (self.fraction - k * step) % 1.0)
+            color = _grey(k)
+            for part in earlier.parts:
+                if isinstance(part, Chain) and part.marked:
+                    parts.append(replace(part, color=color, width=0.6 * part.width, marked=False))
+                elif isinstance(part, Body) and part.repeats == 1 and not part.pitch and np.ptp(part.place.real) > 0.0:
+                    parts.append(replace(part, color=color, fill="", width=1.0, label="", name=""))
+        words = "earlier positions"
+        if given.turns is not None and given.unit == "rad":
+            words += f", {math.degrees(given.end - given.start) * step:.4g}° apart"
+        return parts, [], [Key(words, _grey(1), 0.0)] if parts else []
+
+
+def _grey(k: int) -> str:
+    level = 150 + 22 * k
+    return f"#{level:02x}{level:02x}{level:02x}"
+
+
+def round_below(most: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is no more than half of a number.
+
+    Example
+        >>> round_below(740.0), round_below(2.1)
+        (200.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(0.5 * most))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= 0.5 * most * (1.0 + 1e-12))
+
+
+def speed_of(design: Any) -> float | None:
+    """Speed of the input [rad/s, mm/s], where the file has one."""
+    found = getattr(design, "angular_speed", None)
+    if found is None and getattr(design.spec, "loads", None) is not None:
+        loaded = loads_design(design)
+        found = None if loaded is None else loaded.speed
+    return None if found is None else float(found)
+
+
+def loads_design(design: Any) -> Any:
+    """The design of the loads of the same file; None where the file or the kind has none."""
+    from gearlink.core.base.kinds import KINDS
+
+    if hasattr(type(design), "machine") and hasattr(type(design), "unknown_joints"):
+        return design
+    kind = KINDS[design.kind]
+    if getattr(design.spec, "loads", None) is None or "loads" not in kind.commands:
+        return None
+    return kind.design("loads", design.spec)
+
+
+# What fails
+
+
+def _with_faults(scene: Scene, design: Any, fraction: Reals, maker: Maker, checks: Sequence[Check]) -> Scene:
+    failed = [check for check in checks if check.status == "fail"]
+    if not failed:
+        return scene
+    found = list(_Failing(scene, design, fraction, maker).of(failed))
+    parts = [part for _, more in found for part in more]
+    return replace(scene, parts=(*scene.parts, *parts), faults=tuple(fault for fault, _ in found))
+
+
+def fault_words(check: Check) -> str:
+    """A failing check in few words: code, name, value and limit.
+
+    Example
+        >>> from gearlink.core.base.report import Check
+        >>> fault_words(Check("GL303", "transmission-angle", "fail", "the angle", 31.25, 40.0, "deg"))
+        'GL303 transmission-angle 31.25 deg (limit >= 40 deg)'
+    """
+    from gearlink.core.base.wording import in_unit, short
+
+    words = f"{check.code} {check.name}"
+    if check.value is not None and not isinstance(check.value, str) and math.isfinite(check.value):
+        words += f" {in_unit(short(check.value), check.unit)}"
+        if check.limit is not None:
+            words += f" (limit {check.side} {in_unit(short(check.limit), check.unit)})"
+    return words
+
+
+def layouts_of(design: Any) -> Iterable[Layout]:
+    """The bodies of a design, plane by plane; none of one without gears in a plane."""
+    if hasattr(type(design), "layouts"):
+        return tuple(design.layouts)
+    return (design.layout,) if hasattr(type(design), "layout") else ()
+
+
+def clashes(design: Any) -> Iterator[Clearance]:
+    """Pairs of bodies that fail: gears nearer than limits.gear_gap, shafts of the file that are not clear."""
+    least = getattr(design.spec.limits, "gear_gap", 0.0)
+    for layout in layouts_of(design):
+        yield from (pair for pair in layout.gear_pairs if pair.gap < least)
+        yield from (pair for pair in layout.shaft_pairs if pair.gap < 0.0 and not pair.bare)
+
+
+Told: TypeAlias = "Iterator[tuple[Mask, list[Part]]]"
+
+
+@dataclass(frozen=True)
+class _Failing:
+    """Where on a scene what fails, over fractions of its loop."""
+
+    scene: Scene
+    design: Any
+    fraction: Reals
+    maker: Maker
+
+    def of(self, failed: Sequence[Check]) -> Iterator[tuple[Fault, list[Part]]]:
+        """Each failing check with its instants and the bodies that fail, as far as the motion tells them."""
+        told = {"GL301": self._clashes, "GL302": self._clashes, "GL303": self._transmission, "GL401": self._pressure}
+        seen: set[str] = set()
+        for check in failed:
+            words = fault_words(check)
+            if words in seen:
+                continue
+            seen.add(words)
+            made = list(told[check.code]()) if check.code in told else []
+            at = np.zeros(self.fraction.shape, dtype=bool)
+            for mask, _ in made:
+                at |= mask
+            if not at.any():
+                at = self._named_instant(check)
+            yield Fault(words, at | (not at.any()), bool(at.any())), [part for _, parts in made for part in parts]
+
+    def _inputs(self) -> Reals | None:
+        """Inputs of the motion at the positions; None where the scene does not tell."""
+        frame = frame_of(self.design, self.maker) if self.design.moving else None
+        return None if frame is None else frame.inputs(self.fraction)
+
+    def _clashes(self) -> Told:
+        """Gears and shafts that are too near, at the positions at which they are."""
+        from gearlink.core.studies.clearance.bodies import Shaft, gaps
+
+        places = {mark.text: np.asarray(mark.point) for mark in self.scene.marks}
+        least = getattr(self.design.spec.limits, "gear_gap", 0.0)
+        for pair in clashes(self.design):
+            if pair.one.axis not in places or pair.other.axis not in places:
+                continue
+            apart = np.abs(places[pair.one.axis] - places[pair.other.axis])
+            limit = 0.0 if isinstance(pair.one, Shaft) or isinstance(pair.other, Shaft) else least
+            mask = np.max([*gaps(pair.one, pair.other, apart, apart)], axis=0) < limit - 1e-9
+            parts: list[Part] = [
+                _red(circle(radius), places[body.axis], mask)
+                for body in (pair.one, pair.other)
+                for radius in sorted({body.outer, max(body.inner, 0.0)} - {0.0})
+            ]
+            yield mask, parts
+
+    def _transmission(self) -> Told:
+        """The links in red where the transmission angle of the table `motion` is below its limit."""
+        q, table = self._inputs(), self.design.table("motion")
+        if q is None or "transmission_angle" not in table.columns:
+            return
+        x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
+        period = math.degrees(self.design.moving.input.end) if self.design.moving.input.turns else None
+        mask = np.interp(np.degrees(q), x, y, period=period) < self.design.spec.limits.transmission_angle
+        yield (
+            mask,
+            [
+                replace(part, joints=tuple(np.where(mask, joint, _OFF) for joint in part.joints), color=WRONG)
+                for part in self.scene.parts
+                if isinstance(part, Chain) and part.marked
+            ],
+        )
+
+    def _pressure(self) -> Told:
+        """A red ring about the roller where the pressure angle is above its limit."""
+        frame, spec = frame_of(self.design, self.maker), self.design.spec
+        limits = getattr(spec, "pressure_limits", None)
+        limit = max(limits()) if limits is not None else getattr(spec.limits, "pressure_angle", None)
+        if frame is None or limit is None or getattr(spec, "is_flat", False):
+            return
+        size, q, given = _reach(self.scene), frame.inputs(self.fraction), self.design.moving.input
+        inside = within(given, q)
+        there = self.design.moving.at(np.where(inside, q, given.start), 1)
+        for at, angle in vectors.pressure_angles(there).values():
+            mask = inside & (np.degrees(angle) > limit)
+            yield mask, [_red(circle(0.05 * size), frame.at(at), mask)]
+
+    def _named_instant(self, check: Check) -> Mask:
+        """The position nearest to the place that a finding names; none where it names no input of the motion."""
+        found, words = _DEGREES.search(check.at), self.design.moving.input.column.replace("_", " ")
+        q = self._inputs() if found and (words in check.at or "input angle" in check.at) else None
+        if found is None or q is None:
+            return np.zeros(self.fraction.shape, dtype=bool)
+        apart = np.abs((np.degrees(q) - float(found[1]) + 180.0) % 360.0 - 180.0)
+        return np.asarray(apart <= float(apart.min()) + 1e-9)
+
+
+def _red(outline: Points, place: Points, mask: Mask) -> Body:
+    at = np.where(mask, place, _OFF)
+    return Body(outline=outline, place=at, turn=np.zeros(len(mask)), color=WRONG, width=2.4, repeats=0)

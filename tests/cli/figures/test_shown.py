@@ -1,0 +1,186 @@
+"""What is shown on a mechanism: arrows are the finite differences of its positions, forces those of the table of loads,
+instant centres stand still for their link, and what fails is red at the instants at which it does.
+
+Tolerances: central differences over h = 1e-4 rad leave h^2/6 of the third derivative and eps/h of rounding, below 1e-6
+of the size; their second differences eps/h^2, below 1e-4.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from factory import design, each_kind
+
+from gearlink.cli.views.films.page import player_data
+from gearlink.cli.views.scenes import loops, of_motion, shown
+from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
+from gearlink.core.base.kind import FileDesigns
+from gearlink.core.base.kinds import KINDS
+from gearlink.core.mechanism import vectors
+
+_STEP = 1e-4
+MOVING = [
+    path
+    for path in sorted((Path(__file__).resolve().parents[3] / "designs").glob("*.yaml"))
+    if (kind := str(yaml.safe_load(path.read_text(encoding="utf-8"))["kind"])) in loops.moving_kinds()
+    and KINDS[kind].motion
+]
+
+
+def arrows(scene: Any) -> list[Arrow]:
+    return [part for part in scene.parts if isinstance(part, Arrow)]
+
+
+def scaled(scene: Any, what: str) -> float:
+    """Millimetres of the drawing for a unit of an arrow, from its key."""
+    (key,) = (key for key in scene.keys if key.words.startswith(what))
+    return key.length / float(key.words.split()[1])
+
+
+@pytest.mark.parametrize(
+    "name", ["standing_feed", "planar_quick_return", "swing_gripper", "wide_swing_oscillating_cam"]
+)
+def test_arrows_are_the_finite_differences_of_their_points(name: str) -> None:
+    made = design(name)
+    fraction = np.array([0.11, 0.47, 0.83])
+    scene = shown.build(made, fraction, shown.wishes("velocity,acceleration"))
+    period = made.moving.input.end - made.moving.input.start
+    speed = shown.speed_of(made) or 1.0
+    ahead, behind = (
+        shown.build(made, fraction + sign * _STEP / period, shown.wishes("velocity")) for sign in (1.0, -1.0)
+    )
+    ours = {part.name: part for part in arrows(scene)}
+    later, earlier = ({part.name: part for part in arrows(each)} for each in (ahead, behind))
+    assert later, "something moves"
+    for name_, one in later.items():
+        here = ours[name_].start
+        rate = (one.start - earlier[name_].start) / (2.0 * _STEP) * speed
+        bend = (one.start - 2.0 * here + earlier[name_].start) / _STEP**2 * speed**2
+        size = 1.0 + float(np.abs(here).max())
+        assert ours[name_].vector / scaled(scene, "velocity") == pytest.approx(rate, abs=1e-5 * size * speed)
+        accelerated = ours[name_.replace("velocity", "acceleration")].vector / scaled(scene, "acceleration")
+        assert accelerated == pytest.approx(bend, abs=1e-4 * size * speed**2)
+
+
+@pytest.mark.parametrize("name", ["loaded_feed", "loaded_gripper", "loaded_six_bar"])
+def test_force_arrows_are_those_of_the_table(name: str) -> None:
+    loads = design(name, command="loads")
+    table = {kind: loads.table(kind, samples=12) for kind in ("joints", "teeth")}
+    scene = shown.build(design(name), np.arange(12) / 12, shown.wishes("force"))
+    scale, seen = scaled(scene, "force"), 0
+    for arrow in arrows(scene):
+        joint = arrow.name.removeprefix("force ")
+        for kind, columns in (("joints", (f"{joint}_x", f"{joint}_y")), ("teeth", (joint, f"{joint}_radial"))):
+            if columns[0] in table[kind].columns:
+                x, y = (np.asarray(table[kind][each]) for each in columns)
+                assert np.abs(arrow.vector) / scale == pytest.approx(np.hypot(x, y), rel=1e-9, abs=1e-9)
+                if kind == "joints":
+                    assert arrow.vector / scale == pytest.approx(x + 1j * y, rel=1e-9, abs=1e-9)
+                seen += 1
+    assert seen >= 4
+
+
+def test_a_link_stands_still_at_its_instant_centre() -> None:
+    mechanism = design("planar_watt").moving.at(np.linspace(0.1, 6.0, 7), 1)
+    for name, link in mechanism.links.items():
+        pole = vectors.centre(mechanism, name)
+        for k, at in enumerate(pole.tolist()):
+            arm = (at - link.origin.value[k]) / link.unit[k]
+            assert abs(link.at(complex(arm)).first[k]) < 1e-9 * (1.0 + abs(arm))
+    between = vectors.centre(mechanism, "coupler", "rocker")
+    pin = next(each for each in mechanism.connections if each.name == "C")
+    assert between == pytest.approx(pin.at, abs=1e-9)
+
+
+def test_centres_of_three_links_lie_in_line() -> None:
+    """Aronhold and Kennedy."""
+    mechanism = design("planar_watt").moving.at(np.linspace(0.1, 6.0, 7), 1)
+    one, other = vectors.centre(mechanism, "coupler"), vectors.centre(mechanism, "arm")
+    between = vectors.centre(mechanism, "coupler", "arm")
+    off = ((between - one) * np.conj(other - one)).imag / np.abs(other - one)
+    assert (np.abs(off) < 1e-9 * (1.0 + np.abs(between - one))).all()
+
+
+def test_a_path_passes_its_point() -> None:
+    made = design("standing_feed")
+    scene = shown.build(made, np.array([0.2, 0.6]), shown.wishes("path:coupler@40/-20"))
+    (path,) = (part for part in scene.parts if isinstance(part, Line) and part.name == "path of coupler@40/-20")
+    points = made.moving.at(np.array([0.2, 0.6]) * 2.0 * np.pi, 0).links["coupler"].at(40.0 - 20.0j).value
+    assert np.abs(path.points[[72, 216]] - points).max() < 1e-9
+    assert sorted(mark.text for mark in scene.marks)[:4] == ["0°", "180°", "270°", "90°"]
+
+
+def test_ghosts_are_earlier_positions() -> None:
+    made = design("crank_rocker")
+    scene = shown.build(made, np.array([0.5]), shown.wishes("ghosts"))
+    pale = [part for part in scene.parts if isinstance(part, Chain) and not part.marked]
+    earlier = loops.build(made, 0.5 - np.array([4, 3, 2, 1]) / 24.0)
+    chain = next(part for part in earlier.parts if isinstance(part, Chain) and part.marked)
+    shown_at = [complex(part.joints[1][0]) for part in pale if np.abs(part.joints[0][0] - chain.joints[0][0]) < 1e-9]
+    assert set(np.round(chain.joints[1], 9).tolist()) <= set(np.round(shown_at, 9).tolist())
+
+
+@pytest.mark.parametrize("path", each_kind(MOVING), ids=lambda path: path.stem)
+def test_every_kind_shows_all_that_it_has(path: Path) -> None:
+    """Places of the motion in the scene, or the diagram of the motion itself; and data for a page, without NaN."""
+    made = design(path.stem)
+    scene = shown.build(made, np.arange(4) / 4.0, shown.wishes("velocity,acceleration,centres,ghosts"))
+    data = player_data(scene, "x", 25)
+    assert len(data["keys"]) >= 2
+    assert all(value is None or np.isfinite(value) for part in data["parts"] for value in np.ravel(part["p"]).tolist())
+
+
+@pytest.mark.parametrize("text", ["velocities", "path", "ghosts:A", "path:Q", "path:coupler@1", "force"])
+def test_what_cannot_be_shown_is_refused(text: str) -> None:
+    with pytest.raises(shown.WrongShow):
+        shown.build(design("standing_feed"), np.array([0.1]), shown.wishes(text))
+
+
+def failing(name: str, **keys: Any) -> tuple[Any, Any]:
+    made = design(name, **keys)
+    found = FileDesigns(KINDS[made.kind], made.spec)
+    checks = [check for command in made.spec.commands() for check in found.of(command).report(command).checks]
+    return made, shown.build(made, np.arange(36) / 36.0, (), checks)
+
+
+def test_instants_of_a_small_transmission_angle_are_red() -> None:
+    made, scene = failing("crank_rocker", limits={"transmission_angle": 60.0})
+    (fault,) = (fault for fault in scene.faults if "GL303" in fault.words)
+    links = made.moving.at(np.arange(36) * np.pi / 18.0, 0).links
+    angle = links["coupler"].turn.value - links["rocker"].turn.value
+    assert fault.at.tolist() == (np.degrees(np.arcsin(np.abs(np.sin(angle)))) < 60.0).tolist()
+    assert 0 < fault.at.sum() < 36
+    red = [part for part in scene.parts if isinstance(part, Chain) and part.color == "#D00000"]
+    assert [np.isfinite(part.joints[0]).tolist() for part in red] == [fault.at.tolist()] * len(red) != []
+
+
+def test_gears_that_clash_are_red_where_they_do() -> None:
+    made, scene = failing("drawn_feed", links__frame=100.0)
+    (fault,) = (fault for fault in scene.faults if "GL301" in fault.words)
+    places = {mark.text: mark.point for mark in scene.marks}
+    pair = next(pair for pair in made.layout.gear_pairs if pair.gap < 0.0)
+    apart = np.abs(places[pair.one.axis] - places[pair.other.axis])
+    assert fault.at.tolist() == (apart < pair.one.outer + pair.other.outer).tolist()
+    assert fault.at[0]
+    red = [part for part in scene.parts if isinstance(part, Body) and part.color == "#D00000"]
+    assert len(red) == 2
+
+
+def test_a_passing_design_has_nothing_red() -> None:
+    _, scene = failing("crank_rocker")
+    assert scene.faults == ()
+    assert player_data(scene, "x", 25)["faults"] == []
+
+
+def test_the_diagram_of_the_motion_serves_a_scene_that_stands_elsewhere() -> None:
+    made = design("mutilated_gear_press")
+    assert shown.frame_of(made, loops.builder(made.kind)) is None
+    scene = shown.build(made, np.arange(3) / 3.0, shown.wishes("velocity"))
+    q = of_motion.inputs(made.moving.input, np.arange(3) / 3.0)
+    point = made.moving.at(q, 1).links["crank"].at(made.moving.at(q, 0).links["crank"].points.get("B", 0j))
+    assert len(arrows(scene)) >= 2
+    assert point.value.shape == (3,)
