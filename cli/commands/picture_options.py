@@ -108,7 +108,9 @@ def _sheet(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[NAME]...", help="motion, timing, pressure, drawing; default: all", autocompletion=offers("sheets")
+            metavar="[NAME]...",
+            help="motion, vectors, timing, pressure, drawing; default: all",
+            autocompletion=offers("sheets"),
         ),
     ] = None,
     scale: Annotated[
@@ -117,15 +119,24 @@ def _sheet(
     paper: Annotated[
         Paper | None, typer.Option(help="of --scale: the sheet of paper; default: as large as the drawing")
     ] = None,
+    at: Annotated[
+        str,
+        typer.Option(metavar="X,...", help="of vectors: inputs in deg or mm, at most 4; default: the fastest"),
+    ] = "",
+    show: Show = "",
     format: Annotated[  # the name of the option
         PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
     ] = None,
 ) -> None:
-    """Write further sheets of a design: motion of every output, timing, pressure angles, drawings of cams.
+    """Write further sheets of a design: motion of every output, velocities and accelerations, timing, drawings of cams.
+
+    A drawing of a cam whose check fails is stamped, exit status 1.
 
     Example: gearlink sheet press.yaml drawing --scale 1 --format pdf
     """
-    from gearlink.cli.commands.sheet import run_sheet
+    from gearlink.cli.commands.sheet import Asked, run_sheet
 
     chosen = options if format is None else options._replace(plot_format=format)
-    raise typer.Exit(run_sheet(spec, names or [], chosen, scale, None if paper is None else paper.value))
+    raise typer.Exit(
+        run_sheet(spec, names or [], chosen, Asked(scale, None if paper is None else paper.value, at, show))
+    )

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from gearlink.cli.commands.animate import checks_of, wrong_show
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
@@ -25,49 +27,67 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.cli.views.figures.sheets.true_size import Scale
-    from gearlink.core.base.design import Design
+    from gearlink.core.base.report import Check
 
 
-def run_sheet(
-    source: str, names: Sequence[str], options: Options, scale: str | None = None, paper: str | None = None
-) -> int:
-    """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status.
+class Asked(NamedTuple):
+    """What the command line asks of sheets.
 
-    Parameters
+    Fields
         scale, paper : "1" or "1:N" of cams true to size, and the sheet of paper that they are to fit on
+        at : inputs of the sheet `vectors` [deg, mm], separated by commas
+        show : what it draws on the mechanism
     """
 
+    scale: str | None = None
+    paper: str | None = None
+    at: str = ""
+    show: str = ""
+
+
+def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked) -> int:
+    """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
+
     try:
-        size = _scale(scale, paper, names)
+        size, at = _scale(asked.scale, asked.paper, names), _inputs(asked.at)
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
-            design = whole_design(kind, spec)
-            made = sheets_of(design, size)
+            made = sheets_of(whole_design(kind, spec), size, at, asked.show)
             chosen, paths = _chosen(made, names, spec, source), []
-            failed = _failures(design) if any(map(_of_cams, chosen)) else ""
+            failed = failing(checks_of(kind, spec))
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
-                name = chosen[number]
-                paths.append(_write(made, name, spec, options, failed if _of_cams(name) else ""))
+                paths.append(_write(made, chosen[number], spec, options, failed))
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
         print("\n".join(wrote(path) for path in paths), file=sys.stderr)
-    return ExitCode.FINDING if failed else ExitCode.OK
+    return ExitCode.FINDING if failed and any(map(_is_drawing, chosen)) else ExitCode.OK
 
 
-def _of_cams(name: str) -> bool:
-    """Whether a sheet is for the workshop: it bears what fails."""
-    return name == "pressure" or name.startswith("drawing")
+def _is_drawing(name: str) -> bool:
+    return name.startswith("drawing")
 
 
-def _failures(design: Design) -> str:
-    """The checks of the cams that fail."""
-    from gearlink.cli.views.figures.write import failures
+def failing(checks: Sequence[Check]) -> str:
+    """The checks that fail by code and name, each once."""
+    return ", ".join(dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail"))
 
-    asked: tuple[str, ...] = design.spec.commands()
-    outline = design.outline("cam" if "cam" in asked else asked[0])
-    return failures(check for name in outline.checks for check in design.check(name))
+
+def _inputs(text: str) -> list[float]:
+    """The inputs of `--at`.
+
+    Raises
+        DesignFileError
+    """
+    try:
+        found = [float(part) for part in text.split(",") if part.strip()]
+        if len(found) <= _MOST_INPUTS and all(map(math.isfinite, found)):
+            return found
+    except ValueError:
+        pass
+    message = f"--at {text} must be at most {_MOST_INPUTS} numbers, separated by commas: 30,120"
+    raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--at")])
 
 
 def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
@@ -97,21 +117,28 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
     from gearlink.cli.views.figures.drawing import style
     from gearlink.cli.views.figures.drawing.placing import settled
     from gearlink.cli.views.figures.write import save
+    from gearlink.cli.views.scenes.shown import WrongShow
 
     ending = options.plot_format.value
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
 
     def draw() -> Figure:
-        figure = made[name]()
-        if failed:
-            style.stamp(figure, f"not for manufacture: {failed}")
+        try:
+            figure = made[name]()
+        except WrongShow as error:
+            raise wrong_show(error) from None
+        if failed and _is_drawing(name):
+            style.forbid(figure, f"NOT FOR MANUFACTURE: {failed}")
+        elif failed:
+            style.stamp(figure, f"fails: {failed}")
         return settled(figure)
 
     write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi))
     return path
 
 
-_ALIKE = ("motion", "timing", "pressure", "drawing")
+_MOST_INPUTS = 4
+_ALIKE = ("motion", "vectors", "timing", "pressure", "drawing")
 """Sheets that are drawn alike of what a kind gives for them; others a kind draws itself."""
 Makers = dict[str, Callable[[], "Figure"]]
 
@@ -146,17 +173,19 @@ def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale 
     raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale" if scale else "--paper")])
 
 
-def sheets_of(design: Any, scale: Scale | None = None) -> Makers:
+def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (), show: str = "") -> Makers:
     """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`), true to a scale.
 
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
+    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet
 
     found: Makers = {}
     if motion_sheet.courses(design):
         found["motion"] = lambda: motion_sheet.draw(design)
+    if "vectors" in KINDS[design.kind].all_sheets and vector_sheet.draws(design):
+        found["vectors"] = lambda: vector_sheet.draw(design, at, show)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     for name, place in KINDS[design.kind].sheets.items():

@@ -68,7 +68,10 @@ class Kind(NamedTuple):
     @property
     def all_sheets(self) -> dict[str, str]:
         """What gives the content of each sheet: that of the motion stands for itself."""
-        of_motion = {"motion": "cli.views.figures.sheets.motion_sheet:of_motion"} if self.motion else {}
+        sheets = "cli.views.figures.sheets"
+        of_motion = {"motion": f"{sheets}.motion_sheet:of_motion", "vectors": f"{sheets}.vector_sheet:draw"}
+        if not self.motion:
+            of_motion = {}
         return {name: place for name, place in {**of_motion, **self.sheets}.items() if place}
 
     def spec_model(self) -> Any:

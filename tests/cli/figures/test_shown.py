@@ -15,6 +15,7 @@ import pytest
 import yaml
 from factory import design, each_kind
 
+from gearlink.cli.views.figures.sheets import vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
@@ -184,3 +185,38 @@ def test_the_diagram_of_the_motion_serves_a_scene_that_stands_elsewhere() -> Non
     point = made.moving.at(q, 1).links["crank"].at(made.moving.at(q, 0).links["crank"].points.get("B", 0j))
     assert len(arrows(scene)) >= 2
     assert point.value.shape == (3,)
+
+
+def test_polygons_close_over_the_links() -> None:
+    """v_C - v_B stands across BC, as long as the coupler turns fast; the ends drawn are the rates of the points."""
+    made = design("crank_rocker")
+    speed = shown.speed_of(made) or 1.0
+    figure = vector_sheet.draw(made, [40.0])
+    ends = {line.get_gid(): complex(*line.get_xydata()[0]) for axes in figure.axes for line in axes.lines}
+    links = made.moving.at(np.radians([40.0]), 2).links
+    coupler = links["coupler"]
+    b, c = coupler.origin, links["rocker"].at("C")
+    assert ends["velocity B"] == pytest.approx(complex(b.first[0]) * speed)
+    assert ends["acceleration C"] == pytest.approx(complex(c.second[0]) * speed**2)
+    arm = complex(c.value[0] - b.value[0])
+    turning = 1j * float(coupler.turn.first[0]) * speed
+    assert ends["velocity C"] - ends["velocity B"] == pytest.approx(turning * arm)
+    assert "velocity of coupler" in ends
+
+
+def test_default_instants_are_the_extremes_of_the_output() -> None:
+    made = design("crank_rocker")
+    fastest, accelerated = vector_sheet.default_places(made)
+    q = np.linspace(0.0, 2.0 * np.pi, 3601)
+    _, first, second = made.moving.outputs[0].course.rates(made.moving, q, 2)
+    for place, rate in ((fastest, first), (accelerated, second)):
+        assert np.degrees(q[np.argmax(np.abs(rate))]) == pytest.approx(place, abs=0.4)
+
+
+def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    asked = ("sheet", designs / "ty460.yaml", "drawing-1", "-f", "svg", "--out", tmp_path)
+    ended = gearlink(*asked, "--set", "cam.base_radius=35")
+    assert ended.status == 1
+    assert "NOT FOR MANUFACTURE" in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")
+    assert gearlink(*asked).status == 0
+    assert "NOT FOR MANUFACTURE" not in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.scenes.lettering import on_disc, shifts
-from gearlink.cli.views.scenes.scene import Body, Chain, Line, Part, Points, Scene, placed
+from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, Scene, placed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,8 +40,16 @@ def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> No
     shown = _position(scene, i)
     for k, part in enumerate(shown.parts):
         if isinstance(part, Chain):
-            style.link(axes, [complex(joint[0]) for joint in part.joints], part.color, _POINTS * part.width)
-        else:
+            if all(np.isfinite(joint[0]) for joint in part.joints):
+                joints = [complex(joint[0]) for joint in part.joints]
+                look = style.link if part.marked else _bare
+                look(axes, joints, part.color, _POINTS * part.width)
+        elif isinstance(part, Arrow):
+            if np.isfinite(part.start[0] + part.vector[0]):
+                start, vector = complex(part.start[0]), complex(part.vector[0])
+                style.arrow(axes, start, vector, part.color)
+                axes.plot(*_xy(start, start + vector), color=part.color, linewidth=0.0, gid=part.name)
+        elif not isinstance(part, Body) or np.isfinite(part.place[0]):
             _outline(axes, part, 2.0 + k / len(shown.parts))
     for mark in shown.marks:
         if mark.pivot:
@@ -50,6 +58,35 @@ def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> No
         for center, radius, sense, color in turning(shown, _position(ahead, 0)):
             _sense(axes, shown, center, radius, sense, color)
     _words(axes, shown)
+    _keys(axes, scene)
+
+
+def _bare(axes: Axes, joints: list[complex], color: str, width: float) -> None:
+    """A line without joints."""
+    axes.plot([each.real for each in joints], [each.imag for each in joints], color=color, linewidth=width, zorder=3.7)
+
+
+def _xy(*points: complex) -> tuple[list[float], list[float]]:
+    return [point.real for point in points], [point.imag for point in points]
+
+
+def _keys(axes: Axes, scene: Scene) -> None:
+    """The scales of the arrows, in rows below the drawing."""
+    if not scene.keys:
+        return
+    points = [placed(part, 0) for part in scene.parts if isinstance(part, Body) and np.isfinite(part.place[0])]
+    points += [joint for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
+    points += [np.asarray(part.start + part.vector) for part in scene.parts if isinstance(part, Arrow)]
+    whole = np.concatenate(points)
+    whole = whole[np.isfinite(whole)]
+    left, low, size = float(whole.real.min()), float(whole.imag.min()), _size(_position(scene, 0))
+    for row, key in enumerate(scene.keys):
+        at = complex(left, low - 0.09 * size * (row + 1.2))
+        if key.length:
+            style.arrow(axes, at, key.length, key.color)
+        axes.plot(*_xy(at, at + key.length), color=key.color, linewidth=0.0)
+        look: dict[str, Any] = {"fontsize": 7, "color": key.color, "va": "center", "annotation_clip": False}
+        axes.annotate(key.words, (at.real + key.length, at.imag), (4, 0), textcoords="offset points", **look)
 
 
 def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene]) -> None:
@@ -124,6 +161,8 @@ def _position(scene: Scene, i: int) -> Scene:
             parts.append(part)
         elif isinstance(part, Chain):
             parts.append(replace(part, joints=tuple(joint[here] for joint in part.joints)))
+        elif isinstance(part, Arrow):
+            parts.append(replace(part, start=part.start[here], vector=part.vector[here]))
         elif not part.shows_turn:
             parts.append(replace(part, place=part.place[here], turn=part.turn[here]))
     return Scene(parts=tuple(parts), marks=tuple(replace(mark, point=mark.point[here]) for mark in scene.marks))
@@ -151,6 +190,8 @@ def _words(axes: Axes, shown: Scene) -> None:
     reach = _REACH * _size(shown)
     beside, on = shifts(shown, reach, lambda body: body.pitch or on_disc(body))
     for mark, shift in zip(shown.marks, beside, strict=True):
+        if not np.isfinite(mark.point[0]):
+            continue
         away = _REACH_POINTS * shift / reach
         style.letter(axes, complex(mark.point[0]), mark.text, (away.real, away.imag))
     labelled = [part for part in shown.parts if isinstance(part, Body) and part.label]
@@ -167,5 +208,6 @@ def _size(shown: Scene) -> float:
     reached: list[Points] = [placed(part, 0) for part in shown.parts if isinstance(part, Body)]
     reached += [joint for part in shown.parts if isinstance(part, Chain) for joint in part.joints]
     reached += [part.points for part in shown.parts if isinstance(part, Line)]
+    reached = [p[np.isfinite(p)] for p in reached if np.isfinite(p).any()]
     sides = [[part for p in reached for part in (side(p).min(), side(p).max())] for side in (np.real, np.imag)]
     return float(max(max(side) - min(side) for side in sides))

@@ -60,6 +60,13 @@ def stamp(made: Figure, words: str) -> None:
     made.text(0.5, top, lines, fontsize=9, fontweight="bold", color=WRONG, ha="center", va="top", gid="fails")
 
 
+def forbid(made: Figure, words: str) -> None:
+    """Words in red across a drawing, larger than all else on it: nobody is to make the part by it."""
+    lines = fill(words, 44)
+    look: dict[str, Any] = {"fontsize": 20, "fontweight": "bold", "color": WRONG, "alpha": 0.75, "rotation": 24}
+    made.text(0.5, 0.62, lines, ha="center", va="center", zorder=20, gid="forbidden", in_layout=False, **look)
+
+
 def place_title(made: Figure) -> None:
     """Title and stamp within the margin of the page, after the layout, which puts the title at the edge."""
     title = made._suptitle  # type: ignore[attr-defined]

@@ -1,0 +1,200 @@
+"""Sheet of velocities and accelerations: the mechanism with its vectors, their polygons, hodographs of points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import panels, scene_axes, style
+from gearlink.cli.views.scenes import loops, of_motion, shown
+from gearlink.core.mechanism import vectors
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.cli.views.scenes.scene import Reals
+    from gearlink.core.mechanism.links import Mechanism
+
+MOST = 4
+"""Instants of one sheet."""
+_LOOKS = ((style.BLUE, "-"), (style.RED, style.LONG), (style.GREEN, style.CHAIN), (style.PURPLE, style.DOTTED),
+          (style.BLACK, "-"), (style.ORANGE, style.LONG), (style.SKY, style.CHAIN))  # fmt: skip
+_WISHES = "velocity,acceleration"
+_NAMES = ("velocity", "acceleration")
+
+
+def draws(design: Any) -> bool:
+    """Whether a design has points that move."""
+    if design.kind == "machine" or not loops.moves(design.kind):
+        return False
+    motion = design.moving
+    few = np.linspace(motion.input.start, motion.input.end, 5)[:4]
+    return bool(vectors.moving_points(motion.at(few, 0)))
+
+
+def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
+    """A row for each instant: the mechanism, its velocity and its acceleration polygon; below them the hodographs.
+
+    Parameters
+        at : inputs [deg, mm]; none: where the first output is fastest, and where it is accelerated most
+        wanted : what is drawn on the mechanism, as `--show` has it
+    Raises
+        WrongShow - for what the design has not
+    """
+    places = list(at)[:MOST] or default_places(design)
+    count = len(places)
+    made = panels.page(f"{design.spec.name}: velocities and accelerations", min(1.0, 0.28 * count + 0.34))
+    grid: Any = made.add_gridspec(count + 1, 1, height_ratios=[1.0] * count + [1.15])
+    motion = design.moving
+    turning = motion.input.unit == "rad"
+    for row, place in enumerate(places):
+        q = math.radians(place) if turning else place
+        columns = grid[row].subgridspec(1, 3, width_ratios=(1.6, 1.0, 1.0))
+        _mechanism(made.add_subplot(columns[0]), design, q, wanted or _WISHES)
+        for order in (1, 2):
+            polygon(made.add_subplot(columns[order]), design, q, order)
+    below: Any = grid[count].subgridspec(1, 2)
+    for order in (1, 2):
+        hodographs(made.add_subplot(below[order - 1]), design, order, wanted)
+    return made
+
+
+def default_places(design: Any) -> list[float]:
+    """Inputs of the greatest velocity and acceleration of the first output [deg, mm], of a thousand."""
+    motion = design.moving
+    q = np.linspace(motion.input.start, motion.input.end, 1001)
+    rates = motion.outputs[0].course.rates(motion, q, 2)
+    found = []
+    for rate in rates[1:]:
+        size = np.abs(np.asarray(rate))
+        finite = np.where(np.isfinite(size), size, -1.0)
+        found.append(float(q[int(finite.argmax())]))
+    shown_ = [math.degrees(each) if motion.input.unit == "rad" else each for each in found]
+    return [round(each, 4) for each in dict.fromkeys(shown_)]
+
+
+def _fraction(frame: shown.Frame, q: float) -> float:
+    """The fraction of the loop at which the scene stands at an input, within 1e-6 of it."""
+    many = np.linspace(0.0, 1.0, 3601)
+    inputs = frame.inputs(many)
+    k = int(np.argmin(np.abs(inputs - q)))
+    low, high = max(k - 1, 0), min(k + 1, len(many) - 1)
+    fine = np.linspace(many[low], many[high], 2001)
+    return float(fine[int(np.argmin(np.abs(frame.inputs(fine) - q)))])
+
+
+def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
+    frame = _frame(design)
+    scene = shown.build(design, np.array([_fraction(frame, q)]), shown.wishes(wanted))
+    panels.drawing(axes, f"At {_input(design, q)}")
+    panels.few_ticks(axes.xaxis, 4)
+    panels.few_ticks(axes.yaxis, 4)
+    scene_axes.draw(axes, scene)
+
+
+def _frame(design: Any) -> shown.Frame:
+    """Where the drawing stands: in the kind's own scene, or in that of the motion."""
+    found = shown.frame_of(design, loops.builder(design.kind))
+    return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each))
+
+
+def _input(design: Any, q: float) -> str:
+    words = design.moving.input.column.replace("_", " ")
+    return f"{words} {math.degrees(q):.5g}°" if design.moving.input.unit == "rad" else f"{words} {q:.5g} mm"
+
+
+def rates(design: Any, q: Reals, order: int) -> tuple[dict[str, Any], dict[str, list[str]]]:
+    """Velocity or acceleration of every moving point by name, and the points of every link.
+
+    Returns
+        rates : by point - (N,) complex [mm/s, mm/s^2], per rad of the input where its speed is not known, in the
+            directions of the drawing
+        links : by link - the names of its points
+    """
+    motion, speed = design.moving, shown.speed_of(design)
+    factor = 1.0 if speed is None else speed**order
+    whole = motion.at(np.linspace(motion.input.start, motion.input.end, 25)[:24], 0)
+    mechanism, places, frame = motion.at(q, order), vectors.moving_points(whole), _frame(design)
+    found = {
+        name: frame.along(factor * vectors.rates_of(mechanism, each).derivative(order)) for name, each in places.items()
+    }
+    links: dict[str, list[str]] = {}
+    for name, each in places.items():
+        for link in mechanism.links:
+            if link == each.link or _on(whole, link, vectors.rates_of(whole, each).value):
+                links.setdefault(link, []).append(name)
+    return found, links
+
+
+def _on(mechanism: Mechanism, link: str, at: Any) -> bool:
+    """Whether a point keeps its place on a link."""
+    held = mechanism.links[link]
+    arms = (at - held.origin.value) / held.unit
+    return float(np.abs(arms - arms[0]).max()) <= 1e-6 * (1.0 + float(np.abs(arms).max()))
+
+
+def unit(design: Any, order: int) -> str:
+    """Unit of velocities or accelerations on the sheet."""
+    if shown.speed_of(design) is not None:
+        return ("mm/s", "mm/s²")[order - 1]
+    per = design.moving.input.unit
+    return (f"mm/{per}", f"mm/{per}²")[order - 1]
+
+
+def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
+    """The polygon of velocities or accelerations: rays from the pole, and lines between the points of a link."""
+    found, links = rates(design, np.array([q]), order)
+    name, color = _NAMES[order - 1], (style.GREEN, style.PURPLE)[order - 1]
+    _vector_axes(axes, f"{name.capitalize()} polygon [{unit(design, order)}]")
+    ends = {point: complex(value[0]) for point, value in found.items()}
+    for point, end in ends.items():
+        style.arrow(axes, 0j, end, color)
+        axes.plot([end.real], [end.imag], ".", color=color, markersize=3, gid=f"{name} {point}")
+    for link, points in links.items():
+        corners = [ends[point] for point in points]
+        if len(corners) > 1:
+            shape = np.array([*corners, corners[0]] if len(corners) > 2 else corners)
+            look: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "zorder": 3}
+            axes.plot(shape.real, shape.imag, **look, gid=f"{name} of {link}")
+    reach = max((abs(end) for end in ends.values()), default=1.0) or 1.0
+    taken: list[complex] = []
+    for point, end in ends.items():
+        if all(abs(end - other) > 0.06 * reach for other in taken):
+            away = end / abs(end) if abs(end) > 0.02 * reach else 1.0 + 1.0j
+            style.letter(axes, end, point.lower(), (8.0 * away.real, 8.0 * away.imag))
+            taken.append(end)
+    axes.plot([0.0], [0.0], "o", color=style.BLACK, markersize=3, zorder=7)
+    style.letter(axes, 0j, "p" if order == 1 else "p'", (-7.0, -7.0))
+    axes.margins(0.18)
+
+
+def _vector_axes(axes: Axes, title: str) -> None:
+    style.curves(axes, "", "")
+    panels.heading(axes, title)
+    axes.set_aspect("equal", adjustable="datalim")
+    panels.small_ticks(axes)
+    panels.few_ticks(axes.xaxis, 4)
+    panels.few_ticks(axes.yaxis, 4)
+    axes.tick_params(labelsize=7)
+
+
+def hodographs(axes: Axes, design: Any, order: int, wanted: str = "") -> None:
+    """The ends of the vectors of each point over the period, with a dot at input 0 and a tick at every 30 deg."""
+    given = design.moving.input
+    q = np.linspace(given.start, given.end, 721)
+    found, _ = rates(design, q, order)
+    asked = [wish.point for wish in shown.wishes(wanted) if wish.what == _NAMES[order - 1] and wish.point]
+    chosen = {name: each for name, each in found.items() if not asked or name in asked}
+    _vector_axes(axes, f"Hodographs, {_NAMES[order - 1]} [{unit(design, order)}]")
+    for (name, each), (color, line) in zip(list(chosen.items())[: len(_LOOKS)], cycle(_LOOKS), strict=False):
+        axes.plot(each.real, each.imag, color=color, linestyle=line, linewidth=1.3, label=name, gid=f"hodograph {name}")
+        axes.plot(each.real[:1], each.imag[:1], "o", color=color, markersize=4)
+        if given.unit == "rad" and given.turns == 1:
+            axes.plot(each.real[60:-1:60], each.imag[60:-1:60], ".", color=color, markersize=3)
+    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
+    panels.legend_above(axes, 4)
