@@ -1,0 +1,190 @@
+"""Blocks of a page that the program fills, and what else turns a page of the repository into one of the manual.
+
+    ```console      commands without output get it from a run; with output they are left, and tests compare them
+    ```figure       the picture that a command draws, with the command and a caption (`caption: ...`)
+    ```session      commands of one page that follow each other in one folder
+    ```picture      a file that the page's session left: `name.png: caption`
+    ```drawing      a mechanism with its points, sizes, angles and frame (drawings.py)
+    ```keys         keys of a kind, or those of the sections that are named after it
+    ```checks       checks of a kind
+    ```design       a file of designs/
+    ```math         equations in TeX, one a line; `$...$` within text
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from docs.manual import runs, tables, typeset
+from docs.manual.drawings import Drawing
+from docs.manual.runs import ROOT
+
+_FENCE = re.compile(r"^(?P<tick>`{3,})(?P<language>[\w-]*)[^\n]*\n(?P<body>.*?)^(?P=tick)[ ]*$\n?", re.DOTALL | re.MULTILINE)
+_LINK = re.compile(r"(!?\[[^\]]*\])\(([^)\s]+)\)")
+_SOURCE = re.compile(r'(src|href)="([^"]+)"')
+_CODE = re.compile(r"(?<![\w/#.])`?(GL[1-6]\d\d)`?(?![\w.]|-\d)")
+
+
+@dataclass(slots=True)
+class Page:
+    """A page on its way from the repository to the manual.
+
+    Fields
+        source : Path - its file, or that in whose place it is written
+        target : str - its file in the manual, "kinds/gear-pair.md"
+        text : str
+        stale : bool - results of another state of the program may be shown
+        pictures : the pictures that it shows, by their name in `runs.KEPT`
+    """
+
+    source: Path
+    target: str
+    text: str
+    stale: bool = False
+    pictures: set[str] = field(default_factory=set)
+
+    @property
+    def up(self) -> str:
+        """The way to the root of the manual."""
+        return "../" * self.target.count("/")
+
+    def image(self, name: str, caption: str) -> str:
+        """A picture of `runs.KEPT`."""
+        self.pictures.add(name)
+        return f"![{caption}]({self.up}pictures/{name})\n"
+
+
+def commands(text: str) -> Iterator[tuple[str, bool]]:
+    """The commands that the blocks of a page run, each with whether its picture is wanted."""
+    for found in _FENCE.finditer(text):
+        if found["language"] == "figure":
+            yield _asked(found["body"])[0], True
+        elif found["language"] == "console":
+            for command, output in parts(found["body"]):
+                if not output and command.startswith("gearlink "):
+                    yield command, False
+
+
+def parts(body: str) -> list[tuple[str, list[str]]]:
+    """Commands of a console block with the lines printed below each.
+
+    Example
+        >>> parts("$ gearlink new\\nfirst\\nsecond\\n$ gearlink schema\\n")
+        [('gearlink new', ['first', 'second']), ('gearlink schema', [])]
+    """
+    found: list[tuple[str, list[str]]] = []
+    for line in body.rstrip("\n").split("\n"):
+        if line.startswith("$ "):
+            found.append((line[2:], []))
+        elif found:
+            found[-1][1].append(line)
+    return found
+
+
+def expanded(page: Page, map_link: Callable[[Page, str], str]) -> str:
+    """The text of a page with its blocks filled, equations typeset, links led to pages of the manual."""
+    made, at = [], 0
+    told = _told(page)
+    for found in _FENCE.finditer(page.text):
+        made += [_prose(page, page.text[at : found.start()], map_link), _filled(page, found, told)]
+        at = found.end()
+    return "".join([*made, _prose(page, page.text[at:], map_link)])
+
+
+def refreshed(text: str) -> str:
+    """A page of the repository whose console blocks say what the program prints now; blocks without output stay."""
+
+    def block(found: re.Match[str]) -> str:
+        if found["language"] != "console" or not all(c.startswith("gearlink ") for c, _ in parts(found["body"])):
+            return found[0]
+        lines = []
+        for command, output in parts(found["body"]):
+            lines += [f"$ {command}", *(runs.run(command).text.split("\n") if output else [])]
+        return f"{found['tick']}console\n" + "\n".join(lines) + f"\n{found['tick']}\n"
+
+    return _FENCE.sub(block, text)
+
+
+def _filled(page: Page, found: re.Match[str], told: dict[str, str]) -> str:
+    language, body = found["language"], found["body"]
+    made = {"figure": _figure, "drawing": _drawing, "picture": _picture}.get(language)
+    if made is not None:
+        return made(page, body) + "\n"
+    if language == "console":
+        return _console(body)
+    if language == "session":
+        return "```console\n" + "\n".join(told[command] for command, _ in parts(body)) + "\n```\n"
+    if language == "math":
+        return typeset.display(body) + "\n\n"
+    if language == "keys":
+        kind, *sections = body.split()
+        return tables.keys(kind, sections) + "\n"
+    if language == "checks":
+        return tables.checks(body.strip(), page.up) + "\n"
+    if language == "design":
+        return f'```yaml title="{body.strip()}"\n{(ROOT / body.strip()).read_text(encoding="utf-8").rstrip()}\n```\n'
+    return found[0]
+
+
+def _console(body: str) -> str:
+    lines = []
+    for command, output in parts(body):
+        if not output and command.startswith("gearlink "):
+            output = runs.result(command).text.split("\n")
+        lines += [f"$ {command}", *output]
+    return "```console\n" + "\n".join(lines or [body.rstrip()]) + "\n```\n"
+
+
+def _asked(body: str) -> tuple[str, str]:
+    """Command and caption of a figure."""
+    lines = body.strip().split("\n")
+    caption = next((line.partition(":")[2].strip() for line in lines if line.startswith("caption:")), "")
+    return next(line[2:] for line in lines if line.startswith("$ ")), caption
+
+
+def _figure(page: Page, body: str) -> str:
+    command, caption = _asked(body)
+    ended = runs.result(command, picture=True)
+    name = caption or shlex.split(command)[2]
+    return f"{page.image(ended.picture, name)}\n*{caption + ': ' if caption else ''}`{command}`*\n"
+
+
+def _drawing(page: Page, body: str) -> str:
+    drawing = Drawing.read(body)
+    name = drawing.picture(page.stale)
+    return f"{page.image(name, 'Drawing with points, sizes and coordinate frame')}\n*Drawing of `{drawing.design}`*\n"
+
+
+def _session(page: Page) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Commands of a page's session, and the files that its pictures show."""
+    blocks = [found for found in _FENCE.finditer(page.text)]
+    steps = tuple(c for found in blocks if found["language"] == "session" for c, _ in parts(found["body"]))
+    files = tuple(found["body"].partition(":")[0].strip() for found in blocks if found["language"] == "picture")
+    return steps, files
+
+
+def _told(page: Page) -> dict[str, str]:
+    steps, files = _session(page)
+    if not steps:
+        return {}
+    return {ended.command: f"$ {ended.command}\n{ended.text}".rstrip() for ended in runs.session(steps, files, page.stale)}
+
+
+def _picture(page: Page, body: str) -> str:
+    name, _, caption = body.strip().partition(":")
+    return page.image(runs.session_file(_session(page)[0], name.strip()), caption.strip())
+
+
+def _prose(page: Page, text: str, map_link: Callable[[Page, str], str]) -> str:
+    text = _LINK.sub(lambda found: f"{found[1]}({map_link(page, found[2])})", text)
+    text = _SOURCE.sub(lambda found: f'{found[1]}="{map_link(page, found[2])}"', text)
+    lines = []
+    for line in text.split("\n"):
+        if not line.startswith("#") and "](" not in line:
+            line = _CODE.sub(lambda found: f"[{found[1]}]({page.up}checks/{found[1]}.md)" if tables.known(found[1]) else found[0], line)
+        lines.append(typeset.inline(line))
+    return "\n".join(lines)

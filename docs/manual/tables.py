@@ -1,0 +1,105 @@
+"""Tables of the manual that the program gives: keys, checks, quantities."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from gearlink.cli.texts import known as stored
+from gearlink.cli.texts.codes import explanations
+from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
+from gearlink.core.base.codes import rules
+from gearlink.core.base.kinds import FILES
+from gearlink.core.base.nomenclature import TERMS
+
+SHARED = {
+    "loads": "loads.md",
+    "tolerance": "tolerance.md",
+    "register": "tolerance.md",
+    "rating": "rating.md",
+}
+"""Sections that many kinds have, each with the page that describes it."""
+
+
+@cache
+def keys_of(kind: str) -> list[SpecKey]:
+    """The keys of a kind."""
+    return [key for key in spec_keys(FILES[kind]) if key.path != "kind"]
+
+
+def keys(kind: str, sections: list[str]) -> str:
+    """Keys of a kind; those of sections, where some are named; else all but those of the shared sections."""
+    found = [key for key in keys_of(kind) if _wanted(key.path, sections)]
+    if not found:
+        raise ValueError(f"{kind} has no section {' '.join(sections)}")
+    rows = ["| key | meaning | unit | required | default | range |", "| --- | --- | --- | --- | --- | --- |"]
+    return "\n".join([*rows, *map(_row, found)]) + "\n"
+
+
+def _wanted(path: str, sections: list[str]) -> bool:
+    first = path.partition(".")[0]
+    return first in sections if sections else first not in SHARED
+
+
+def _row(key: SpecKey) -> str:
+    name = f"`{key.path}`" + (f" (also `{'`, `'.join(key.also)}`)" if key.also else "")
+    unit = "" if key.unit in ("", "1") else key.unit
+    default = "" if key.default is None or key.required else f"`{_value(key.default)}`"
+    required = "required" if key.required else "optional"
+    return f"| {name} | {cell(key.words)} | {cell(unit)} | {required} | {cell(default)} | {cell(key.range)} |"
+
+
+def _value(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def cell(text: str) -> str:
+    """A text in a cell of a table."""
+    return text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;")
+
+
+@cache
+def _checks_of() -> dict[str, list[str]]:
+    """Codes by kind, in their order."""
+    found: dict[str, list[str]] = {kind: [] for kind in FILES}
+    for code, rule in rules().items():
+        for kind in dict.fromkeys(kind for name in rule.checks for kind in stored.index().checks.get(name, ())):
+            found[kind].append(code)
+    return found
+
+
+def codes_of(kind: str) -> list[str]:
+    """Codes of the checks that a kind makes."""
+    return _checks_of()[kind]
+
+
+def known(code: str) -> bool:
+    """Whether a code has a page."""
+    return code in explanations()
+
+
+def checks(kind: str, up: str) -> str:
+    """The checks of a kind, each with its page."""
+    rows = [
+        f"| [{code}]({up}checks/{code}.md) | {', '.join(f'`{name}`' for name in rules()[code].checks)} "
+        f"| {cell(rules()[code].title)} |"
+        for code in codes_of(kind)
+    ]
+    return "\n".join(["| code | check | finding |", "| --- | --- | --- |", *rows]) + "\n"
+
+
+def quantities(kind: str) -> str:
+    """The quantities of a kind with the commands that show them."""
+    shown: dict[str, list[str]] = {}
+    record = FILES[kind]
+    for command in record.commands:
+        for name in record.design_class(command).quantity_names():
+            shown.setdefault(name, []).append(command)
+    rows = ["| quantity | symbol | unit | meaning | commands |", "| --- | --- | --- | --- | --- |"]
+    for name in sorted(shown):
+        term = TERMS.get(name) or TERMS.get(name.rpartition(".")[2])
+        if term is None:
+            continue
+        told = ", ".join(shown[name]) if len(shown[name]) < len(record.commands) else "all"
+        unit = "" if term.unit == "1" else term.unit
+        rows.append(f"| `{name}` | {cell(term.symbol)} | {cell(unit)} | {cell(term.words)} | {told} |")
+    return "\n".join(rows) + "\n" if len(rows) > 2 else ""
