@@ -135,8 +135,19 @@ def test_a_file_of_that_name_is_a_path(gearlink: Any, box: Path) -> None:
 
 
 @pytest.mark.parametrize("line", [("export", "--as", "csv"), ("crank", "--plot", "--plot-format", "svg")])
-def test_a_file_that_takes_the_place_of_another_design_is_told(gearlink: Any, box: Path, line: tuple[str, ...]) -> None:
+def test_a_file_that_takes_the_place_of_another_design_is_told(
+    gearlink: Any, box: Path, line: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The same design again gives the same bytes, and no word; `--quiet` says neither."""
+
+    def small(_: str, design: Any) -> Any:
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(1, 1))
+        figure.text(0.0, 0.0, str(design.spec.stroke))
+        return figure
+
+    monkeypatch.setattr("gearlink.cli.views.figures.write.draw", small)
     pair = "kind: gear-pair\nname: same\nmodule: 4\nteeth: [30, 40]\nprofile_shift: [0, 0]\n"
     text = pair if line[0] == "export" else f"name: same\n{CRANK}"
     (box / "a.yaml").write_text(text)

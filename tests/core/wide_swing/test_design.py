@@ -454,6 +454,7 @@ def test_remedy_in_the_message_holds(made: WideSwingDesign, check: str) -> None:
         assert statuses(repaired, check)[index] != "fail"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("made", "check", "path"), UNSAID)
 def test_remedy_that_breaks_another_check_is_not_said(made: WideSwingDesign, check: str, path: str) -> None:
     (found,) = (each for each in made.findings("swing", check) if each.status == "fail")
