@@ -140,7 +140,7 @@ def test_a_file_that_takes_the_place_of_another_design_is_told(
 ) -> None:
     """The same design again gives the same bytes, and no word; `--quiet` says neither."""
 
-    def small(_: str, design: Any) -> Any:
+    def small(_: str, design: Any, *__: Any) -> Any:
         from matplotlib.figure import Figure
 
         figure = Figure(figsize=(1, 1))
