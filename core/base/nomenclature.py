@@ -111,9 +111,12 @@ _GRIPPER = {
     "accelerate_angle": Term("D_a", "deg", "cylinder angle of the phase accelerate", "swing-gripper paper 2"),
     "constant_angle": Term("D_c", "deg", "cylinder angle of the phase at constant speed", "swing-gripper paper 2"),
     "decelerate_angle": Term("D_d", "deg", "cylinder angle of the phase decelerate", "swing-gripper paper 2"),
-    "far_dwell_angle": Term("", "deg", "cylinder angle of the far dwell", "swing-gripper paper 2"),
-    "return_angle": Term("D_r", "deg", "cylinder angle of the return", "swing-gripper paper 2"),
-    "near_dwell_angle": Term("", "deg", "cylinder angle of the near dwell", "swing-gripper paper 2"),
+    "working_angle": Term(
+        "", "deg", "cam angle of the working stroke of a wide swing", "wide-swing dissertation, ch. 1"
+    ),
+    "far_dwell_angle": Term("", "deg", "angle of the input in the far dwell", "swing-gripper paper 2"),
+    "return_angle": Term("D_r", "deg", "angle of the input in the return", "swing-gripper paper 2"),
+    "near_dwell_angle": Term("", "deg", "angle of the input in the near dwell", "swing-gripper paper 2"),
     "handover_angle": Term("theta_A", "deg", "cylinder angle of the handover", "swing-gripper paper 2"),
     "finger_lift": Term("", "mm", "way of the finger tips where the release window ends"),
     "fit_harmonics": Term("H", "1", "harmonics of the series through a measured profile"),

@@ -24,7 +24,7 @@ def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
     """GL510 of a whole cycle, whose angles fill the turn: rests of no length, and the stroke that sizes the device."""
     section = design.spec.cycle
     assert section is not None, "needed where there is a cycle"
-    working, far, back, near = section.lengths()
+    working, far, back, near = section.lengths
     aside = f"strokes {short(working)} and {short(back)} deg, dwells {short(far)} and {short(near)} deg"
     for name, rest in (("far_dwell", far), ("near_dwell", near)):
         if rest == 0.0:

@@ -87,6 +87,7 @@ IMPACT = {
 GAIN = {"end_position_gain": "end_position_gain"}
 SHAFTS = {name: f"shafts.{name}" for name in ("shaft_distance", "roller_arm_angle", "cam_gap", "cam_shaft_gap")}
 OF_BOTH = ("rocker_radius", "max_radius", "min_radius")
+PHASES = ("working_angle", "far_dwell_angle", "return_angle", "near_dwell_angle")
 CYCLE = {
     "sectors_external": "cycle.sectors_external",
     "sectors_internal": "cycle.sectors_internal",
@@ -117,6 +118,7 @@ PATHS = (
     | OF_SLIDER_CAM
     | CURVATURE
     | CYCLE
+    | {name: f"phases.{name}" for name in PHASES}
     | ITERATION
 )
 NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
@@ -464,7 +466,7 @@ class Unloading:
 
         motion, shaft, time = self.motion, self._shaft, self.motion.working_time
         stroke = math.degrees(motion.cycle_angle)
-        rest = stroke if self.spec.cycle is None else self.spec.cycle.far_dwell
+        rest = stroke if self.spec.cycle is None else self.spec.cycle.lengths[1]
         angle = np.arange(math.floor((stroke + rest) * (1.0 + 1e-12)) + 1.0)
         inside = angle <= stroke * (1.0 + 1e-12)
         k = np.minimum(angle[inside] / stroke, 1.0)
@@ -661,6 +663,11 @@ class WideSwingDesign(Design):
         from gearlink.core.machines.wide_swing.way_back import need
 
         return need(self.oscillating_cam)
+
+    @property
+    def phases(self) -> Places:
+        """Strokes and dwells of a whole cycle, the remainder among them [rad]."""
+        return Places(**dict(zip(PHASES, self.motion.cycle_angles, strict=True)))
 
     @property
     def section(self) -> SwingCam:
@@ -981,10 +988,12 @@ class WideSwingDesign(Design):
         turn = ("joints",) if spec.cycle is not None else ()
         of_turn = _CYCLE_CHECKS if spec.cycle is not None else ()
         if command == "cam":
-            sectors = tuple(CYCLE) if spec.cycle is not None else ()
+            sectors = (*PHASES, *CYCLE) if spec.cycle is not None else ()
             return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
         quantities = [*base.quantities, *names(spec), *(SLIDER if spec.slider is not None else ()), *TORQUE]
         checks, tables = [*base.checks], [*base.tables]
+        if spec.cycle is not None:
+            quantities += PHASES
         if spec.shaft is not None:
             quantities += SHAFT
         if spec.slider is not None:

@@ -19,7 +19,7 @@ from gearlink.core.machines.wide_swing.cams.outline import middle_of
 from gearlink.core.machines.wide_swing.strokes import strokes_of
 from gearlink.core.mechanism.closures import dyad, slider
 from gearlink.core.mechanism.courses import coordinate, turned
-from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Pin, SharedContact
+from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Mesh, Pin, SharedContact
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, standing, steady
@@ -29,9 +29,12 @@ if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.slider import SliderDrive
+    from gearlink.core.machines.wide_swing.strokes import Stroke
     from gearlink.core.numerics.arrays import Points, Reals
 
 SLIDER_DIRECTION, DRIVE_DIRECTION = -90.0, -60.0
+GEARS = "shaft_gears"
+"""The pair between parallel cam shafts."""
 
 
 def motion(design: WideSwingDesign) -> Motion:
@@ -42,8 +45,7 @@ def motion(design: WideSwingDesign) -> Motion:
     spec = design.spec
     if spec.cam is None:
         return working_stroke(design)
-    parallel = spec.layout == "twin-cam-parallel"  # of the second cam, on a shaft of its own, the machine has no joint
-    whole = (spec.cycle is not None and not parallel) or spec.drive is not None
+    whole = spec.cycle is not None or spec.drive is not None
     machine = _WithCams(design, whole)
     end, turns = (TURN, 1) if whole else (design.motion.cycle_angle, None)
     return Motion(
@@ -97,7 +99,7 @@ class _WithCams:
     def __init__(self, design: WideSwingDesign, whole: bool) -> None:
         self.design, self.spec, self.whole = design, design.spec, whole
         self.strokes = strokes_of(design)
-        self.has_return_cam = self.spec.cycle is not None and self.spec.layout == "twin-cam"
+        self.has_return_cam = self.spec.cycle is not None and self.spec.layout != "twin-rocker"
         self.side = -1.0 if self.spec.layout != "twin-rocker" else 1.0
         """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
         if self.spec.drive is not None:
@@ -168,9 +170,20 @@ class _WithCams:
             section = self.spec.loads
             given = None if section is None else section.drive_direction
             return with_drive(phi, axis, self.design.motion.drive, math.radians(_or(given, DRIVE_DIRECTION)))
-        middles = [stroke.start + middle_of(stroke.cam) * stroke.width for stroke in self.strokes]
-        links, connections = with_shafts(phi, axis, self.side, middles[: 1 + self.has_return_cam])
+        strokes = self.strokes[: 1 + self.has_return_cam]
+        links, connections = with_shafts(phi, self.side, strokes, order)
+        if len(strokes) > 1:
+            connections.append(self._train(axis))
         return links, connections, self.side, 0j
+
+    def _train(self, axis: Point) -> Connection:
+        """What turns the second cam against the first: the pair of parallel shafts, or a reversing train."""
+        if self.spec.gears is None:
+            return Coupling("train", "cam", "return_cam", axis.value, -1.0)
+        radius = 0.5 * abs(self.strokes[1].shaft)
+        tangent = math.tan(self.design.shafts.gears.working_pressure_angle)
+        toward = self.strokes[1].shaft / (2.0 * radius)
+        return Mesh(GEARS, "cam", "return_cam", axis.value, toward, radius, radius, tangent)
 
 
 def _or(given: float | None, default: float) -> float:
@@ -198,24 +211,21 @@ def with_slider(rocker: Link, drive: SliderDrive, away: complex) -> tuple[dict[s
 
 
 def with_shafts(
-    phi: Reals, axis: Point, sense: float, middles: Sequence[float]
+    phi: Reals, sense: float, strokes: Sequence[Stroke], order: int
 ) -> tuple[dict[str, Link], list[Connection]]:
-    """The cam that turns evenly, and a second one that a train turns the other way, each in the frame of its table.
+    """The cam that turns evenly, and a second one that turns the other way, each in the frame of its table.
 
     Parameters
         phi : (N,) array [rad] - input angle
-        axis : Point [mm] - of both cams
         sense : float - in which the first one turns
-        middles : by cam - input angle at which its roller stands on the line of centres [rad]
+        strokes : by cam - whose roller stands on the line of centres at its middle
     """
-    links = {"cam": Link(axis, steady(phi, sense, -sense * middles[0], order=axis.order))}
-    joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
-    if len(middles) > 1:
-        links["return_cam"] = Link(axis, steady(phi, -sense, sense * middles[1], order=axis.order))
-        joints += [
-            Pin("O_return", FRAME, "return_cam", axis.value),
-            Coupling("train", "cam", "return_cam", axis.value, -1.0),
-        ]
+    links: dict[str, Link] = {}
+    joints: list[Connection] = []
+    for name, pin, way, stroke in zip(("cam", "return_cam"), ("O", "O_return"), (sense, -sense), strokes, strict=False):
+        axis, middle = fixed(stroke.shaft, phi, order=order), stroke.start + middle_of(stroke.cam) * stroke.width
+        links[name] = Link(axis, steady(phi, way, cmath.phase(stroke.toward) - way * middle, order=order))
+        joints.append(Pin(pin, FRAME, name, axis.value))
     return links, joints
 
 

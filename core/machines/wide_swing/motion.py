@@ -268,14 +268,14 @@ class Motion:
     def cycle_angle(self) -> float:
         """phi_ud, turn of the shaft that runs evenly during the working stroke [rad]."""
         if self.spec.cycle is not None:
-            return math.radians(self.spec.cycle.working)
+            return self.cycle_angles[0]
         given = self.spec.cycle_angle
         return self.drive.crank_span if given is None else math.radians(given)
 
     @property
     def return_angle(self) -> float:
         """The same of the return stroke [rad]."""
-        return self.cycle_angle if self.spec.cycle is None else math.radians(self.spec.cycle.return_)
+        return self.cycle_angle if self.spec.cycle is None else self.cycle_angles[2]
 
     @property
     def cycle_angles(self) -> tuple[float, float, float, float]:
@@ -283,7 +283,7 @@ class Motion:
         if self.spec.cycle is None:
             words = "this needs the section cycle: working, far_dwell, return, near_dwell"
             raise MissingSection(words, key="cycle")
-        working, far, back, near = (math.radians(length) for length in self.spec.cycle.lengths())
+        working, far, back, near = (math.radians(length) for length in self.spec.cycle.lengths)
         return working, far, back, near
 
     @property

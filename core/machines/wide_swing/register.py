@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,6 +39,11 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
     if design.spec.layout != "twin-rocker" or design.spec.cycle is None:  # else there are two, that point apart
         sizes[ROLLER_ARM] = (Shift("rocker", ("roller",), arm / abs(arm)),)
         others[ROLLER_ARM] = design.cam.rocker_radius
+    if design.section.second is not None:  # each cam shaft stands at its own distance
+        sizes["cam.center_distance"] = sizes["centers.cam"] = (Shift(FRAME, ("O",), 1.0),)
+        if "return_cam" in mechanism.links:
+            toward = cmath.rect(1.0, design.shafts.roller_arm_angle)
+            sizes["cam.second.center_distance"] = (Shift(FRAME, ("O_return",), toward),)
     if "crank" in mechanism.links:
         bar = design.motion.drive.linkage
         sizes |= longer(mechanism, {"drive.crank": ("crank", bar.crank), "drive.coupler": ("coupler", bar.coupler)})
@@ -54,7 +60,7 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
 
 def _dwells(design: WideSwingDesign) -> dict[str, tuple[float, float]]:
     """The far dwell of a cycle, where the arc of the working cam holds the rocker; its errors do not change there."""
-    if design.spec.cycle is None or design.spec.layout == "twin-cam-parallel" or design.spec.cycle.far_dwell == 0.0:
+    if design.spec.cycle is None:
         return {}
     working, far, _, _ = design.motion.cycle_angles
-    return {"dwell": (working + 0.5 * far, working + 0.5 * far)}
+    return {} if far == 0.0 else {"dwell": (working + 0.5 * far, working + 0.5 * far)}

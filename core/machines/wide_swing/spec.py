@@ -32,6 +32,7 @@ def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **w
 
 
 Phase: TypeAlias = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
+Stroke: TypeAlias = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 Force: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "N"})]
 Mass: TypeAlias = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Residual: TypeAlias = Annotated[
@@ -210,37 +211,66 @@ class SwingCam(Spec):
 
 
 class SwingCycle(Spec):
-    """Cam angles of a whole cycle, instead of cycle_angle; their sum is 360."""
+    """Cam angles of a whole cycle, in place of cycle_angle: they add up to 360 deg; one may be omitted."""
 
-    working: Phase = Field(gt=0, description="working stroke, run-up and run-out")
-    far_dwell: Phase = Field(description="rest at the far end")
-    return_: Phase = Field(alias="return", gt=0, description="return stroke")
-    near_dwell: Phase = Field(description="rest at the near end")
+    working: Stroke | None = Field(None, description="working stroke, run-up and run-out")
+    far_dwell: Phase | None = Field(None, description="rest at the far end")
+    return_: Stroke | None = Field(None, alias="return", description="return stroke")
+    near_dwell: Phase | None = Field(None, description="rest at the near end; any one of the four left out is the rest")
 
     @model_validator(mode="after")
     def _one_turn(self) -> SwingCycle:
-        total = math.fsum(self.lengths())
-        if abs(total - 360.0) > 1e-9:
-            given = "working, far_dwell, return and near_dwell"
+        given = {key: value for key, value in self._by_key().items() if value is not None}
+        missing, total = [key for key in self._by_key() if key not in given], math.fsum(given.values())
+        if len(missing) > 1:
+            words = "at most one angle of a cycle may be omitted"
+            raise PydanticCustomError("GL111", words, {"help": f"give all but one of {', '.join(missing)}"})
+        if missing and total >= 360.0:
+            longest = max(given, key=lambda key: given[key])
+            raise PydanticCustomError(
+                "GL111",
+                "the given angles add up to {total} deg; nothing is left for {left}",
+                {
+                    "total": f"{total:.13g}",
+                    "left": missing[0],
+                    "help": f"shorten {longest}, so that they add up to less than 360 deg",
+                },
+            )
+        if not missing and abs(total - 360.0) > 1e-9:
             raise PydanticCustomError(
                 "GL108",
                 "{given}: {total} deg (required 360 deg, one revolution of the cam)",
-                {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "help": self._help(360.0 - total)},
+                {
+                    "key": "near_dwell",
+                    "given": "working, far_dwell, return and near_dwell",
+                    "total": f"{total:.13g}",
+                    "help": self._help(given, 360.0 - total),
+                },
             )
         return self
 
-    def _help(self, change: float) -> str:
+    @staticmethod
+    def _help(angles: dict[str, float], change: float) -> str:
         """Which angle may take up the change [deg]: one that stays an angle."""
-        angles = {"near_dwell": self.near_dwell, "far_dwell": self.far_dwell, "return": self.return_}
-        angles["working"] = self.working
-        for name, angle in angles.items():
-            if angle + change > 0.0:
-                return f"set {name} to {angle + change:.7g} deg"
+        for name in ("near_dwell", "far_dwell", "return", "working"):
+            if angles[name] + change > 0.0:
+                return f"set {name} to {angles[name] + change:.7g} deg, or omit it"
         return f"reduce the four angles by {-change:.7g} deg together"
 
-    def lengths(self) -> tuple[float, float, float, float]:
-        """The four angles in their order [deg]."""
-        return self.working, self.far_dwell, self.return_, self.near_dwell
+    def _by_key(self) -> dict[str, float | None]:
+        return {
+            "working": self.working,
+            "far_dwell": self.far_dwell,
+            "return": self.return_,
+            "near_dwell": self.near_dwell,
+        }
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The four angles in their order [deg], the remainder among them."""
+        found = self._by_key().values()
+        rest = 360.0 - math.fsum(value for value in found if value is not None)
+        return tuple(rest if value is None else value for value in found)
 
 
 class SwingShaft(Spec):
@@ -364,13 +394,8 @@ class WideSwingSpec(TolerancedSpec):
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
-        if self.unloader.type == "gravity":
-            for name in ("slider", "loads"):
-                if getattr(self, name) is not None:
-                    words = (
-                        "unloader.type: gravity is for a rocker alone, without forces at its joints: leave out {name}"
-                    )
-                    _refuse(name, words, name=name)
+        if self.unloader.type == "gravity" and self.slider is not None:
+            _refuse("slider", "unloader.type: gravity is for a rocker alone: leave out slider")
         if self.slider is not None and self.cam is not None:
             self._cam_with_slider(self.cam)
         return self
@@ -392,8 +417,6 @@ class WideSwingSpec(TolerancedSpec):
             )
         if parallel and self.gears is not None and self.cam is None:
             _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
-        if parallel and self.loads is not None:
-            _refuse("loads", "the loads of cams on two shafts are not computed: leave out loads, or take twin-cam")
 
     def _cam_with_slider(self, cam: SwingCam) -> None:
         if self.layout != "twin-cam":

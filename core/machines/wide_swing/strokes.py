@@ -7,6 +7,7 @@ fraction of the stroke that the profile was made for, another one on the way hom
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,12 +37,16 @@ class Stroke:
         cam : AnyCam - that guides it
         start : float [rad] - input angle at which it starts
         design : WideSwingDesign
+        shaft : complex [mm] - the cam's axis
+        toward : complex - unit vector from the rocker's axis to it, over that of the working stroke
     """
 
     name: str
     cam: AnyCam
     start: float
     design: WideSwingDesign
+    shaft: complex = 0j
+    toward: complex = 1.0 + 0j
 
     @property
     def width(self) -> float:
@@ -87,7 +92,8 @@ class Stroke:
     def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:
         """Roller centre [mm] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
         at = path(self.cam, self.profile(k)[0], resting=resting)
-        return self.to_world(self.cam.center_distance * at.arm), self.to_world(at.outward)
+        place, push = self.to_world(self.cam.center_distance * at.arm), self.to_world(at.outward)
+        return np.asarray(self.shaft + self.toward * place), np.asarray(self.toward * push)
 
     @cached_property
     def parts(self) -> Parts:
@@ -162,6 +168,11 @@ def strokes_of(design: WideSwingDesign) -> tuple[Stroke, ...]:
     main = Stroke("main", design.cam, 0.0, design)
     if design.spec.drive is not None:
         return main, WayHome("return", design.cam, design.cam.cycle_angle, design)
-    if design.spec.cycle is None or design.spec.layout == "twin-cam-parallel":
+    if design.spec.cycle is None:
         return (main,)
-    return main, Stroke("return", design.return_cam or design.cam, sum(design.motion.cycle_angles[:2]), design)
+    start = sum(design.motion.cycle_angles[:2])
+    if design.spec.layout == "twin-cam-parallel":
+        near, far = design.shafts.shafts
+        seat = far - near, cmath.rect(1.0, design.shafts.roller_arm_angle)
+        return main, Stroke("return", design.shafts.cams[1], start, design, *seat)
+    return main, Stroke("return", design.return_cam or design.cam, start, design)

@@ -246,7 +246,7 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
 def bearing_life(design: LoadsDesign) -> Iterator[Check]:
     """GL606, for the bearings of the file."""
     for name in design.section.bearings:
-        pin = design.pins_found.get(name)
+        pin = design.borne_by(name)
         if pin is None:
             continue
         bearing, life = pin.bearing, pin.life

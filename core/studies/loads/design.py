@@ -75,6 +75,8 @@ class LoadsDesign(Design):
     links: ClassVar[tuple[str, ...]]
     output: ClassVar[str] = "output"
     extra_tables: ClassVar[tuple[str, ...]] = TABLES[1:]
+    other_bearings: ClassVar[tuple[str, ...]] = ()
+    """Names of bearings that are no pin's."""
     stands: ClassVar[bool] = False
     """Whether the output truly rests in its dwells."""
     jumps: ClassVar[bool] = False
@@ -323,6 +325,8 @@ class LoadsDesign(Design):
     def wanted(self, quantity: str) -> Iterable[Wanted]:
         """The extremes that a quantity needs."""
         joint, dot, of_joint = quantity.partition(".")
+        if joint in self.other_bearings:
+            return ()
         if dot:
             pin = self.pin(joint.removeprefix("pin_"))
             known = self.has(joint) if pin is None else pin.known and of_joint != "travel"
@@ -720,6 +724,10 @@ class LoadsDesign(Design):
         """Peak, equivalent load and travel of a pin; None where this design has none of the name."""
         return self.pins_found.get(name, None)
 
+    def borne_by(self, name: str) -> Any:
+        """What a bearing of the file bears: that of a pin, or of another name where a kind has one."""
+        return self.pins_found.get(name)
+
     @cached_property
     def pins_found(self) -> dict[str, Any]:
         """The pins of this design, by name."""
@@ -727,7 +735,7 @@ class LoadsDesign(Design):
         from gearlink.core.studies.loads.joints import PinLoad
 
         bearings = self.section.bearings
-        self._require_joints("bearings", bearings, Pin)
+        self._require_joints("bearings", [name for name in bearings if name not in self.other_bearings], Pin)
         self._require_directions(bearings)
         return {name: PinLoad(self, name, bearings.get(name)) for name in self.pins if self.has(name)}
 
@@ -862,7 +870,7 @@ def _better_bearing(design: LoadsDesign) -> Iterator[Remedy]:
     """C ~ L^(1/p), for all bearings that do not last."""
     found = {}
     for name, bearing in design.section.bearings.items():
-        pin = design.pins_found.get(name)
+        pin = design.borne_by(name)
         if pin is not None and pin.life is not None and bearing.life is not None and pin.life < bearing.life:
             rating = bearing.dynamic_rating * (_LIFE_MARGIN * bearing.life / pin.life) ** (1.0 / pin.exponent)
             found[f"loads.bearings.{name}.dynamic_rating"] = at_least(rating, 10.0)

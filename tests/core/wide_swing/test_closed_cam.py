@@ -266,7 +266,7 @@ def test_profile_without_phase_angle_is_a_finding_with_the_key_of_its_stroke() -
     ("keys", "words"),
     [
         (
-            {"cycle__working": 90},
+            {"cycle__working": 90, "cycle__near_dwell": 110},
             r"1 validation error for WideSwingSpec\
 cycle\
   working, far_dwell, return and near",

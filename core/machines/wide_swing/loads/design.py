@@ -25,12 +25,17 @@ from gearlink.core.base.spec_paths import changed
 from gearlink.core.machines.wide_swing import bodies
 from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
+from gearlink.core.machines.wide_swing.roller import path
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.studies.loads import codes, tables, vibration_checks
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.joints import BALL, ROLLER
+from gearlink.core.studies.loads.names import PIN
+from gearlink.core.studies.loads.panels import Panels
 from gearlink.core.studies.loads.vibrating import Vibrating
 
 if TYPE_CHECKING:
@@ -45,8 +50,13 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.studies.loads.machine import Machine
+    from gearlink.core.studies.loads.spec import Bearing
 
 
+ROLLERS = "roller"
+"""The bearing of the rollers, by its name in the file."""
+_HANGS = 1e-6
+"""Angle between a pendulum at mid-swing and the gravity of the file that is none [deg]."""
 _NEAR = 0.9
 _TURN_BY = 15
 """Steps in which a direction is turned [deg]."""
@@ -156,6 +166,18 @@ class SwingRest:
         found: Reals = self.stroke.loads.machine.reactions(inside).unknowns["roller"][0]
         return found
 
+    def run(self, exponent: float) -> Reals:
+        """int F^p |n| dt and int |n| dt per revolution of the input [N^p rad, rad]; the rocker stands still."""
+        cam = self.stroke.cam
+        assert isinstance(cam, WideSwingCam), "a cycle has cams that turn evenly"
+        at = path(cam, np.ones(1), resting=True)
+        rate = abs(float(cam.center_distance / cam.roller_radius * at.way[0] - cam.sense * at.turning[0]))
+        breaks = [angle - self.start for angle in self.stroke.loads.machine.breaks]
+        inside = [angle for angle in breaks if 0.0 < angle < self.width]
+        panels = Panels.over(self.width, inside)
+        force = np.abs(self.force(self.start + panels.nodes))
+        return rate * np.array([panels.integral(force**exponent), self.width])
+
     def pressure(self, phi: Reals) -> Reals | None:
         """Pressure there [N/mm^2]; None without a width."""
         contact = self.stroke.contact_of(self.force(phi), np.full_like(phi, self.relative_radius))
@@ -189,6 +211,8 @@ class SwingRest:
 
 
 _STEPS = 100
+_RUN_PANELS = 16
+"""Panels of a part of a stroke, over which forces and speeds of a roller are integrated."""
 
 
 def rows_table(design: WideSwingLoads, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
@@ -250,6 +274,93 @@ class SwingVibrating(Vibrating):
     def motions(self) -> list[tuple[float, float]]:
         """Both strokes of a revolution, or the working stroke."""
         return super().motions if self.design.whole else [(0.0, self.design.cam.cycle_angle)]
+
+
+class RollerLoad:
+    """What the bearings of the rollers bear over a revolution: of rollers that differ the one that lasts shortest.
+
+    Parameters
+        loads : WideSwingLoads
+        bearing : Bearing of the file
+    Notes
+        A roller runs in the strokes of its cam and in the rest after each; in between it is clear of the other cam.
+        Where the file knows the working stroke alone, that is counted once a revolution.
+    Source
+        ISO 281, P = (int F^p |n| dt/int |n| dt)^(1/p) over the speed of the roller on its pin
+    """
+
+    def __init__(self, loads: WideSwingLoads, bearing: Bearing) -> None:
+        self.loads, self.bearing = loads, bearing
+
+    swing = None
+    """It goes round."""
+
+    @property
+    def exponent(self) -> float:
+        """3 for balls, 10/3 for rollers and needles."""
+        return BALL if self.bearing.kind == "ball" else ROLLER
+
+    @cached_property
+    def borne(self) -> tuple[tuple[float, float], ...]:
+        """Equivalent load [N] and turns a revolution of the input, by roller."""
+        parts = [_run(stroke, self.exponent) for stroke in self.loads.strokes]
+        for rest in self.loads.pressing.rests:
+            number = self.loads.strokes.index(rest.stroke)
+            parts[number] = parts[number] + rest.run(self.exponent)
+        if self.loads.spec.drive is not None:  # one roller on one cam
+            parts = [sum(parts, np.zeros(2))]
+        pairs = (part.tolist() for part in parts)
+        return tuple(((force / way) ** (1.0 / self.exponent), way / math.tau) for force, way in pairs)
+
+    @cached_property
+    def _shortest(self) -> tuple[float, float]:
+        return max(self.borne, key=lambda each: each[0] ** self.exponent * each[1])
+
+    @property
+    def equivalent(self) -> float:
+        """Equivalent load [N]."""
+        return self._shortest[0]
+
+    @property
+    def travel(self) -> float:
+        """Turns a revolution of the input."""
+        return self._shortest[1]
+
+    @property
+    def peak(self) -> float:
+        """Maximum force [N]."""
+        return self.loads.contact_force_max
+
+    @property
+    def life(self) -> float | None:
+        """Basic rating life [h], L_10 = 10^6 (C/P)^p turns; None of a plain bearing."""
+        rating = self.bearing.dynamic_rating
+        if rating is None or self.equivalent == 0.0:
+            return None
+        turns = 1e6 * (rating / self.equivalent) ** self.exponent
+        return float(turns / (self.travel * abs(self.loads.speed) / math.tau * 3600.0))
+
+    @property
+    def bearing_pressure(self) -> float | None:
+        """Maximum pressure of a plain bearing, F/(b d) [N/mm^2]."""
+        bearing = self.bearing
+        return (
+            None
+            if bearing.width is None or bearing.diameter is None
+            else self.peak / (bearing.width * bearing.diameter)
+        )
+
+
+def _run(stroke: SwingStroke, exponent: float) -> Reals:
+    """int F^p |n| dt and int |n| dt over a stroke, per revolution of the input [N^p rad, rad]."""
+    found = np.zeros(2)
+    for first, last in stroke.parts:
+        panels = Panels.over(last - first, (), (last - first) / _RUN_PANELS)
+        k = first + panels.nodes
+        turned = np.abs(stroke.bearing_speed(k)) * stroke.width / abs(stroke.loads.speed)
+        force = np.abs(stroke.force(k))
+        found += [panels.integral(force**exponent * turned), panels.integral(turned)]
+    return found
 
 
 class Pressing:
@@ -341,9 +452,16 @@ class WideSwingLoads(LoadsDesign):
     links = ("rocker", "cam", "return_cam", "rod", "slider", "crank", "coupler")
     sliding = ("slider",)
     output = "rocker"
-    pins, meshes = _PINS, ()
+    pins, meshes = _PINS, (GEARS,)
     stands = True
-    outlines = loads_outline(_PINS, (), _CONTACT, (*CAM_CHECKS[:2], "body-clearance"), ("torque", "contact_stroke"))
+    other_bearings = (ROLLERS,)
+    outlines = loads_outline(
+        _PINS,
+        (GEARS,),
+        (*_CONTACT, *(f"{ROLLERS}.{name}" for name in PIN[1:])),
+        (*CAM_CHECKS[:2], "body-clearance"),
+        ("torque", "contact_stroke"),
+    )
     extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
 
     @cached_property
@@ -402,7 +520,11 @@ class WideSwingLoads(LoadsDesign):
         from gearlink.core.mechanism.dynamics import Mass
 
         found = super().masses
-        if self.spec.inertia:
+        unloader = self.spec.unloader
+        if unloader.type == "gravity":  # its moment of inertia about its own centre counts in that of the rocker
+            way = cmath.rect(unloader.distance, math.radians(self.section.device_direction or 0.0))
+            found["rocker"] = Mass(self.design.unloading.size.mass, self.spec.inertia, way)
+        elif self.spec.inertia:
             found["rocker"] = Mass(0.0, self.spec.inertia)
         if self.spec.slider is not None:
             found["slider"] = Mass(self.spec.slider.mass)
@@ -434,6 +556,8 @@ class WideSwingLoads(LoadsDesign):
 
     def _require_own_directions(self) -> None:
         """Refuse a direction of what is not there, and a weight whose direction the file leaves open."""
+        if self.spec.unloader.type == "gravity" and any(self.section.gravity):
+            self._require_hanging(complex(*self.section.gravity))
         for name in ("slider", "drive"):
             key, has = f"{name}_direction", getattr(self.spec, name) is not None
             given = getattr(self.section, key) is not None
@@ -442,6 +566,13 @@ class WideSwingLoads(LoadsDesign):
             if has and not given and any(self.section.gravity):
                 words = f"the weight depends on which way the {name} stands"
                 raise MissingSection(words, key="loads.gravity", fix=f"give loads.{key}")
+
+    def _require_hanging(self, gravity: complex) -> None:
+        """Refuse a pendulum that does not hang along the gravity of the file."""
+        given, down = self.section.device_direction, math.degrees(cmath.phase(gravity))
+        if given is None or abs(math.remainder(given - down, 360.0)) > _HANGS:
+            message = "the mass of type: gravity hangs along loads.gravity at mid-swing"
+            raise NoSolution(message, key="loads.device_direction", fix=f"set loads.device_direction to {down:.6g}")
 
     @property
     def own_joints(self) -> list[float]:
@@ -495,6 +626,20 @@ class WideSwingLoads(LoadsDesign):
 
         return Pressing(self)
 
+    @cached_property
+    def rollers_found(self) -> RollerLoad | None:
+        """What the bearings of the rollers bear; None where the file gives none."""
+        bearing = self.section.bearings.get(ROLLERS)
+        return None if bearing is None else RollerLoad(self, bearing)
+
+    def borne_by(self, name: str) -> Any:
+        """What a bearing of the file bears, that of the rollers among them."""
+        return self.rollers_found if name == ROLLERS else super().borne_by(name)
+
+    def mesh(self, name: str) -> Any:
+        """A mesh, or what the file calls as one: the bearings of the rollers."""
+        return self.rollers_found if name == ROLLERS else super().mesh(name)
+
     contact_force_max: float = placed("pressing.force")
     least_contact_force: float = placed("pressing.least_force")
     lift_off_speed: float = placed("design.unloading.lift_off_speed")
@@ -546,15 +691,17 @@ class WideSwingLoads(LoadsDesign):
 
 
 def _pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
-    """The pull of the device on its pin of the rocker, towards its base pin."""
+    """The pull of the device on its pin of the rocker, towards its base pin; of a pendulum its weight."""
     import numpy as np
 
     from gearlink.core.mechanism.dynamics import Force
 
     unloader, unloading = loads.spec.unloader, loads.design.unloading
-    assert unloader.type != "gravity", "refused by the file's model"
     way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
     rocker = mechanism.links["rocker"]
+    if unloader.type == "gravity":  # what gravity of the file pulls already is not pulled twice
+        weight = unloading.size.mass * (unloader.gravity * way - complex(*loads.section.gravity))
+        return [Force("rocker", np.full(len(rocker.unit), weight), rocker.at(unloader.distance * way))]
     arm = unloader.arm
     pin = rocker.at(arm * way)
     # In arms from the pivot: of any size, and a short one is not lost.

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from gearlink.core.base.spec import Spec
 from gearlink.core.studies.loads.spec import Body, CommonLoads, Material, Roller
@@ -29,11 +29,15 @@ class SwingMasses(Spec):
 class SwingLoads(CommonLoads):
     """Forces, rollers and vibration of a wide-swing mechanism; its speed, inertia and device are its own.
 
+    The bearing of the rollers is called roller: `bearings: {roller: {dynamic_rating: 8000, life: 20000}}`.
+
     Directions are counter-clockwise from the line of centres: from D to O of a twin-cam, from O to D of a twin-rocker.
     """
 
     device_direction: Direction | None = Field(
-        None, description="direction from the rocker's axis D to the base pin of the device; default: no force at D"
+        None,
+        description="direction from the rocker's axis D to the base pin of the device, or to the mass of type: gravity "
+        "at mid-swing; left out: no force at D",
     )
     slider_direction: Direction | None = Field(
         None,
@@ -42,6 +46,14 @@ class SwingLoads(CommonLoads):
     drive_direction: Direction | None = Field(
         None, description="direction from the cam's axis O to the crank's pivot A; default: -60, and no force at O"
     )
+
+    @field_validator("bearings", mode="before")
+    @classmethod
+    def _kind_of_roller(cls, given: Any) -> Any:
+        """A cam follower's rolling bodies are rollers, where the file does not say otherwise."""
+        roller = given.get("roller") if isinstance(given, dict) else None
+        return {**given, "roller": {"kind": "roller", **roller}} if isinstance(roller, dict) else given
+
     links: SwingMasses = Field(
         SwingMasses.model_construct(),
         description="masses of cams, rod and crank-rocker; a part without an entry has no mass",

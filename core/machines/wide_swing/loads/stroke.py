@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.results import cached_property
+from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.cams.outline import middle_of
 from gearlink.core.machines.wide_swing.roller import path
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke
@@ -80,11 +81,23 @@ class SwingStroke:
         return np.asarray(self.cam.center_distance * path(self.cam, place).way * np.abs(rate))
 
     def roller_speed(self, k: Reals) -> Reals:
-        """Speed of the roller about its own axis [rad/s], positive in the sense of the working stroke."""
+        """Speed of the roller about its own axis [rad/s], positive in the sense of the working stroke.
+
+        Notes
+            A cam turns against the roller on its external profile, with it on its internal one.
+        """
         place, rate = self.at.profile(k)
         at = path(self.cam, place)
         rolling = self.cam.center_distance / self.cam.roller_radius * at.way
-        return np.asarray((rolling - at.turning) * rate * self.loads.speed)
+        sense = self.cam.sense if isinstance(self.cam, WideSwingCam) else 1.0
+        return np.asarray((rolling - sense * at.turning) * rate * self.loads.speed)
+
+    def bearing_speed(self, k: Reals) -> Reals:
+        """Speed of the roller on its pin of the rocker [rad/s]."""
+        place, rate = self.at.profile(k)
+        motion = self.loads.design.motion
+        swung = motion.swing / self.cam.cycle_angle * motion.law.invariants(place, 1)[1]
+        return np.asarray(self.roller_speed(k) - swung * rate * self.loads.speed)
 
     def entrainment(self, k: Reals) -> Reals:
         """Speed of both surfaces through the contact [mm/s]."""
