@@ -6,6 +6,7 @@ with the slot of the roller at mid-swing.
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -120,6 +121,8 @@ def build(design: WideSwingDesign, fraction: Reals) -> Scene:
     marks = [Mark(track(0.0, fraction), "D", pivot=True), Mark(0.5 * (base + pin), "device")]
     if design.spec.cam is not None:
         marks.append(Mark(track(design.spec.cam.center_distance, fraction), "O", pivot=True))
+    if design.spec.layout == "twin-cam-parallel":
+        marks.append(Mark(track(design.shafts.shafts[1], fraction), "O'", pivot=True))
     if cycle.oscillates:
         crank, *pins, _ = _crank_rocker(cycle)
         marks += [Mark(crank, "A", pivot=True), *(Mark(joint, name) for joint, name in zip(pins, "BC", strict=True))]
@@ -149,13 +152,11 @@ def _cams(cycle: Cycle) -> list[Part]:
             Chain(joints=joints, color=GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
-    if design.spec.layout == "twin-cam-parallel":  # the second cam is on a shaft of its own
-        return [*_cam(cycle, design.cam, -cycle.cam_turn(), BLUE), *_roller(cycle, design.cam.rocker_radius)]
-    other = design.return_cam or design.cam
-    back = _cam(cycle, other, cycle.cam_turn(back=True), RED, mirrored=True)
+    other, seat = design.return_cam or design.cam, _second_seat(design)
+    back = _cam(cycle, other, cycle.cam_turn(back=True), RED, mirrored=True, seat=seat)
     if design.spec.layout != "twin-rocker":
         main = _cam(cycle, design.cam, -cycle.cam_turn(), BLUE)
-        arms = dict.fromkeys((design.cam.rocker_radius, other.rocker_radius))
+        arms = dict.fromkeys((complex(design.cam.rocker_radius), seat * other.rocker_radius))
         if design.spec.slider is not None:
             back = _cam(cycle, other, cycle.cam_turn(back=True), RED)
         return [*back, *main, *(part for arm in arms for part in _roller(cycle, arm))]
@@ -165,16 +166,26 @@ def _cams(cycle: Cycle) -> list[Part]:
     return [*back, *main, *rollers]
 
 
-def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool = False) -> list[Part]:
+def _second_seat(design: WideSwingDesign) -> complex:
+    """Unit vector from the rocker's axis to the shaft of the return cam, over that to the first shaft."""
+    if design.spec.layout != "twin-cam-parallel":
+        return 1.0 + 0j
+    return cmath.rect(1.0, design.shafts.roller_arm_angle)
+
+
+def _cam(
+    cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool = False, seat: complex = 1.0 + 0j
+) -> list[Part]:
     """The closed contour of a cycle; else that of a stroke, open as it is known, and spokes to the cam axis."""
+    turn = turn + cmath.phase(seat)
     if cycle.whole:
-        return [_closed(cycle, turn, color, late=mirrored)]
+        return [_closed(cycle, turn, color, late=mirrored, seat=seat)]
     from gearlink.core.machines.wide_swing.cams.outline import contour
 
     run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
     outline = np.concatenate([run_up, slot[1:], run_out[1:]])
     outline = outline.conj() if mirrored else outline
-    place = track(cam.center_distance, cycle.fraction)
+    place = track(seat * cam.center_distance, cycle.fraction)
     spokes = np.array([outline[0], 0.0, outline[-1]])
     return [
         Body(outline=spokes, place=place, turn=turn, color=color, width=0.8),
@@ -182,19 +193,18 @@ def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool =
     ]
 
 
-def _closed(cycle: Cycle, turn: Reals, color: str, *, late: bool) -> Body:
+def _closed(cycle: Cycle, turn: Reals, color: str, *, late: bool, seat: complex) -> Body:
     """A closed contour in the frame of the stroke that it guides."""
     whole = cycle.design.cycle
     closed = whole.back if late else whole.main
     outline = np.concatenate([points for _, points in closed.outline(90)])
     outline = outline.conj() if late else whole.of_main(outline)
-    return Body(
-        outline=outline, place=track(closed.cam.center_distance, cycle.fraction), turn=turn, color=color, width=2.4
-    )
+    place = track(seat * closed.cam.center_distance, cycle.fraction)
+    return Body(outline=outline, place=place, turn=turn, color=color, width=2.4)
 
 
-def _roller(cycle: Cycle, arm: float) -> list[Part]:
-    """A roller on its arm; a negative arm points the other way."""
+def _roller(cycle: Cycle, arm: complex) -> list[Part]:
+    """A roller on its arm, as it stands at mid-swing."""
     aside = getattr(cycle.design.cam, "arm_offset", 0.0)
     center = arm * np.exp(1j * (cycle.swing - aside))
     cam = cycle.design.spec.cam
