@@ -30,12 +30,19 @@ _NAMES = (("displacement", "a"), ("velocity", "b"), ("acceleration", "c"))
 
 
 def draw(command: str, design: WideSwingDesign) -> Figure:
-    """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed."""
+    """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed; torques."""
     cams, moves = design.spec.cam is not None and has_slots(design), design.spec.cam is None
     title = f"{design.spec.name}: {command} ({kind_words(design)})"
-    made = panels.page(title, 0.95 if cams or moves else 0.62)
-    grid = made.add_gridspec(3 if cams else 2, 1, height_ratios=[1.0, 1.75, 1.0] if cams else [1.0, 1.0 + 1.4 * moves])
+    heights = [1.0, 1.75, 1.0] if cams else [1.0, 1.0 + 1.4 * moves]
+    share = 0.95 if cams or moves else 0.62
+    if design.spec.shaft is not None:
+        share *= 1.0 + 1.0 / sum(heights)
+        heights.append(1.0)
+    made = panels.page(title, share)
+    grid = made.add_gridspec(len(heights), 1, height_ratios=heights)
     _law_panels(made, grid[0], design)
+    if design.spec.shaft is not None:
+        _history_panels(made, grid[len(heights) - 1], design)
     if cams:
         _cam_panels(made, grid[1], design)
     if moves:
@@ -49,6 +56,30 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
         _slider_panel(made.add_subplot(below[0, 0]), design)
     _balance_panel(balance, design)
     return made
+
+
+def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
+    """Torques of both shafts over the stroke and the rest after it, and the dynamic coefficient over the speed."""
+    history, balance = design.table("history"), design.table("balance")
+    columns = place.subgridspec(1, 3)
+    curves = (("", style.RED, "rigid, without device"), ("_balanced", style.BLUE, "rigid, with device"))
+    curves = (*curves, ("_elastic", style.GREEN, "elastic, with device"))
+    for i, (shaft, words) in enumerate((("rocker", "Rocker shaft"), ("drive", "Main shaft"))):
+        axes = made.add_subplot(columns[0, i])
+        style.curves(axes, "time [ms]", "torque [N m]")
+        panels.small_ticks(axes)
+        for end, color, label in curves:
+            axes.plot(history["time"], history[f"{shaft}_torque{end}"], color=color, linewidth=1.3, label=label)
+        axes.set_xlim(0.0, float(history["time"][-1]))
+        panels.legend_under_heading(axes, words, 1)
+    axes = made.add_subplot(columns[0, 2])
+    style.curves(axes, "speed [rev/min]", "dynamic coefficient [1]")
+    panels.small_ticks(axes)
+    axes.plot(balance["speed"], balance["dynamic_coefficient"], color=style.BLUE, linewidth=1.6)
+    axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="design speed")
+    axes.set_xlim(0.0, float(balance["speed"][-1]))
+    axes.set_ylim(bottom=0.0)
+    panels.legend_under_heading(axes, "Elastic over rigid torque", 1)
 
 
 def _moving_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
