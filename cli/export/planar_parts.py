@@ -1,4 +1,4 @@
-"""What a planar mechanism exports: the paths of its output points, and the gears of its meshes."""
+"""What a planar mechanism exports: the paths of its output points, the gears of its meshes, and its cams."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.export.contour import Part
-from gearlink.cli.export.parts import of_mesh
+from gearlink.cli.export.parts import disc_cam, flat_cam, of_mesh
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.machines.planar.outputs import moved
@@ -22,13 +22,18 @@ _RATES = ("velocity", "acceleration")
 
 
 def makers(design: Any) -> Makers:
-    """Makers of the paths by `PATH-POINT`, and of the gears, with standard teeth, by mesh and link."""
+    """Makers of the paths by `PATH-POINT`, of the gears, with standard teeth, by mesh and link, and of the cams."""
     structure = design.structure
     points = [name for name in design.spec.shown if len(moved(structure, name)) == 2]
     found: Makers = {**{f"PATH-{name}": partial(_path, design, name) for name in points}, **_gears(design)}
+    found |= {name: partial(_cam, name, cam) for name, cam in structure.cams.items()}
     if not found:
         raise MissingSection("no path to export", key="outputs", fix="name a point of a link in outputs")
     return found
+
+
+def _cam(name: str, cam: Any) -> Part:
+    return flat_cam(name, cam.profile) if cam.given.face is not None else disc_cam(name, cam.profile)
 
 
 def _path(design: Any, name: str) -> Part:

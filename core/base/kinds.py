@@ -313,7 +313,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "planar-mechanism",
-            "any planar mechanism: links, pins, slides, slots, gears and racks, one or more drives",
+            "any planar mechanism: links, pins, slides, slots, gears, racks and cams, one or more drives",
             "machines.planar",
             "spec:PlanarSpec",
             {"analyze": "design:PlanarMechanism", "loads": "loads:PlanarLoads", "register": "", "tolerance": ""},

@@ -7,7 +7,7 @@ N m.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -201,7 +201,8 @@ class Contact:
 
     Where it is negative a second roller carries it, if `back` gives that one's place and normal; the normal counts
     against its own force, so that the sign tells which roller carries. `curvature` is that of the pitch curve [1/mm],
-    convex positive, where a motion away from the place that is meant asks for it.
+    convex positive, where a motion away from the place that is meant asks for it. `shapes` gives what is drawn of it:
+    the outline of the cam, and that of roller or face, each in coordinates of its link [mm].
     """
 
     name: str
@@ -211,6 +212,7 @@ class Contact:
     normal: Points
     back: tuple[Points, Points] | None = None
     curvature: Reals | float = 0.0
+    shapes: Callable[[], tuple[Points, Points]] | None = field(default=None, compare=False)
 
     def sided(self, force: Reals) -> Contact:
         """The contact of the roller that carries at each row."""

@@ -34,7 +34,7 @@ def build(design: Any, fraction: Reals) -> Scene:
     degree = np.degrees if motion.input.unit == "rad" else np.asarray
     measure = "deg" if output.course.unit == "rad" else output.course.unit
     return Scene(
-        parts=(*_gears(now), *_lines(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
+        parts=(*_cams(now), *_gears(now), *_lines(now, motion.at(whole, 0)), *_links(now), *_sliders(now)),
         marks=_marks(now),
         chart=Chart(
             words + unit,
@@ -86,6 +86,19 @@ def _links(mechanism: Mechanism) -> list[Part]:
     return found
 
 
+def _cams(mechanism: Mechanism) -> list[Part]:
+    """Cams with the roller or face that each moves."""
+    found: list[Part] = []
+    for each in mechanism.connections:
+        if isinstance(each, Contact) and each.shapes is not None:
+            for name, outline, title in zip((each.first, each.second), each.shapes(), (each.name, ""), strict=True):
+                link = mechanism.links[name]
+                color = GREEN if title else BLUE
+                found.append(Body(outline=outline, place=link.origin.value, turn=link.turn.value, color=color,
+                                  fill=pale(color, 0.15), width=1.6, name=title))  # fmt: skip
+    return found
+
+
 def _size(mechanism: Mechanism) -> float:
     """Of all that stands at the first position [mm]."""
     places = np.array([each.at[0] for each in _pins(mechanism)] + [link.origin.value[0] for link in
@@ -108,7 +121,7 @@ def _lines(mechanism: Mechanism, whole: Mechanism) -> list[Part]:
     """Slots and pitch lines of racks, as far as they are used over all inputs; a slot from its link's own origin on."""
     found: list[Part] = []
     for each, over in zip(mechanism.connections, whole.connections, strict=True):
-        if isinstance(over, Contact) and isinstance(each, Contact):
+        if isinstance(over, Contact) and isinstance(each, Contact) and over.shapes is None:
             places, along, color = over.at, -1j * over.normal, ORANGE
         elif isinstance(over, Rack):
             places, along, color = over.pitch_point, np.broadcast_to(over.along, over.center.shape), GREY

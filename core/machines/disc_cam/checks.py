@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.report import NO_NUMBER, Check, Status, safely_above, safely_below
 from gearlink.core.base.wording import short
 from gearlink.core.machines.disc_cam import codes
-from gearlink.core.parts.cams.checks import hub_checks, undercut_checks
+from gearlink.core.parts.cams.checks import flat_undercut_check, hub_checks, undercut_checks
 from gearlink.core.parts.cams.codes import (
-    CAM_UNDERCUT,
     CONSTANT_SUM,
     LIFT_OFF,
     PRESSURE_ANGLE,
@@ -44,19 +43,11 @@ def cam_undercut(design: DiscCamDesign) -> Iterator[Check]:
         cams = [cam for cam in (design.cams.main, design.cams.back) if cam is not None]
         yield from undercut_checks(cams, plainly=_LARGER)
         return
-    least, limit = design.cams.flat.min_curvature_radius, design.spec.limits.curvature_radius
+    limit = design.spec.limits.curvature_radius
     size = design.spec.cam.size
     if size is not None and size.curvature_radius is not None and "curvature_radius" not in _given(design):
         limit = 0.0
-    room = 1e-9 * max(limit, abs(least.value))
-    status: Status = "fail" if least.value <= 0.0 else "warn" if least.value < limit - room else "pass"
-    if least.value < 0.0:
-        what, shown = "minimum curvature radius of the profile: it is undercut", NO_NUMBER
-    else:
-        what, shown = "minimum curvature radius of the profile", None
-    at = f"cam angle {short(math.degrees(least.place))} deg"
-    fix = f"raise cam.base_radius by {safely_above(max(limit, 0.0) - least.value)} mm"
-    yield CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", shown=shown, at=at, fix=fix)
+    yield flat_undercut_check(design.cams.flat, limit, "raise cam.base_radius by {} mm")
 
 
 def _given(design: DiscCamDesign) -> set[str]:

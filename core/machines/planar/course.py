@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from gearlink.core.machines.planar.system import (
     Jets,
     Row,
     System,
+    cam_row,
     drive_rows,
     driven_row,
     joined,
@@ -31,6 +33,9 @@ from gearlink.core.mechanism.blocks import Block
 from gearlink.core.mechanism.follow import JAM, MOST_TURNS, Place, Walk
 from gearlink.core.numerics.arrays import Points, Reals
 
+if TYPE_CHECKING:
+    from gearlink.core.machines.planar.cams import Lift
+
 _TURN = 2.0 * math.pi
 _ROUNDS = 60
 _FINE = 1e-10  # of a revolution or of size, after a step so short another one would be some 1e-20
@@ -39,6 +44,7 @@ _HOME = 1e-7, 1e-6  # rad, and shares of size
 _MOST = 4_000_000  # numbers of the matrices that are looked at together
 _FAR = 100.0  # of size, as far as a slide is followed for the range that is free of dead centres
 _FAR_TURNS = 4
+_AT_JOINT = 1e-13  # rad, from where a law changes: rounding
 
 
 @dataclass(frozen=True)
@@ -246,14 +252,19 @@ class Course:
 
     # At inputs
 
-    def jets(self, q: Reals, order: int) -> Jets:
-        """Taylor coefficients at inputs, lengths in units of size, by the input of the walk."""
-        parts = [self._jets(rows, order) for rows in self._parts(self.walked(q))]
+    def jets(self, q: Reals, order: int, side: int = 1) -> Jets:
+        """Taylor coefficients at inputs, lengths in units of size, by the input of the walk.
+
+        Parameters
+            order : int - with cams up to 3
+            side : +1 or -1 - of inputs at which the law of a cam changes
+        """
+        parts = [self._jets(rows, order, side) for rows in self._parts(self.walked(q))]
         if len(parts) == 1:
             return parts[0]
-        joined_up = [[np.concatenate(each) for each in zip(*(getattr(part, name) for part in parts), strict=True)]
-                     for name in ("x", "t", "e")]  # fmt: skip
-        return Jets(*joined_up)
+        x, t, e = ([np.concatenate(each) for each in zip(*(getattr(part, name) for part in parts), strict=True)]
+                   for name in ("x", "t", "e"))  # fmt: skip
+        return Jets(x, t, e, side)
 
     def walked(self, q: Reals) -> Reals:
         """Inputs as the equations have them, lengths in units of size."""
@@ -263,14 +274,14 @@ class Course:
         block = max(16, min(4096, _MOST // self.system.unknowns**2))
         yield from (q[start : start + block] for start in range(0, max(1, q.size), block))
 
-    def _jets(self, q: Reals, order: int) -> Jets:
+    def _jets(self, q: Reals, order: int, side: int) -> Jets:
         gained, inside = np.zeros(q.size), q
         if self.ends is None:
             gained = np.floor(q / self.end)
             inside = q - gained * self.end
         y = settled(self.system, inside, self.walk.tangents(inside))
         x, t = split(y)
-        jets = self.system.onward(Jets([x], [t]), inside, order)
+        jets = self.system.onward(Jets([x], [t], side=side), inside, order)
         jets.t[0] = jets.t[0] + gained[:, None] * self.gains if self.ends is None else jets.t[0]
         return jets
 
@@ -283,8 +294,26 @@ class Course:
         return [of(jets, k) * (math.factorial(k) * self._scale**k) for k in range(order + 1)]
 
     @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Inputs between start and end at which the law of a cam changes [rad or mm]."""
+        found: list[float] = []
+        if self.structure.spec.cams:
+            q = self._even
+            jets = self.jets(q, 0)
+            for name, cam in self.structure.cams.items():
+                lift = self.at_start.lifts[name]
+                found += _crossings(
+                    lambda q, lift=lift: lift.angle(self.jets(q, 0), 0), q, lift.angle(jets, 0), cam.motion.joints
+                )  # type: ignore[misc]
+        return tuple(sorted({each for each in found if self.start < each < self.end}))
+
+    @cached_property
     def grid(self) -> Reals:
         """Inputs next to which functions of the motion are smooth: dense where dead centres are near."""
+        return np.unique(np.concatenate([self._even, self.joints]))
+
+    @cached_property
+    def _even(self) -> Reals:
         places = self.walk.rows[:, 0] / self._scale
         inside = places[(places >= self.start) & (places <= self.end)]
         ends = np.array([self.start, self.end])
@@ -303,6 +332,25 @@ class Course:
     def dyads(self) -> list[Dyad]:
         """The dyads."""
         return dyads(self.structure, self.system)
+
+
+def _crossings(angle: Callable[[Reals], Reals], q: Reals, phi: Reals, joints: Sequence[float]) -> list[float]:
+    """Inputs at which a cam angle passes joints of its law, of any turn; `phi` are its values at inputs."""
+    from gearlink.core.numerics.roots import bracketed_root
+
+    found: list[float] = []
+    low, high = float(phi.min()), float(phi.max())
+    for joint in joints:
+        for turn in range(math.ceil((low - joint) / _TURN - 1e-9), math.floor((high - joint) / _TURN + 1e-9) + 1):
+            off = phi - (joint + _TURN * turn)
+            off = np.where(np.abs(off) <= _AT_JOINT, 0.0, off)
+            found += q[off == 0.0].tolist()
+            for i in np.flatnonzero(off[:-1] * off[1:] < 0.0):
+                beside = float(q[i]), float(q[i + 1])
+                found.append(
+                    bracketed_root(lambda each: float(angle(np.array([each]))[0]) - (joint + _TURN * turn), *beside)  # noqa: B023
+                )
+    return found
 
 
 _START_TURN = 2.0 * math.pi
@@ -356,7 +404,7 @@ class Start:
                 ),
             )
         starts = {each.name: self._exact(each.name) for each in structure.drives}
-        rows = joint_rows(structure, {}) + drive_rows(structure, starts) + self._mesh_rows()
+        rows = joint_rows(structure, {}) + drive_rows(structure, starts) + self._mesh_rows() + self._cam_rows()
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         if freedoms < drives:
             raise self._held(system, freedoms, drives)
@@ -378,6 +426,39 @@ class Start:
             slide = structure.slides.get(own)
             body = mesh.line.other if isinstance(mesh, RackJoint) else mesh.first
             found.append(driven_row(structure.numbers.get(own, body), slide, structure.size, self._exact(own)))
+        return found
+
+    def _cam_rows(self) -> list[Row]:
+        structure, found = self.structure, []
+        for name, cam in structure.cams.items():
+            if name not in structure.tied:
+                raise NoSolution(
+                    f"the follower of {name} is moved by a cam before", key=f"cams.{name}", fix="leave one of both out"
+                )
+            at = self._cam_start(name)
+            if cam.slide is not None:
+                found.append(driven_row(cam.follower, cam.slide, structure.size, at))
+            else:
+                found.append(cam_row(cam, structure.size, cam.phase, self._exact(structure.tied[name]))._replace(
+                    constant=at, lift=None))  # fmt: skip
+        return found
+
+    def _cam_start(self, name: str) -> float:
+        """Direction of a follower against its carrier, or place of its slide, at input 0 [rad or size]."""
+        cam = self.structure.cams[name]
+        lift = cam.lift(self.structure.size, cam.phase)
+        zero = cam.zero / self.structure.size if cam.slide is not None else cam.zero
+        found = zero + lift.share * float(lift.motion.evaluate(np.array([cam.phase]), 0)[0][0])
+        return found if cam.slide is not None else wrapped(found)
+
+    @cached_property
+    def lifts(self) -> dict[str, Lift]:
+        """By cam the term of its equation, its angle counted from the start position."""
+        t, found = self.closed[1], {}
+        for name, cam in self.structure.cams.items():
+            lift = cam.lift(self.structure.size, cam.phase)
+            before = sum(share * float(t[body]) for body, share in lift.turns.items())
+            found[name] = lift._replace(phase=cam.phase - before)
         return found
 
     def _held(self, system: System, freedoms: int, drives: int) -> NoSolution:
@@ -428,7 +509,8 @@ class Start:
         structure, pins = self.structure, 2 * len(system.pins)
         names = [pin.name for pin in structure.pins for _ in range(2)]
         names += [name for name in structure.slides for _ in range(2)]
-        names += [*structure.slots, *(f"drive of {each.name}" for each in structure.drives), *structure.meshes]
+        names += [*structure.slots, *(f"drive of {each.name}" for each in structure.drives), *structure.meshes,
+                  *structure.cams]  # fmt: skip
         return list(dict.fromkeys(names[row] for row in rows if row < len(names) or row < pins))
 
     # Rough places
@@ -453,6 +535,9 @@ class Start:
                 t[each.line.other] = wrapped(t[each.line.body] + each.line.direction + (each.lean or 0.0))
                 known.add(each.line.other)
                 waiting.remove(each)
+        for name, cam in structure.cams.items():
+            if cam.slide is None:
+                t[cam.follower] = wrapped(t[cam.carrier] + self._cam_start(name))
         return joined(self._placed(t)[None], t[None])
 
     def _placed(self, t: Reals) -> Points:
@@ -601,6 +686,10 @@ class Start:
         rows = [*joint_rows(structure, turns), *drive_rows(structure, starts)]
         for mesh in structure.meshes.values():
             row = mesh_row(mesh, structure.size)
+            still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
+            rows.append(row._replace(constant=float(still[0, 0])))
+        for name, cam in structure.cams.items():
+            row = cam_row(cam, structure.size, 0.0)._replace(lift=self.lifts[name])
             still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
             rows.append(row._replace(constant=float(still[0, 0])))
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))

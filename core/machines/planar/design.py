@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.design import Design, Outline
-from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError, MissingSection
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
@@ -219,6 +219,7 @@ GENERAL = (
     "free_range",
     "closure_error",
 )
+CAM_QUANTITIES = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _SIDES = ("max", "max_at", "min", "min_at")
 _RATES = {
     "link": ("angle", "speed_ratio", "acceleration_ratio", "jerk_ratio"),
@@ -282,7 +283,7 @@ def generic() -> tuple[str, ...]:
     """The names that an output may have, under one name for all."""
     found = [f"{name}_{side}" for sort in _RATES for name in _RATES[sort] for side in _SIDES]
     found += [f"{axis}_{side}" for axis in "xy" for side in _SIDES]
-    found += ["swing", "turns", "stroke", "path_length"]
+    found += ["swing", "turns", "stroke", "path_length", "prime_radius", "base_radius", *CAM_QUANTITIES]
     found += [f"{name}_{side}" for sort in _REAL for name in _REAL[sort] for side in ("max", "min")]
     return tuple(f"output.{name}" for name in dict.fromkeys(found))
 
@@ -354,6 +355,9 @@ class PlanarMechanism(Design):
             "grashof",
             "free_range",
             ("min_transmission_angle", ">limits.transmission_angle"),
+            ("*.max_pressure_angle", "<limits.pressure_angle"),
+            "*.prime_radius",
+            "*.base_radius",
             "*.swing",
             "*.stroke",
             "*.turns",
@@ -373,11 +377,21 @@ class PlanarMechanism(Design):
     outlines = {
         "analyze": Outline(
             (*GENERAL, *generic()),
-            ("closure", "assembly", "transmission-angle", "gear-collision", "shaft-clearance", "shaft-seat"),
+            (
+                "closure",
+                "assembly",
+                "transmission-angle",
+                "gear-collision",
+                "shaft-clearance",
+                "shaft-seat",
+                "pressure-angle",
+                "cam-undercut",
+                "acceleration-step",
+            ),
             ("motion",),
         )
     }
-    extra_tables = ("links", "points", "slides", "poles")
+    extra_tables = ("links", "points", "slides", "poles", "cams")
     quantity_names = OfFile()
 
     @cached_property
@@ -417,7 +431,14 @@ class PlanarMechanism(Design):
     @property
     def own_names(self) -> tuple[str, ...]:
         """The quantities of this design."""
-        return (*GENERAL, *self.meanings)
+        return (*GENERAL, *self.meanings, *self._of_cams)
+
+    @property
+    def _of_cams(self) -> Iterator[str]:
+        """The quantities of the cams."""
+        for name, cam in self.spec.cams.items():
+            radius = "prime_radius" if cam.face is None else "base_radius"
+            yield from (f"{name}.{each}" for each in (radius, *CAM_QUANTITIES))
 
     @classmethod
     def names_for(cls, spec: Any, /) -> tuple[str, ...]:
@@ -428,6 +449,8 @@ class PlanarMechanism(Design):
     def unit_for(cls, spec: Any, name: str, /) -> str:
         """Units follow the input and what the outputs are."""
         design = cls(spec)
+        if name in design._of_cams:
+            return term(name.rpartition(".")[2]).unit
         meaning = design.meanings.get(name)
         return design.general_unit(name) if meaning is None else meaning.unit
 
@@ -445,11 +468,27 @@ class PlanarMechanism(Design):
 
     def raw(self, name: str) -> Any:
         """Extremes stand under the names of the outputs."""
-        return super().raw(name) if name in GENERAL else self._of_output(self.meanings[name])
+        if name in GENERAL:
+            return super().raw(name)
+        meaning = self.meanings.get(name)
+        return self._of_cam(*name.split(".")) if meaning is None else self._of_output(meaning)
+
+    def _of_cam(self, name: str, what: str) -> float:
+        """A size of a cam [mm or rad]."""
+        cam = self.structure.cams[name]
+        if what in ("prime_radius", "base_radius"):
+            return cam.start_radius
+        found = getattr(cam.profile, what)
+        return float(found if isinstance(found, float) else found.value)
 
     def quantity(self, name: str) -> Quantity | None:
         """Units of the outputs follow the input and what they are."""
         meaning = self.meanings.get(name)
+        if name in self._of_cams:
+            cam, what = name.split(".")
+            entry, value = term(what), self._of_cam(cam, what)
+            shown = math.degrees(value) if entry.unit == "deg" else value
+            return Quantity(name, shown, entry.unit, entry.symbol, f"{entry.words}, of the cam {cam}")
         if meaning is None:
             found = super().quantity(name)
             unit = self.general_unit(name)
@@ -598,7 +637,12 @@ class PlanarMechanism(Design):
     # Tables
 
     table_motion, table_links, table_points = tables.motion, tables.links, tables.points
-    table_slides, table_poles = tables.slides, tables.poles
+    table_slides, table_poles, table_cams = tables.slides, tables.poles, tables.cams
+
+    def require_table(self, name: str, /) -> None:
+        """Refuse the table of cams where there are none."""
+        if name == "cams" and not self.spec.cams:
+            raise MissingSection("the table cams needs cams", key="cams")
 
     # Checks
 
@@ -643,12 +687,38 @@ class PlanarMechanism(Design):
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302."""
-        return iter(()) if self.layout is None else shaft_checks(self.layout)
+        """GL302, of cams against their own shafts as well."""
+        if self.layout is not None:
+            yield from shaft_checks(self.layout)
+        if self.spec.cams:
+            from gearlink.core.machines.planar.cams import shaft_checks as of_cams
+
+            yield from of_cams(self.structure)
 
     def check_shaft_seat(self) -> Iterator[Check]:
         """GL302."""
         return iter(()) if self.layout is None else seat_checks(self.layout)
+
+    def check_pressure_angle(self) -> Iterator[Check]:
+        """GL401 of every cam."""
+        if self.spec.cams:
+            from gearlink.core.machines.planar.cams import pressure_checks
+
+            yield from pressure_checks(self.structure)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402 of every cam."""
+        if self.spec.cams:
+            from gearlink.core.machines.planar.cams import undercuts
+
+            yield from undercuts(self.structure)
+
+    def check_acceleration_step(self) -> Iterator[Check]:
+        """GL404 of every cam."""
+        if self.spec.cams:
+            from gearlink.core.machines.planar.cams import step_checks
+
+            yield from step_checks(self.structure)
 
     def ways_of(self, check: str) -> Iterable[Way]:
         """Lengths of the bars, where the transmission angle is poor; shafts where they are in the way."""

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from gearlink.core.machines.planar.course import Course
 from gearlink.core.machines.planar.system import Jets
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import extremes_over
+from gearlink.core.numerics.together import kept_last
 
 Coefficient: TypeAlias = Callable[[Jets, int], Reals]
 _ROUNDS = 40
@@ -62,6 +64,8 @@ def extremes(course: Course, wanted: Mapping[str, Wanted]) -> dict[tuple[str, in
         found : (name, order) -> Pair
     """
     highest = max((max(each.orders) for each in wanted.values()), default=0)
+    if course.structure.spec.cams:
+        return _sought(course, wanted, highest)
     grid = course.grid
     jets = course.jets(grid, highest + 1)
     rows = {name: course.derivatives(each.of, jets, max(each.orders) + 1) for name, each in wanted.items()}
@@ -76,6 +80,28 @@ def extremes(course: Course, wanted: Mapping[str, Wanted]) -> dict[tuple[str, in
     for key in keys:
         mine = [i for i, each in enumerate(brackets) if (each.course, each.order) == key]
         found[key] = _pair(course, grid, rows[key[0]], key[1], noise[key], places[mine], values[mine])
+    return found
+
+
+def _sought(course: Course, wanted: Mapping[str, Wanted], highest: int) -> dict[tuple[str, int], Pair]:
+    """The same where laws of cams have no derivative that would find extremes, and their derivatives jump at joints."""
+    jets = kept_last(lambda q: course.jets(q, highest))
+    keys = [(name, order) for name, each in wanted.items() for order in each.orders]
+
+    def values(name: str, order: int) -> Callable[[Reals], Reals]:
+        return lambda q: course.derivatives(wanted[name].of, jets(q), order)[order]
+
+    period = None if course.turns is None else course.end
+    curves = [values(*key) for key in keys]
+    both = [(curve, greatest) for curve in curves for greatest in (True, False)]
+    tops = extremes_over(both, course.start, course.end, joints=course.joints, samples=course.samples)
+    found = {}
+    for i, key in enumerate(keys):
+        high, low = (_inside(Extreme(*each), period) for each in tops[2 * i : 2 * i + 2])
+        noise = _NOISE * course.floor(wanted[key[0]].unit, key[1])
+        if high.value - low.value <= noise:
+            high, low = (each._replace(place=course.start) for each in (high, low))
+        found[key] = Pair(high, low)
     return found
 
 

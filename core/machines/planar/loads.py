@@ -10,21 +10,27 @@ from gearlink.core.base.design import Outline
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.design import OfFile, PlanarMechanism
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
+    from gearlink.core.base.report import Check, Status
     from gearlink.core.machines.planar.loads_spec import PlanarLoads as Section
     from gearlink.core.machines.planar.spec import PlanarSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.studies.loads.design import Wanted
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.sources import Sources
+
+_CONTACT = ("contact_force_max", "contact_force_min")
 
 
 class PlanarLoads(LoadsDesign):
@@ -39,6 +45,7 @@ class PlanarLoads(LoadsDesign):
     links, pins, meshes = (), (), ()
     outlines = loads_outline((), ())
     quantity_names = OfFile()
+    joints_of_period = True
 
     def __init__(self, spec: Any) -> None:
         super().__init__(spec)
@@ -70,7 +77,42 @@ class PlanarLoads(LoadsDesign):
 
     def outline(self, command: str) -> Outline:
         """With the joints of the file."""
-        return loads_outline(self.pins, self.meshes)[command]
+        contacts = tuple(f"{cam}.{name}" for cam in self.spec.cams for name in _CONTACT)
+        found = loads_outline(self.pins, self.meshes, contacts)[command]
+        return found._replace(checks=(*found.checks, "lift-off"))
+
+    def raw(self, name: str) -> Any:
+        """A quantity, the contact forces of a cam under its name."""
+        cam, _, what = name.partition(".")
+        if what not in _CONTACT:
+            return super().raw(name)
+        return self._unless_locked(lambda: self._contact(cam, greatest=what.endswith("max")).value, None)
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs; those of cams are sought by themselves."""
+        return () if quantity.partition(".")[2] in _CONTACT else super().wanted(quantity)
+
+    def _contact(self, cam: str, *, greatest: bool) -> Extreme:
+        """Maximum or minimum contact force of a cam [N]."""
+        return self.extreme_of(f"contact {cam}", greatest)
+
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """The forces of cams beside those of every machine."""
+        cam = name.removeprefix("contact ")
+        if cam == name:
+            return super().course(name)
+        return lambda phi: self.machine.reactions(phi).unknowns[cam][0]
+
+    def check_lift_off(self) -> Iterator[Check]:
+        """GL406: cams that would have to pull their followers."""
+        from gearlink.core.parts.cams.codes import LIFT_OFF
+
+        for cam in self.spec.cams:
+            least = self._contact(cam, greatest=False)
+            status: Status = "fail" if least.value < 0.0 else "pass"
+            what, at = f"minimum contact force of the cam {cam}", f"input angle {short(math.degrees(least.place))} deg"
+            fix = "press the follower on the cam by a force, or let the cam run slower"
+            yield LIFT_OFF.check(status, what, least.value, 0.0, "N", side=">=", at=at, fix=fix)
 
     @cached_property
     def section(self) -> Section:
@@ -123,7 +165,8 @@ class PlanarLoads(LoadsDesign):
         found, first = self.design.moving, self._first
         if self.spec.range is None or first == 0.0:
             return found
-        given = replace(found.input, start=0.0, end=found.input.end - first)
+        joints = tuple(joint - first for joint in found.input.joints)
+        given = replace(found.input, start=0.0, end=found.input.end - first, joints=joints)
         return replace(found, input=given, make=lambda q, order, side: found.make(q + first, order, side), kept={},
                        kept_few={})  # fmt: skip
 

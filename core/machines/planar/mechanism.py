@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from gearlink.core.machines.planar.outputs import jets_of, moved
 from gearlink.core.machines.planar.structure import GearJoint, LineJoint, PinJoint, RackJoint
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
-from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from gearlink.core.machines.planar.cams import CamJoint, Lift
     from gearlink.core.machines.planar.course import Course as Followed
     from gearlink.core.machines.planar.design import PlanarMechanism
     from gearlink.core.machines.planar.dyads import Dyad
@@ -34,10 +35,11 @@ def motion(design: PlanarMechanism) -> Motion:
     """
     course, structure = design.course, design.structure
     column = "input_position" if course.by_slide else "input_angle"
-    given = Input(column, "mm" if course.by_slide else "rad", course.start, course.end, course.turns)
+    unit: Literal["rad", "mm"] = "mm" if course.by_slide else "rad"
+    given = Input(column, unit, course.start, course.end, course.turns, course.joints)
 
-    def make(q: Reals, order: int, _side: int) -> Mechanism:
-        return mechanism(course, q, order)
+    def make(q: Reals, order: int, side: int) -> Mechanism:
+        return mechanism(course, q, order, side)
 
     outputs = []
     for name in structure.spec.shown:
@@ -47,10 +49,10 @@ def motion(design: PlanarMechanism) -> Motion:
     return Motion(make, given, tuple(outputs))
 
 
-def mechanism(course: Followed, q: Reals, order: int) -> Mechanism:
+def mechanism(course: Followed, q: Reals, order: int, side: int = 1) -> Mechanism:
     """Links and joints at inputs [rad or mm]."""
     structure = course.structure
-    jets, size = course.jets(q, order), structure.size
+    jets, size = course.jets(q, order, side), structure.size
     links = {}
     for body, (name, points) in enumerate(structure.bodies.items()):
         if body:
@@ -65,16 +67,18 @@ def mechanism(course: Followed, q: Reals, order: int) -> Mechanism:
         for slide in structure.slides.values()
         if slide.line.body == 0
     }
-    return Mechanism(links, _joints(structure, jets), drive, pivot=pivot, travel=travel)
+    return Mechanism(links, Later(lambda: _joints(course, jets)), drive, pivot=pivot, travel=travel)
 
 
-def _joints(structure: Structure, jets: Jets) -> list[Connection]:
+def _joints(course: Followed, jets: Jets) -> list[Connection]:
+    structure = course.structure
     places = _Places(structure, jets)
     return [
         *(places.pin(pin) for pin in structure.pins),
         *(places.guide(slide) for slide in structure.slides.values()),
         *(places.slot(slot) for slot in structure.slots.values()),
         *(places.teeth(mesh) for mesh in structure.meshes.values()),
+        *(places.cam(cam, course.at_start.lifts[name]) for name, cam in structure.cams.items()),
         *(places.train(drive, structure.drives[0]) for drive in structure.drives[1:]),
     ]
 
@@ -107,6 +111,17 @@ class _Places:
         return Contact(
             slot.name, self.names[line.body], self.names[line.other], self._at(line.other, line.point), normal
         )
+
+    def cam(self, cam: CamJoint, lift: Lift) -> Contact:
+        """The contact of a cam; of a face where it touches."""
+        touch, normal, curvature = cam.contact(lift.angle(self.jets, 0))
+        phase = lift.phase
+        at = self._at(cam.follower, cam.point)
+        if touch is not None:
+            at = self.jets.x[0][:, cam.carrier] * self.structure.size + touch * self.jets.e[0][:, cam.carrier]
+        turned = np.asarray(normal * self.jets.e[0][:, cam.carrier])
+        return Contact(cam.name, self.names[cam.cam], self.names[cam.follower], at, turned, None, curvature,
+                       lambda: cam.shapes(phase))  # fmt: skip
 
     def train(self, driven: Driven, first: Driven) -> Coupling | Feed:
         """What moves a further drive with the first one."""

@@ -26,7 +26,7 @@ _AXES = (1.0 + 0j, 1j)
 
 
 def errors(design: PlanarMechanism, mechanism: Mechanism) -> Movable:
-    """Every number of frame, links, `through` of slides and slots; gears of links; a point that is the output."""
+    """Numbers of frame, links, lines of slides and slots; rollers and profiles of cams; gears; the output's point."""
     structure = design.structure
     sizes = {
         key: (Shift(body, _elements(structure, mechanism, body, point), way),)
@@ -37,8 +37,14 @@ def errors(design: PlanarMechanism, mechanism: Mechanism) -> Movable:
         for name, joint in group.items():
             kind, body = "slides" if group is structure.slides else "slots", structure.names[joint.line.body]
             sizes |= {f"{kind}.{name}.through[{k}]": (Shift(body, (name,), way),) for k, way in enumerate(_AXES)}
+    profiles = {f"cams.{name}.profile": 0.0 for name in structure.cams}
+    for name, cam in structure.cams.items():
+        outwards = (Shift(structure.names[cam.cam], (name,), 1.0, "normal"),)
+        sizes[f"cams.{name}.profile"] = outwards
+        if cam.given.face is None:
+            sizes[f"cams.{name}.roller_radius"] = outwards
     gears = {name: gear for mesh in structure.spec.meshes for name, gear in _gears(structure, mesh)}
-    return Movable(sizes, gears=gears, own=_own(design))
+    return Movable(sizes, others=profiles, gears=gears, own=_own(design))
 
 
 def _sizes(structure: Structure) -> Iterator[tuple[str, str, str, complex]]:
@@ -62,7 +68,8 @@ def _elements(structure: Structure, mechanism: Mechanism, body: str, point: str)
         for name, joint in group.items()
         if joint.line.other == number and abs(joint.line.point - place) <= 1e-9 * structure.size
     ]
-    return (*elements_at(mechanism, body, place), *lines)
+    cams = (name for name, cam in structure.cams.items() if (cam.follower, cam.point) == (number, place))
+    return (*elements_at(mechanism, body, place), *lines, *cams)
 
 
 def _gears(structure: Structure, name: str) -> Iterator[tuple[str, Turned]]:

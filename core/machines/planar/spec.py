@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
     AcuteAngle,
+    Assembly,
     Deferred,
     Entries,
     Length,
@@ -19,6 +20,7 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
 )
+from gearlink.core.parts.cams.motion_spec import FollowerMotion, require_closed
 
 FRAME = "frame"
 MOST_LINKS = 40
@@ -39,6 +41,7 @@ Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"
 Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 Bar = Annotated[list[Name | Length], Field(min_length=3, max_length=3), Entries("[first point, second point, length]")]
+SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 Points = Annotated[dict[Name, Vector], Field(min_length=1, max_length=100)]
 
 
@@ -119,6 +122,33 @@ def _require_gears(teeth: list[int]) -> None:
         _refuse("teeth", "a ring gear needs more teeth than the gear in it: change one of the two")
 
 
+class CamPair(Spec):
+    """A cam on a link, and the follower that it moves by a law; the start position is that of lift 0."""
+
+    cam: Name = Field(description="the link that carries the cam; it turns on `on`")
+    follower: Name = Field(description="the link that the cam moves; it turns or slides on `on`")
+    point: Name = Field(description="of the follower: centre of its roller, or a point of its flat face")
+    motion: FollowerMotion = Field(
+        description="lift over the turn of the cam, away from the cam; of a follower that turns in deg"
+    )
+    roller_radius: Length | None = Field(None, description="radius of the roller")
+    face: Direction | None = Field(
+        None, description="of a flat face in place of a roller: its direction in coordinates of the follower"
+    )
+    phase: Direction = Field(0.0, description="cam angle in the start position")
+    sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise against `on`; -1: clockwise")
+    on: Name | None = Field(None, description="body that carries both; left out: the first that does")
+
+    @model_validator(mode="after")
+    def _one_contact(self) -> CamPair:
+        if (self.roller_radius is None) == (self.face is None):
+            words = "give roller_radius, or face in its place"
+            code = "GL106" if self.face is None else "GL111"
+            raise PydanticCustomError(code, "{message}", {"key": "roller_radius", "message": words})
+        require_closed(self.motion, 0.0)
+        return self
+
+
 class Drive(Spec):
     """What is driven: a link that turns, or a slide."""
 
@@ -159,13 +189,16 @@ class PlanarLimits(LoadLimits):
 
     transmission_angle: AcuteAngle = Field(40.0, description="minimum transmission angle of a dyad")
     gear_gap: SignedLength = Field(0.0, description="minimum gap between gears that do not mesh")
+    pressure_angle: SteepAngle | None = Field(
+        None, description="maximum pressure angle of cams; 30 for followers that slide, 45 for those that turn"
+    )
     least_shaft: Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})] | None = Field(
         None, description="minimum radius for a shaft where none is given; default: one module"
     )
 
 
 class PlanarSpec(TolerancedSpec):
-    """Links with points, joined by pins, slides, slots and teeth, that one or more drives move."""
+    """Links with points, joined by pins, slides, slots, teeth and cams, that one or more drives move."""
 
     kind: Literal["planar-mechanism"]
     frame: Points = Field(description="points of the frame")
@@ -178,11 +211,14 @@ class PlanarSpec(TolerancedSpec):
     meshes: Annotated[dict[Name, Teeth], Field(max_length=MOST_LINKS)] = Field(
         {}, description="gears in mesh, and racks, by name"
     )
+    cams: Annotated[dict[Name, CamPair], Field(max_length=MOST_LINKS)] = Field(
+        {}, description="cams and their followers by name"
+    )
     drive: Drive
     start: Annotated[dict[Name, Place], Field(max_length=2 * MOST_LINKS)] = Field(
         {},
-        description="directions of the links [deg] and positions of slides [mm] at input 0: exact of what is driven or "
-        "tied by a mesh, rough of all others, where they choose the assembly",
+        description="directions of the links [deg] and places of slides [mm] at input 0: exact of what is driven or "
+        "tied by a mesh, of followers of cams at lift 0, rough of all others, where they choose the assembly",
     )
     range: Range | None = Field(None, description="inputs, where the input swings; default: it turns")
     outputs: Annotated[list[Name], Field(min_length=1, max_length=100)] | None = Field(

@@ -13,9 +13,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.planar.wiring import FRAME, carrier_of, tied
+from gearlink.core.machines.planar.wiring import FRAME, bearer_of, carrier_of, tied
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.planar.cams import CamJoint
     from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
 
 
@@ -115,10 +116,15 @@ class Structure:
 
     @cached_property
     def size(self) -> float:
-        """L, the maximum distance of a point of a link from its origin, or of two points of the frame [mm]."""
+        """L, the maximum distance of a point of a link from its origin, or of two points of the frame, or of a slide's
+        start from the frame's origin [mm].
+        """
         links = [abs(place) for name, body in self.bodies.items() if name != FRAME for place in body.values()]
         frame = [abs(one - other) for one in self.bodies[FRAME].values() for other in self.bodies[FRAME].values()]
-        return max(links) or max(frame) or 1.0
+        slides = [
+            abs(complex(*each.through)) + abs(self.spec.start.get(name, 0.0)) for name, each in self.spec.slides.items()
+        ]
+        return max(links) or max(frame) or max(slides, default=0.0) or 1.0
 
     @cached_property
     def largest(self) -> float:
@@ -220,6 +226,21 @@ class Structure:
         )
 
     @cached_property
+    def cams(self) -> dict[str, CamJoint]:
+        """The cams with their followers.
+
+        Raises
+            NoSolution - where a cam cannot be, at its key
+        """
+        if not self.spec.cams:
+            return {}
+        from gearlink.core.machines.planar.cams import CamJoint
+
+        return {
+            name: CamJoint(self, name, bearer_of(self.spec, each) or FRAME) for name, each in self.spec.cams.items()
+        }
+
+    @cached_property
     def drives(self) -> tuple[Driven, ...]:
         """The drives, the input's own first."""
         given: Mapping[str, float] = {self.spec.drive.main: 1.0, **self.spec.drive.others}
@@ -230,13 +251,13 @@ class Structure:
 
     @cached_property
     def tied(self) -> dict[str, str]:
-        """By mesh, the link or slide whose start it makes exact."""
+        """By cam and mesh, the link or slide whose start it makes exact."""
         return tied(self.spec)
 
     @property
     def freedoms(self) -> int:
-        """Gruebler's degrees of freedom, 3 n - 2 pins - 2 slides - slots - meshes."""
-        taken = 2 * len(self.pins) + 2 * len(self.slides) + len(self.slots) + len(self.meshes)
+        """Gruebler's degrees of freedom, 3 n - 2 pins - 2 slides - slots - meshes - cams."""
+        taken = 2 * len(self.pins) + 2 * len(self.slides) + len(self.slots) + len(self.meshes) + len(self.spec.cams)
         return 3 * (len(self.bodies) - 1) - taken
 
     def start_of(self, name: str) -> float | None:

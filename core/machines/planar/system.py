@@ -1,8 +1,8 @@
 """The equations of a planar mechanism, their matrix, and their Taylor coefficients along a motion, row by row.
 
 Unknown are origin x_k and direction t_k of every link. All equations are of two sorts: pins, and rows that add up a
-coordinate along or across a line, a weighted sum of directions, a constant and a share of the input. Lengths are in
-units of `size`, so that directions and places weigh alike.
+coordinate along or across a line, a weighted sum of directions, the lift of a cam, a constant and a share of the input.
+Lengths are in units of `size`, so that directions and places weigh alike.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +19,15 @@ from gearlink.core.machines.planar.structure import GearJoint, Line, LineJoint, 
 from gearlink.core.mechanism.blocks import Block, blocks
 from gearlink.core.numerics.arrays import Points, Reals
 
+if TYPE_CHECKING:
+    from gearlink.core.machines.planar.cams import CamJoint, Lift
+
 _STRUCTURAL = 1e-12
 _SKEW = 0.7  # rad, by which lines are turned where the structure is looked at: those along an axis are no other
 
 
 class Row(NamedTuple):
-    """factor Re or Im(z) of a line + sum of directions by body - constant - rate q = 0."""
+    """factor Re or Im(z) of a line + sum of directions by body - lift - constant - rate q = 0."""
 
     line: Line | None
     across: bool = False
@@ -32,6 +35,7 @@ class Row(NamedTuple):
     turns: Mapping[int, float] = {}
     constant: float = 0.0
     rate: float = 0.0
+    lift: Lift | None = None
 
 
 @dataclass
@@ -40,11 +44,13 @@ class Jets:
 
     Fields
         x, t, e : lists of (N, bodies) arrays - origins, directions, e^(i t)
+        side : +1 or -1 - of inputs at which a law changes, the one just after or just before
     """
 
     x: list[Points]
     t: list[Reals]
     e: list[Points] = field(default_factory=list)
+    side: int = 1
 
     def __post_init__(self) -> None:
         while len(self.e) < len(self.t):
@@ -76,7 +82,7 @@ class Jets:
 
     def and_next(self, x: Points, t: Reals) -> Jets:
         """With one more order."""
-        return Jets([*self.x, x], [*self.t, t], list(self.e))
+        return Jets([*self.x, x], [*self.t, t], list(self.e), self.side)
 
 
 def _unit(t: Sequence[Reals], e: Sequence[Points]) -> Points:
@@ -138,6 +144,8 @@ class System:
                 total += row.factor * (seen.imag if row.across else seen.real)
             for body, share in row.turns.items():
                 total += share * jets.t[k][:, body]
+            if row.lift is not None:
+                total -= row.lift.coefficient(jets, k)
             if k == 0:
                 total -= row.constant + row.rate * q
             elif k == 1:
@@ -162,6 +170,10 @@ class System:
                 self._add_line(found[:, i], row, row.line, jets)
             for body, share in row.turns.items():
                 found[:, i, 3 * body + 2] += share
+            if row.lift is not None:
+                slope = row.lift.slope(jets)
+                for body, share in row.lift.turns.items():
+                    found[:, i, 3 * body + 2] -= share * slope
         return found[:, :, 3:]
 
     @staticmethod
@@ -182,10 +194,7 @@ class System:
         x = rng.normal(size=(3, self.bodies)) + 1j * rng.normal(size=(3, self.bodies))
         t = rng.normal(size=(3, self.bodies))
         x[:, 0], t[:, 0] = 0.0, 0.0
-        rows = (
-            row if row.line is None else row._replace(line=row.line._replace(direction=row.line.direction + _SKEW))
-            for row in self.rows
-        )
+        rows = (_skewed(row) for row in self.rows)
         skew = System(self.bodies, self.pins, tuple(rows))
         return np.asarray(np.abs(skew.matrix(Jets([x], [t]))).max(axis=0) > _STRUCTURAL)
 
@@ -233,6 +242,8 @@ class System:
              first[0] * turn[a] ** 2 + first[1] * turn[b] ** 2]  # fmt: skip
         squares, fastest = [float(np.sum(each * each)) for each in k], 0.0
         for row in self.rows:
+            if row.lift is not None:
+                squares = [total + part * part for total, part in zip(squares, row.lift.bounds(jets), strict=True)]
             if row.line is None:
                 continue
             parts, moved = _line_bounds(row.line, jets)
@@ -240,6 +251,15 @@ class System:
             squares = [total + part * part for total, part in zip(squares, parts, strict=True)]
         k_size, k_rate, m_size = (total**0.5 for total in squares)
         return k_size, k_rate, m_size, fastest
+
+
+def _skewed(row: Row) -> Row:
+    """A row whose parts all show in the pattern: no line along an axis, no law at a standstill."""
+    if row.line is not None:
+        row = row._replace(line=row.line._replace(direction=row.line.direction + _SKEW))
+    if row.lift is not None:
+        row = row._replace(lift=None, turns={**row.lift.turns, **row.turns})
+    return row
 
 
 def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
@@ -334,6 +354,14 @@ def mesh_row(mesh: GearJoint | RackJoint, size: float, constant: float = 0.0) ->
     one, other = (radius / size for radius in mesh.radii)
     turns = _weights((mesh.first, one), (mesh.second, other), (mesh.carrier, -one - other))
     return Row(None, turns=turns, constant=constant)
+
+
+def cam_row(cam: CamJoint, size: float, phase: float, constant: float = 0.0) -> Row:
+    """The row of a cam: direction of its follower against the carrier, or place of its slide, less the lift."""
+    lift = cam.lift(size, phase)
+    if cam.slide is not None:
+        return Row(scaled(cam.slide.line, size), constant=constant, lift=lift)
+    return Row(None, turns=_weights((cam.follower, 1.0), (cam.carrier, -1.0)), constant=constant, lift=lift)
 
 
 def driven_row(body: int, slide: LineJoint | None, size: float, start: float, rate: float = 0.0) -> Row:

@@ -103,6 +103,30 @@ def slides(design: PlanarMechanism, samples: int | None = None) -> Table:
     return _made(design, "slides", shown, samples)
 
 
+def cams(design: PlanarMechanism, samples: int | None = None) -> Table:
+    """The profile of every cam about its axis, as it stands in the start position less its phase."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+    from gearlink.core.parts.cams.flat_cam import FlatCam
+
+    degrees = turn_degrees(samples)
+    phi = np.radians(degrees)
+    columns: dict[str, tuple[Any, str]] = {"cam_angle": (degrees, "deg")}
+    for name, cam in design.structure.cams.items():
+        found = cam.profile
+        flat = isinstance(found, FlatCam)
+        points = found.points(phi)[0 if flat else 1]
+        radius = found.touch(phi).radius if isinstance(found, FlatCam) else found.at(phi).curvature_radius
+        columns |= {
+            f"{name}_x": (points.real, "mm"),
+            f"{name}_y": (points.imag, "mm"),
+            f"{name}_pressure_angle": (np.degrees(found.pressure_angle(phi)), "deg"),
+            f"{name}_curvature_radius": (radius, "mm"),
+        }
+    return Table.of("cams", columns)
+
+
 def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     """The instant centre of every moving link against the frame; none where it does not turn."""
     from gearlink.core.machines.planar.mechanism import poles as pole

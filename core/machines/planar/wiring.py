@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.planar.spec import PlanarSpec, Teeth
+    from gearlink.core.machines.planar.spec import CamPair, PlanarSpec, Teeth
 
 FRAME = "frame"
 RESERVED = (FRAME, "input", "time")
@@ -23,6 +23,8 @@ def faults(spec: PlanarSpec) -> Iterator[Fault]:
     yield from _slides(spec)
     for name, mesh in spec.meshes.items():
         yield from _mesh(spec, f"meshes.{name}", mesh)
+    for name, cam in spec.cams.items():
+        yield from _cam(spec, f"cams.{name}", cam)
     yield from _drives(spec)
     yield from _starts(spec)
     yield from _outputs(spec)
@@ -41,7 +43,7 @@ def _sizes(spec: PlanarSpec) -> Iterator[Fault]:
 
 def _names(spec: PlanarSpec) -> Iterator[Fault]:
     seen: dict[str, str] = {}
-    for section in ("links", "slides", "slots", "meshes"):
+    for section in ("links", "slides", "slots", "meshes", "cams"):
         for name in getattr(spec, section):
             key = f"{section}.{name}"
             if name in RESERVED:
@@ -50,7 +52,7 @@ def _names(spec: PlanarSpec) -> Iterator[Fault]:
                 yield (
                     "GL111",
                     key,
-                    f"{seen[name]} has this name already: links, slides, slots and meshes need their own",
+                    f"{seen[name]} has this name already: links, slides, slots, meshes and cams need their own",
                 )
             seen[name] = key
 
@@ -148,6 +150,36 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
         yield "GL111", f"{key}.at", "the centres of the gears coincide: move one of them"
 
 
+def _cam(spec: PlanarSpec, key: str, cam: CamPair) -> Iterator[Fault]:
+    for part in ("cam", "follower"):
+        link = getattr(cam, part)
+        if link not in spec.links:
+            yield "GL111", f"{key}.{part}", f"no link is called {named(link)}: {_near(link, spec.links)}"
+    if cam.cam == cam.follower:
+        yield "GL111", f"{key}.follower", "cam and follower are one link: name two"
+    yield from _point(spec, cam.point, cam.follower, f"{key}.point")
+    if cam.on is not None:
+        yield from _body(spec, cam.on, f"{key}.on")
+    if bearer_of(spec, cam) is None:
+        words = f"no body carries {cam.cam} on a pin and {cam.follower} on a pin or slide"
+        yield "GL111", f"{key}.on" if cam.on else key, f"{words}: give both one body that they turn or slide on"
+    own = spec.slid.get(cam.follower, cam.follower)
+    if own in (spec.drive.main, *spec.drive.others):
+        yield "GL111", f"{key}.follower", f"{own} is driven already: the cam needs a link that is free"
+
+
+def bearer_of(spec: PlanarSpec, cam: CamPair) -> str | None:
+    """The body that a cam turns on and its follower turns or slides on: that of the file, or the first that does."""
+    slide = spec.slid.get(cam.follower)
+    for name, points in spec.bodies.items():
+        if name in (cam.cam, cam.follower) or cam.on not in (None, name):
+            continue
+        held = spec.slides[slide].on == name if slide else {*points} & {*spec.bodies[cam.follower]}
+        if held and {*points} & {*spec.bodies[cam.cam]}:
+            return name
+    return None
+
+
 def _drives(spec: PlanarSpec) -> Iterator[Fault]:
     drive = spec.drive
     if drive.link is not None and drive.link not in spec.links:
@@ -189,11 +221,16 @@ def carrier_of(spec: PlanarSpec, mesh: Teeth) -> str | None:
 
 
 def tied(spec: PlanarSpec) -> dict[str, str]:
-    """By mesh, what its start value makes exact: the second link, the first where that is taken, or then the carrier; a
-    slide's place of a link that slides. A mesh of which all are taken is left out.
+    """By cam and mesh, what its start value makes exact: the follower; the second link, the first where that is taken,
+    or then the carrier; a slide's place of a link that slides. One of which all are taken is left out.
     """
     taken = {spec.drive.main, *spec.drive.others}
     found = {}
+    for name, cam in spec.cams.items():
+        own = spec.slid.get(cam.follower, cam.follower)
+        if own not in taken:
+            found[name] = own
+            taken.add(own)
     for name, mesh in spec.meshes.items():
         links = [mesh.pinion, mesh.rack] if mesh.gears is None else [*mesh.gears[::-1], carrier_of(spec, mesh)]
         for link in links:

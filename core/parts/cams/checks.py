@@ -7,7 +7,16 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Status, safely_below, without_noise
+from gearlink.core.base.report import (
+    NO_NUMBER,
+    Check,
+    Rule,
+    Shown,
+    Status,
+    safely_above,
+    safely_below,
+    without_noise,
+)
 from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, LARGER, PRESSURE_ANGLE
 
@@ -40,7 +49,7 @@ def is_steep(value: float, limit: float) -> bool:
     return value > limit * (1.0 + _FIT)
 
 
-def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) -> Iterator[Check]:
+def pressure_angle_checks(cams: Sequence[DiscCam | FlatCam], limit: float, remedy: str) -> Iterator[Check]:
     """GL401 for each cam; `limit` in degrees."""
     for cam in cams:
         worst = cam.max_pressure_angle
@@ -77,6 +86,25 @@ def undercut_checks(
             fix = larger() if larger and most <= 0.0 else f"take a roller of at most {safely_below(most)} mm"
         shown = against_curvature(roller, least.value, status)
         yield CAM_UNDERCUT.check(status, what, share, 1.0, shown=shown, at=at, fix=fix)
+
+
+def flat_undercut_check(cam: FlatCam, limit: float, larger: str) -> Check:
+    """GL402 of the profile under a flat face.
+
+    Parameters
+        limit : float [mm] - curvature radius below which it warns
+        larger : str - the words for a larger cam, with {} for by how much [mm]
+    """
+    least = cam.min_curvature_radius
+    room = 1e-9 * max(limit, abs(least.value))
+    status: Status = "fail" if least.value <= 0.0 else "warn" if least.value < limit - room else "pass"
+    if least.value < 0.0:
+        what, shown = "minimum curvature radius of the profile: it is undercut", NO_NUMBER
+    else:
+        what, shown = "minimum curvature radius of the profile", None
+    at = f"cam angle {short(math.degrees(least.place))} deg"
+    fix = larger.format(safely_above(max(limit, 0.0) - least.value))
+    return CAM_UNDERCUT.check(status, what, least.value, limit, "mm", side=">=", shown=shown, at=at, fix=fix)
 
 
 def against_curvature(roller: float, least: float, status: Status) -> Shown:

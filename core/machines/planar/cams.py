@@ -1,0 +1,353 @@
+"""Cams of a planar mechanism: the law by which each moves its follower, as a term of its equation, and its profile.
+
+The profile is that of the cams of `core.parts.cams`, with the cam's axis at 0 and the body that carries cam and
+follower as its frame; ' is by the cam angle.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above
+from gearlink.core.base.wording import short
+from gearlink.core.machines.planar.wiring import FRAME
+from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.parts.cams import profile
+from gearlink.core.parts.cams.checks import (
+    flat_undercut_check,
+    hub_checks,
+    pressure_angle_checks,
+    step_check,
+    undercut_checks,
+)
+from gearlink.core.parts.cams.codes import ACCELERATION_STEP
+from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
+from gearlink.core.parts.cams.flat_cam import FlatCam, Touch, rocking_face, sliding_face
+from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
+from gearlink.core.parts.cams.profile import RollerPath
+from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from gearlink.core.base.report import Check
+    from gearlink.core.machines.planar.spec import CamPair
+    from gearlink.core.machines.planar.structure import LineJoint, Structure
+    from gearlink.core.machines.planar.system import Jets
+    from gearlink.core.numerics.arrays import Points, Reals
+
+_DEGREE = math.pi / 180.0
+_STEP = 1e-6  # of the greatest velocity: what laws that meet leave
+_SQUARE = 1e-9
+_OUTLINE, _BEYOND = 721, 0.1
+
+
+class Lift(NamedTuple):
+    """share s(phi) in an equation, phi = phase + sum of directions by body.
+
+    Fields
+        bend : float - greatest |s''|
+    """
+
+    motion: FollowerMotion
+    share: float
+    turns: Mapping[int, float]
+    phase: float
+    bend: float
+
+    def angle(self, jets: Jets, k: int) -> Reals:
+        """Taylor coefficient of phi [rad]."""
+        found = np.zeros(jets.t[k].shape[0]) + (self.phase if k == 0 else 0.0)
+        for body, share in self.turns.items():
+            found += share * jets.t[k][:, body]
+        return found
+
+    def coefficient(self, jets: Jets, k: int) -> Reals:
+        """Taylor coefficient of share s(phi), k up to 3.
+
+        Raises
+            AssertionError - for a higher order, which laws do not have
+        """
+        if k > 3:
+            raise AssertionError(f"a law of motion has no derivative of order {k}")
+        s = self.motion.evaluate(self.angle(jets, 0), k, side=jets.side)
+        a = [self.angle(jets, j) for j in range(1, k + 1)]
+        if k == 0:
+            return self.share * s[0]
+        found = s[1] * a[k - 1]
+        if k == 2:
+            found = found + 0.5 * s[2] * a[0] ** 2
+        elif k == 3:
+            found = found + s[2] * a[0] * a[1] + s[3] * a[0] ** 3 / 6.0
+        return self.share * found
+
+    def slope(self, jets: Jets) -> Reals:
+        """Share s'(phi)."""
+        return self.share * self.motion.evaluate(self.angle(jets, 0), 1, side=jets.side)[1]
+
+    def bounds(self, jets: Jets) -> tuple[float, float, float]:
+        """Of the second derivative of the term: by unknowns twice, by unknowns and the input, by the input twice."""
+        steep = abs(self.share) * self.bend
+        rate = abs(float(self.angle(jets, 1)[0]))
+        by_unknowns = math.sqrt(sum(share * share for share in self.turns.values()))
+        return steep * by_unknowns**2, steep * by_unknowns * rate, steep * rate * rate
+
+
+class CamJoint:
+    """A cam with its follower.
+
+    Attributes
+        cam, follower, carrier : int - bodies
+        slide : LineJoint or None - on which the follower runs; None: it turns
+        zero : float [rad or mm] - direction of the follower against the carrier at lift 0, or place of its slide
+        away : +1 or -1 - way of a positive lift in the follower's coordinate
+        point : complex [mm] - roller centre, or a point of the face, in coordinates of the follower
+        axis : complex [mm] - of the cam, in coordinates of the carrier
+    """
+
+    def __init__(self, structure: Structure, name: str, bearer: str) -> None:
+        each: CamPair = structure.spec.cams[name]
+        self.name, self.key, self.given = name, f"cams.{name}", each
+        self.carrier, self.cam, self.follower = (structure.numbers[body] for body in (bearer, each.cam, each.follower))
+        slid = structure.spec.slid.get(each.follower)
+        self.slide: LineJoint | None = structure.slides[slid] if slid else None
+        bodies = structure.bodies
+        self.axis, self._bore = next(
+            (at, bodies[each.cam][pin]) for pin, at in bodies[bearer].items() if pin in bodies[each.cam]
+        )
+        self.point = bodies[each.follower][each.point]
+        self.zero = structure.start_of(slid or each.follower) or 0.0
+        shared = (pin for pin in bodies[bearer] if pin in bodies[each.follower])
+        self._pivot = None if slid else next((bodies[bearer][pin], bodies[each.follower][pin]) for pin in shared)
+        self.sense, self.phase = each.sense, math.radians(each.phase)
+
+    @cached_property
+    def motion(self) -> FollowerMotion:
+        """The lift [mm or rad].
+
+        Raises
+            NoSolution - where its velocity jumps
+        """
+        with at_key(f"{self.key}.motion"):
+            found = motion_of(self.given.motion, unit=1.0 if self.slide else _DEGREE)
+        phi = np.linspace(0.0, 2.0 * math.pi, SAMPLES)
+        fastest = float(np.abs(found.evaluate(phi, 1)[1]).max())
+        place, jump = max(found.steps(1), key=lambda step: abs(step[1]))
+        if abs(jump) > _STEP * fastest:
+            words = f"the velocity of the lift jumps at cam angle {place}, which no mechanism follows"
+            raise NoSolution(words, key=f"{self.key}.motion", fix="let the laws at the joint have one velocity")
+        return found
+
+    def lift(self, size: float, phase: float) -> Lift:
+        """The term of its equation, lengths in units of size; `phase` is the cam angle less its directions."""
+        share = self.away / (size if self.slide else 1.0)
+        turns = {self.cam: float(self.sense)} | ({self.carrier: -float(self.sense)} if self.carrier else {})
+        return Lift(self.motion, share, turns, phase, self.bend)
+
+    @cached_property
+    def bend(self) -> float:
+        """Greatest magnitude of the second derivative of the lift [mm or rad]."""
+        motion = self.motion
+        return maximum_over(lambda phi: np.abs(motion.evaluate(phi, 2)[2]), joints=motion.joints, samples=SAMPLES).value
+
+    # The profile, in the carrier's coordinates about the cam's axis
+
+    @cached_property
+    def _ahead(self) -> complex:
+        """Unit vector of the follower's x axis at lift 0, in coordinates of the carrier."""
+        if self.slide is None:
+            return cmath.exp(1j * self.zero)
+        return cmath.exp(1j * (self.slide.line.direction + (self.slide.lean or 0.0)))
+
+    @cached_property
+    def _start(self) -> complex:
+        """The roller's centre, or the point of the face, at lift 0 [mm]."""
+        if self._pivot is not None:
+            at, own = self._pivot
+            return at - self.axis + (self.point - own) * self._ahead
+        assert self.slide is not None
+        line = self.slide.line
+        at = line.through + self.zero * cmath.exp(1j * line.direction)
+        return at - self.axis + (self.point - line.point) * self._ahead
+
+    @cached_property
+    def away(self) -> float:
+        """+1 or -1: positive lifts move away from the cam's axis.
+
+        Raises
+            NoSolution - where none of both ways does
+        """
+        if self.slide is not None:
+            reach = (self._start * cmath.exp(-1j * self.slide.line.direction)).real
+        else:
+            assert self._pivot is not None
+            pivot = self._pivot[0] - self.axis
+            toward = self._start if self.given.face is None else self._face(pivot)[0]
+            reach = -(pivot.conjugate() * toward).imag
+        if reach == 0.0:
+            what = f"in the start position {self.given.point} does not move away from the axis of the cam"
+            raise NoSolution(what, key=self.key, fix=f"change start.{self.given.follower}")
+        return math.copysign(1.0, reach)
+
+    def _face(self, pivot: complex) -> tuple[complex, float]:
+        """Direction of a rocking face at lift 0 from its pivot to the cam's side, and angle to the axis there [rad]."""
+        along = self._ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
+        if (along.conjugate() * -pivot).real < 0.0:
+            along = -along
+        return along, math.remainder(cmath.phase(-pivot) - cmath.phase(along), 2.0 * math.pi)
+
+    @cached_property
+    def profile(self) -> DiscCam | FlatCam:
+        """The cam.
+
+        Raises
+            NoSolution - where it cannot be
+        """
+        title, joints = f"cam {self.name}", self.motion.joints
+        if self.given.face is not None:
+            return FlatCam(title, self._touch(), self.sense, joints)
+        radius = self.given.roller_radius or 0.0
+        if abs(self._start) <= radius:
+            what = f"prime radius {short(abs(self._start))} mm is not above roller_radius {short(radius)} mm"
+            raise NoSolution(what, key=f"{self.key}.roller_radius", fix="take a smaller roller, or move the follower")
+        return DiscCam(title, self._path(), self.sense, radius, joints, self.key)
+
+    def _path(self) -> Callable[[Reals, int], RollerPath]:
+        motion, away, start = self.motion, self.away, self._start
+        if self.slide is not None:
+            u = away * cmath.exp(1j * self.slide.line.direction)
+            seen = start * u.conjugate()
+
+            def slid(phi: Reals, order: int) -> RollerPath:
+                s, *rates = motion.evaluate(phi, max(order, 1))
+                return profile.translating(seen.real + s, *rates[:2], direction=u, offset=-seen.imag)
+
+            return slid
+        assert self._pivot is not None
+        pivot = self._pivot[0] - self.axis
+        arm, first = abs(start - pivot), cmath.phase(start - pivot)
+
+        def turned(phi: Reals, order: int) -> RollerPath:
+            s, *rates = motion.evaluate(phi, max(order, 1))
+            return profile.oscillating(pivot, arm, first + away * s, *(away * rate for rate in rates[:2]))
+
+        return turned
+
+    def _touch(self) -> Callable[[Reals], Touch]:
+        if self.slide is not None:
+            u = self.away * cmath.exp(1j * self.slide.line.direction)
+            along = self._ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
+            if abs((u.conjugate() * along).real) > _SQUARE:
+                what, square = (
+                    "a flat face stands square to the slide of its follower",
+                    cmath.phase(1j * u / self._ahead),
+                )
+                raise NoSolution(what, key=f"{self.key}.face", fix=f"set {self.key}.face to {math.degrees(square):.6g}")
+            base = (u.conjugate() * self._start).real
+            return sliding_face(self.motion, base, u, self.sense)
+        assert self._pivot is not None
+        pivot = self._pivot[0] - self.axis
+        along, angle = self._face(pivot)
+        side = -int(self.away)
+        normal = -1j * side * along
+        offset = (normal.conjugate() * (self._start - pivot)).real
+        if offset + abs(pivot) * math.sin(abs(angle)) <= 0.0:
+            what = "the face leaves no base circle at lift 0, the axis of the cam lies beyond it"
+            raise NoSolution(what, key=self.key, fix=f"change start.{self.given.follower}")
+        return rocking_face(self.motion, abs(angle), abs(pivot), cmath.phase(pivot), offset, side, self.sense)
+
+    @property
+    def start_radius(self) -> float:
+        """Axis of the cam to the roller's centre, of a face to the surface, at lift 0 [mm]."""
+        if self.given.face is None:
+            return abs(self._start)
+        found = self.profile
+        assert isinstance(found, FlatCam)
+        touch = found.touch(np.zeros(1))
+        return float((np.conj(touch.normal) * touch.point).real[0])
+
+    def contact(self, phi: Reals) -> tuple[Points | None, Points, Reals | float]:
+        """Where a face touches (of a roller None: its centre), normal into the follower, pitch curvature."""
+        found = self.profile
+        if isinstance(found, FlatCam):
+            touch = found.touch(phi)
+            return touch.point + self.axis, touch.normal, 0.0
+        return None, found.normals(phi), found.curvature(phi)
+
+    def shapes(self, phase: float) -> tuple[Points, Points]:
+        """The profile in coordinates of the cam's link, and roller or face in those of the follower [mm].
+
+        Parameters
+            phase : float [rad] - cam angle at direction 0 of the cam's link against the carrier
+        """
+        phi = np.linspace(0.0, 2.0 * math.pi, _OUTLINE)
+        found = self.profile
+        turned = cmath.exp(1j * self.sense * phase)
+        if not isinstance(found, FlatCam):
+            roller = self.point + found.roller_radius * np.exp(1j * phi[::8])
+            return self._bore + turned * found.points(phi)[1], roller
+        along = cmath.exp(1j * math.radians(self.given.face or 0.0))
+        reach = (along.conjugate() * (self._seen(found.touch(phi).point, phi) - self.point)).real
+        low, high = float(reach.min()), float(reach.max())
+        ends = np.array([low, high]) + _BEYOND * (high - low) * np.array([-1.0, 1.0])
+        return self._bore + turned * found.points(phi)[0], self.point + along * ends
+
+    def _seen(self, place: Points, phi: Reals) -> Points:
+        """Places about the cam's axis, in coordinates of the follower at these cam angles."""
+        s, start = self.away * self.motion.evaluate(phi, 0)[0], self._start
+        if self.slide is not None:
+            way = s * cmath.exp(1j * self.slide.line.direction)
+            return np.asarray(self.point + (place - start - way) * self._ahead.conjugate())
+        assert self._pivot is not None
+        at, own = self._pivot
+        return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self._ahead.conjugate())
+
+
+# Checks
+
+_LARGER = "set the follower farther from the cam, or give its motion more cam angle"
+_USUAL = {True: 30.0, False: 45.0}
+"""Greatest pressure angle of a follower that slides, and of one that turns [deg]."""
+
+
+def pressure_checks(structure: Structure) -> Iterator[Check]:
+    """GL401 of every cam."""
+    given = structure.spec.limits.pressure_angle
+    for cam in structure.cams.values():
+        yield from pressure_angle_checks([cam.profile], given or _USUAL[cam.slide is not None], _LARGER)
+
+
+def undercuts(structure: Structure) -> Iterator[Check]:
+    """GL402 of every cam."""
+    for cam in structure.cams.values():
+        found = cam.profile
+        if isinstance(found, FlatCam):
+            yield flat_undercut_check(found, 0.0, f"set the follower of {cam.name} farther from the cam by {{}} mm")
+        else:
+            yield from undercut_checks([found], plainly=_LARGER)
+
+
+def step_checks(structure: Structure) -> Iterator[Check]:
+    """GL404 of every cam."""
+    for name, cam in structure.cams.items():
+        unit = "mm/rad^2" if cam.slide is not None else "1/rad"
+        steps = [(f"{place} of cam {name}", jump) for place, jump in cam.motion.steps(2)]
+        yield step_check(ACCELERATION_STEP, steps, cam.bend, unit, "warn", "take laws that end without acceleration")
+
+
+def shaft_checks(structure: Structure) -> Iterator[Check]:
+    """GL302 of every cam against its own shaft."""
+    for name, cam in structure.cams.items():
+        pins = (pin for pin, at in structure.bodies[FRAME].items() if cam.carrier == 0 and at == cam.axis)
+        shaft = max((structure.spec.shafts.get(f"{pin}_radius", 0.0) for pin in pins), default=0.0)
+        fix = f"set the follower of {name} farther from the cam"
+        yield from hub_checks(
+            SHAFT_CLEARANCE, [cam.profile], shaft, lambda by, fix=fix: f"{fix} by {safely_above(by)} mm"
+        )  # type: ignore[misc]
