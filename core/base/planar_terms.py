@@ -5,7 +5,9 @@ from __future__ import annotations
 from gearlink.core.base.term import Term
 
 PLANAR: dict[str, Term] = {
-    "degrees_of_freedom": Term("F", "1", "degrees of freedom, 3 n - 2 (pins + slides) - slots - meshes - cams", "Gruebler"),
+    "degrees_of_freedom": Term(
+        "F", "1", "degrees of freedom, 3 n - 2 (pins + slides) - slots - meshes - cams", "Gruebler"
+    ),
     "grashof": Term("", "1", "class of the four-bars of the driven link by Grashof's rule", "VDI 2145"),
     "free_range": Term("", "deg", "inputs from dead centre to dead centre, between which the range lies"),
     "closure_error": Term("", "mm", "maximum gap of a joint over the rows"),

@@ -5,11 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.spec import ROLLER_SHARE, OscillatingFlat, OscillatingRoller, TranslatingRoller
 from gearlink.core.numerics.arrays import Reals
@@ -22,7 +24,7 @@ from gearlink.core.parts.cams.profile import RollerPath
 from gearlink.core.parts.cams.size import RockingRoller, smallest_cam_of_rollers
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.disc_cam.spec import CamBody, DiscCamSpec
+    from gearlink.core.machines.disc_cam.spec import CamBody, DiscCamSpec, ReturnRoller
 
 DEGREE = math.pi / 180.0
 _WIDEST = 50.0  # of the arm and the distance of a rocker: how far a search of its base radius goes
@@ -81,14 +83,24 @@ class FollowerCams:
         rise, back = given if isinstance(given, list) else (given, given) if given else self.spec.pressure_limits()
         return math.radians(rise), math.radians(back), math.radians(max(rise, back))
 
-    @property
-    def _least_radius(self) -> float:
-        """Curvature radius that a size keeps [mm]."""
+    def _least_radius(self, roller_radius: float | None = None) -> float:
+        """Curvature radius that a size keeps under a roller, the follower's own by default [mm]."""
         size = self.spec.cam.size
         assert size is not None, "needed with a size alone"
         if size.curvature_radius is not None:
             return size.curvature_radius
-        return float(self.follower.roller_radius) / ROLLER_SHARE
+        return (self.follower.roller_radius if roller_radius is None else roller_radius) / ROLLER_SHARE
+
+    @cached_property
+    def _returning(self) -> FollowerMotion:
+        """The motion as a return roller has it that stands on the other side of the cam axis: its negative."""
+        return self.motion.negative()
+
+    @property
+    def _limits_of_return(self) -> tuple[float, float, float]:
+        """The limits by the strokes of that motion: its rise is the follower's return."""
+        rise, back, dwell = self.limits
+        return back, rise, dwell
 
     # Where cam and follower stand
 
@@ -112,7 +124,7 @@ class FollowerCams:
     def _sliding_place(self) -> Place:
         follower, cam = self.follower, self.spec.cam
         if not isinstance(follower, TranslatingRoller):
-            radius = cam.base_radius or least_cam.flat_base_radius(self.motion, self._least_radius)
+            radius = cam.base_radius or least_cam.flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
                 message = f"the minimum base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
                 raise NoSolution(message, key="cam.size")
@@ -120,13 +132,39 @@ class FollowerCams:
         if cam.prime_radius is not None:
             return Place(cam.prime_radius, float(follower.offset))
         lines = least_cam.wedge(self.motion, self.limits, self.sense)
-        offset = least_cam.nearest(lines).offset if follower.offset == "best" else float(follower.offset)
-        height = least_cam.height_at(lines, offset)
-        height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius, offset, self.sense))
+        roller, whole = self.spec.return_roller, sum(self.lifts)
+        back: list[least_cam.Line] = []
+        if (
+            roller is not None
+        ):  # its own height is L - y0, by default y0 + the sum of both lifts; its offset counts back
+            found = least_cam.wedge(self._returning, self._limits_of_return, self.sense)
+            back = [least_cam.Line(line.height - whole, -line.slope) for line in found]
+        equal = roller is not None and roller.distance is None
+        both = [*lines, *back] if equal else lines
+        offset = least_cam.nearest(both).offset if follower.offset == "best" else float(follower.offset)
+        height = least_cam.height_at(both, offset)
+        height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius(), offset, self.sense))
+        if roller is not None:
+            least = self._least_radius(roller.radius)
+            curved = least_cam.height_for_curvature(self._returning, least, -offset, self.sense) - whole
+            if equal:
+                height = max(height, curved)
+            else:
+                self._require_distance(height + max(curved, least_cam.height_at(back, offset)) + whole)
         if height + self.lifts[0] <= 0.0:
             message = "these limits require no cam, the motion being so slow"
             raise NoSolution(message, key="cam.size", fix="give cam.prime_radius")
         return Place(math.hypot(offset, height), offset)
+
+    def _require_distance(self, least: float) -> None:
+        """Refuse rollers of a slide that stand too near to each other for the limits of the return cam."""
+        roller = self.spec.return_roller
+        assert roller is not None
+        assert roller.distance is not None
+        if roller.distance < least * (1.0 - 1e-12):
+            message = f"at a roller distance of {roller.distance:.6g} mm the return cam does not keep cam.size"
+            fix = f"raise return_roller.distance to {safely_above(least)} mm, or leave it out"
+            raise NoSolution(message, key="return_roller.distance", fix=fix)
 
     def _rocking_place(self) -> Place:
         follower, cam = self.follower, self.spec.cam
@@ -139,7 +177,20 @@ class FollowerCams:
             return self._triangle(follower.arm, follower.center_distance, cam.prime_radius)
         rocker = least_cam.Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
         low, high = rocker.start_angles(self.limits)
-        start = least_cam.first_from_which(lambda psi: self._room(psi, follower.center_distance), low, high, "cam.size")
+        roller = self.spec.return_roller
+        if roller is not None:
+            least, most = self._angles_of_return(roller, follower.center_distance)
+            low, high = max(low, least), min(high, most)
+            if low > high:
+                message = "no start angle keeps the pressure angle of both rollers"
+                raise NoSolution(message, key="cam.size", fix="raise the limit, or change return_roller.angle")
+        start = least_cam.first_from_which(
+            lambda psi: self._room(psi, follower.center_distance),
+            low,
+            high,
+            "cam.size",
+            steps=1 if roller is None else 32,
+        )
         return Place(rocker.prime_radius(start), 0.0, follower.center_distance, start)
 
     def _triangle(self, arm: float, distance: float, radius: float) -> Place:
@@ -153,24 +204,48 @@ class FollowerCams:
             )
         return Place(radius, 0.0, distance, math.acos(share))
 
+    def _angles_of_return(self, roller: ReturnRoller, distance: float) -> tuple[float, float]:
+        """Minimum and maximum start angle of the first roller that keep the pressure angle of the second [rad].
+
+        Its angle Psi is that of the first less side angle; where this is negative it stands on the other side of the
+        line to the cam axis, and its angle falls as the lift rises.
+        """
+        side, arm = self.follower.side, roller.arm or 0.0
+        ahead = side * math.remainder(math.radians(roller.angle or 0.0), 2.0 * math.pi)
+        if ahead > 0.0:
+            other = least_cam.Rocking(self._returning, arm, distance, self.sense, -side)
+            low, high = other.start_angles(self._limits_of_return)
+            return ahead - high, ahead - low
+        low, high = least_cam.Rocking(self.motion, arm, distance, self.sense, side).start_angles(self.limits)
+        return low + ahead, high + ahead
+
     def _room(self, start: float, distance: float | None) -> float:
-        """Minimum convex curvature radius less the required angle for [mm], of a start angle."""
+        """Minimum convex curvature radius less what is asked for [mm], of a start angle; the lesser of two rollers."""
         assert distance is not None
-        cam = DiscCam(
-            "main cam", self._rocking_path(Place(0.0, 0.0, distance, start)), self.sense, 0.0, self.motion.joints
+        place, roller = Place(0.0, 0.0, distance, start), self.spec.return_roller
+        found = [(self._rocking_path(place), self._least_radius())]
+        if roller is not None:
+            path = self._rocking_path(place, roller.arm or 0.0, math.radians(roller.angle or 0.0))
+            found.append((path, self._least_radius(roller.radius)))
+        return min(
+            DiscCam("cam", path, self.sense, 0.0, self.motion.joints).min_curvature_radius.value - least
+            for path, least in found
         )
-        return cam.min_curvature_radius.value - self._least_radius
 
     def _found_pivot(self, follower: OscillatingRoller) -> Place:
         """The pivot of the smallest cam, all limits of the pressure angle taken as the lesser of the strokes'."""
 
-        def law(phi: Reals) -> tuple[Reals, Reals]:
+        def law(phi: Reals, ahead: float = 0.0) -> tuple[Reals, Reals]:
             s, s1 = self.motion.evaluate(phi, 1)
-            return -follower.side * s, -follower.side * s1
+            return ahead - follower.side * s, -follower.side * s1
 
-        roller = RockingRoller(law, 0j, follower.arm, follower.side)
+        rollers, given = [RockingRoller(law, 0j, follower.arm, follower.side)], self.spec.return_roller
+        if given is not None:
+            ahead = math.remainder(math.radians(given.angle or 0.0), 2.0 * math.pi)
+            side = -follower.side if follower.side * ahead > 0.0 else follower.side
+            rollers.append(RockingRoller(partial(law, ahead=ahead), 0j, given.arm or 0.0, side))
         with at_key("cam.size"):
-            center = smallest_cam_of_rollers([roller], min(self.limits), sense=self.sense, joints=self.motion.joints)
+            center = smallest_cam_of_rollers(rollers, min(self.limits), sense=self.sense, joints=self.motion.joints)
         at_zero = follower.arm * 1.0 + 0j
 
         def placed(share: float) -> Place:
@@ -203,7 +278,8 @@ class FollowerCams:
 
     def _face_room(self, start: float, follower: OscillatingFlat) -> float:
         return (
-            self._flat(Place(0.0, 0.0, follower.center_distance, start)).min_curvature_radius.value - self._least_radius
+            self._flat(Place(0.0, 0.0, follower.center_distance, start)).min_curvature_radius.value
+            - self._least_radius()
         )
 
     # The cams

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
 
 _DEGREE = math.pi / 180.0
-_STEP = 1e-6  # of the greatest velocity: what laws that meet leave
+_STEP = 1e-6  # of the maximum velocity: what laws that meet leave
 _SQUARE = 1e-9
 _OUTLINE, _BEYOND = 721, 0.1
 
@@ -53,7 +53,7 @@ class Lift(NamedTuple):
     """share s(phi) in an equation, phi = phase + sum of directions by body.
 
     Fields
-        bend : float - greatest |s''|
+        bend : float - maximum |s''|
     """
 
     motion: FollowerMotion
@@ -153,7 +153,7 @@ class CamJoint:
 
     @cached_property
     def bend(self) -> float:
-        """Greatest magnitude of the second derivative of the lift [mm or rad]."""
+        """Maximum magnitude of the second derivative of the lift [mm or rad]."""
         motion = self.motion
         return maximum_over(lambda phi: np.abs(motion.evaluate(phi, 2)[2]), joints=motion.joints, samples=SAMPLES).value
 
@@ -314,7 +314,7 @@ class CamJoint:
 
 _LARGER = "set the follower farther from the cam, or give its motion more cam angle"
 _USUAL = {True: 30.0, False: 45.0}
-"""Greatest pressure angle of a follower that slides, and of one that turns [deg]."""
+"""Maximum pressure angle of a follower that slides, and of one that turns [deg]."""
 
 
 def pressure_checks(structure: Structure) -> Iterator[Check]:

@@ -150,6 +150,20 @@ class FollowerMotion:
                 into[inside] = values
         return found
 
+    def negative(self) -> FollowerMotion:
+        """The motion with the sign of every lift changed."""
+        turned = [
+            replace(
+                piece,
+                low=-piece.low,
+                high=-piece.high,
+                coefficients=tuple(-each for each in piece.coefficients),
+                ends=tuple((-v, -a) for v, a in piece.ends),  # type: ignore[arg-type]
+            )
+            for piece in self.pieces
+        ]
+        return FollowerMotion(turned)
+
     def numbers(self, phi: Reals) -> Reals:
         """Number of the segment, from 1, at cam angles."""
         index = np.searchsorted(self._starts, np.mod(phi, TURN), side="right") - 1

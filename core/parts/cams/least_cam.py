@@ -211,17 +211,23 @@ def _nowhere() -> NoSolution:
     return NoSolution(message, key="cam.size", fix="raise the limit, or move the pivot")
 
 
-def first_from_which(least: Callable[[float], float], low: float, high: float, key: str) -> float:
+def first_from_which(least: Callable[[float], float], low: float, high: float, key: str, *, steps: int = 1) -> float:
     """The first value from which on a margin is not negative, between a low one and a high one.
 
+    Parameters
+        steps : int - between both, where the margin rises and falls again: of several the first that does
     Raises
-        NoSolution - at the key, where even the high one does not do
+        NoSolution - at the key, where none does
     """
     if least(low) >= 0.0:
         return low
-    if least(high) < 0.0:
-        raise NoSolution("no cam keeps this curvature_radius here", key=key, fix="lower it, or lengthen the motion")
-    return bracketed_root(least, low, high)
+    before = low
+    for k in range(1, steps + 1):
+        place = low + (high - low) * k / steps
+        if least(place) >= 0.0:
+            return bracketed_root(least, before, place)
+        before = place
+    raise NoSolution("no cam keeps this curvature_radius here", key=key, fix="lower it, or lengthen the motion")
 
 
 def flat_base_radius(motion: FollowerMotion, radius: float) -> float:

@@ -224,3 +224,35 @@ def test_a_roller_that_reaches_over_the_axis_is_refused(body: dict[str, Any], ke
     with pytest.raises(NoSolution, match="not above roller_radius 8 mm") as refused:
         _ = cam(slow, small, body).prime_radius
     assert refused.value.key == key
+
+
+CONJUGATE = {
+    "slide": ({"type": "translating-roller", "roller_radius": 15, "offset": 5}, {"radius": 25}),
+    "best offset": ({"type": "translating-roller", "roller_radius": 15, "offset": "best"}, {"radius": 8}),
+    "rocker": (
+        {"type": "oscillating-roller", "roller_radius": 15, "arm": 100, "center_distance": 140},
+        {"arm": 70, "angle": 100, "radius": 22},
+    ),
+    "rocker that its return roller decides": (
+        {"type": "oscillating-roller", "roller_radius": 9, "arm": 100, "center_distance": 140, "side": -1},
+        {"arm": 95, "angle": -75, "radius": 36},
+    ),
+    "pivot": ({"type": "oscillating-roller", "roller_radius": 15, "arm": 100}, {"arm": 70, "angle": 100, "radius": 22}),
+}
+
+
+@pytest.mark.parametrize("name", list(CONJUGATE))
+def test_a_conjugate_pair_is_sized_by_both_rollers(name: str) -> None:
+    """Each cam keeps the pressure angle and 0.8 of its own curvature radius; one of them stands at a limit."""
+    follower, back = CONJUGATE[name]
+    motion = [{"to": 100, "lift": 16}, {"to": 180}, {"to": 280, "lift": 0, "law": "polynomial-345"}, {"to": 360}]
+    body = {"size": {"pressure_angle": 32}}
+    design = cam(motion, follower, body, closure="conjugate", return_roller=back)
+    shares = []
+    for one, radius in zip(design.profiles, (follower["roller_radius"], back["radius"]), strict=True):
+        phi = np.linspace(0.0, 2.0 * math.pi, 4001)
+        shares.append(math.degrees(float(np.abs(one.pressure_angle(phi)).max())) / 32.0)
+        bend = float(one.curvature(phi).max())
+        shares.append(radius * bend / 0.8)
+    assert max(shares) <= 1.0 + 1e-6
+    assert max(shares) >= 1.0 - 1e-3
