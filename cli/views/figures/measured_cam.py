@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.machines.measured_cam.design import MeasuredCamDesign
+    from gearlink.core.machines.disc_cam.measured import MeasuredCamDesign
 
 
 def draw(command: str, design: MeasuredCamDesign) -> Figure:

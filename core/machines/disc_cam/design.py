@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Design, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
@@ -103,7 +103,7 @@ class DiscCamDesign(OfFollower, Design):
         ),
     )
     outlines = {"cam": _OUTLINE, "analyze": _OUTLINE}
-    extra_tables = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
+    extra_tables: ClassVar[tuple[str, ...]] = ("outer_wall", "cutter", "radius", "errors", "servo", LAW_TABLE)
     advises = False
 
     @cached_property

@@ -35,10 +35,15 @@ _OF_ROLLERS = ("roller_speed_max", "roller_acceleration_max", "traction_needed",
 _EACH = (*_OF_ROLLERS, "contact_force_max", "contact_force_min", "hertz_pressure_max", "shear_depth")
 
 
-class DiscCamLoads(CamLoadsDesign):
+if TYPE_CHECKING:
+    _Loads = CamLoadsDesign
+else:
+    _Loads = object  # the kinds below have it
+
+
+class FollowerCamLoads(_Loads):
     """Input angle: that of the cam; O is its bearing, A the pivot of a rocker."""
 
-    kind = "disc-cam"
     spec: DiscCamSpec
     section: Section
     section_example = "roller: {width: 20}"
@@ -46,11 +51,6 @@ class DiscCamLoads(CamLoadsDesign):
     pins, meshes = ("O", "A"), ()
     stands = True
     outlines = loads_outline(pins, meshes, _SHOWN, CAM_CHECKS)
-
-    @cached_property
-    def design(self) -> DiscCamDesign:
-        """The geometry."""
-        return DiscCamDesign(self.spec)
 
     @property
     def closing(self) -> Closing:
@@ -244,10 +244,35 @@ class DiscCamLoads(CamLoadsDesign):
         return super().quantity(name)
 
 
+class DiscCamLoads(FollowerCamLoads, CamLoadsDesign):
+    """The loads of a disc cam."""
+
+    kind = "disc-cam"
+
+    @cached_property
+    def design(self) -> DiscCamDesign:
+        """The geometry."""
+        return DiscCamDesign(self.spec)
+
+
+class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):
+    """The loads of a measured cam."""
+
+    kind = "measured-cam"
+    spec: Any
+
+    @cached_property
+    def design(self) -> DiscCamDesign:
+        """The geometry, by the motion of the profile."""
+        from gearlink.core.machines.disc_cam.measured import MeasuredCamDesign
+
+        return MeasuredCamDesign(self.spec)
+
+
 class FaceOnCam:
     """The contact of a flat face in the words of a roller, as far as it has them; a face does not roll."""
 
-    def __init__(self, loads: DiscCamLoads, phi: Reals) -> None:
+    def __init__(self, loads: FollowerCamLoads, phi: Reals) -> None:
         flat = loads.design.cams.flat
         touch, still = flat.touch(phi), 0.0 * phi
         self.sense, self.radius = flat.sense, 0.0

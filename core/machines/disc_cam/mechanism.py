@@ -44,6 +44,7 @@ def motion(design: DiscCamDesign) -> Motion:
         make,
         Input("cam_angle", joints=tuple(joint for joint in cams.motion.joints if joint > 0.0)),
         (Output("Follower", lift(design), _phases(cams)),),
+        cams.motion.highest,
     )
 
 

@@ -24,12 +24,16 @@ def errors(design: DiscCamDesign, _mechanism: Mechanism) -> Movable:
     sizes: dict[str, tuple[Shift, ...]] = {CAM_PROFILE: outwards}
     if design.spec.is_flat:
         return Movable(sizes, others={CAM_PROFILE: 0.0})
-    sizes["follower.roller_radius"] = outwards
+    measured = design.spec.kind == "measured-cam"
+    sizes["roller_radius" if measured else "follower.roller_radius"] = outwards
     radius = 0.0
     if design.spec.oscillates:
         radius, away = float(cams.follower.arm), cmath.phase(cams.pivot)
         sizes["follower.arm"] = (Shift("follower", ("main",)),)
-        sizes["follower.center_distance"] = (Shift(FRAME, ("A",), cmath.rect(1.0, away)),)
+        if measured:
+            sizes |= {f"follower.pivot[{i}]": (Shift(FRAME, ("A",), way),) for i, way in enumerate((1.0 + 0j, 1j))}
+        else:
+            sizes["follower.center_distance"] = (Shift(FRAME, ("A",), cmath.rect(1.0, away)),)
     else:
         sizes["follower.offset"] = (Shift(FRAME, ("guide",), -1j * cams.direction),)
     return Movable(

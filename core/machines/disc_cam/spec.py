@@ -270,6 +270,11 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     def pressure_limits(self) -> tuple[float, float]:
         """Maximum pressure angle of rise and return [deg], of the limits, the size or the usual."""
         size = None if self.cam.size is None else self.cam.size.pressure_angle
-        given = self.limits.pressure_angle or size or (45.0 if self.oscillates else 30.0)
-        rise, back = given if isinstance(given, list) else (given, given)
-        return rise, back
+        return usual_pressure_limits(self.limits.pressure_angle or size, self.oscillates)
+
+
+def usual_pressure_limits(given: float | list[float] | None, oscillates: bool) -> tuple[float, float]:
+    """Maximum pressure angle of rise and return [deg], as given or the usual 30 deg, of a rocker 45 deg."""
+    limit = given or (45.0 if oscillates else 30.0)
+    rise, back = limit if isinstance(limit, list) else (limit, limit)
+    return rise, back

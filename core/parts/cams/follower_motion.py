@@ -117,6 +117,9 @@ class FollowerMotion:
         pieces : Pieces that follow each other from 0 to 2 pi
     """
 
+    highest = 3
+    """The highest derivative that it gives."""
+
     def __init__(self, pieces: Sequence[Piece]) -> None:
         self.pieces = tuple(pieces)
         self._starts = np.array([piece.start for piece in self.pieces])

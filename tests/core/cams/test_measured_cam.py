@@ -165,3 +165,36 @@ def test_a_follower_that_does_not_reach_the_cam_is_refused(keys: dict[str, Any],
     with pytest.raises(NoSolution, match=words) as refused:
         eccentric(**keys).table("law")
     assert refused.value.key == key
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_as_a_disc_cam_it_has_the_profile_that_was_measured(side: int) -> None:
+    """Path, lift, pressure angle and curvature by the motion and inversion, against those of the profile itself."""
+    design = eccentric(follower__side=side)
+    cams, phi = design.cams, np.radians(np.arange(0.0, 360.0, 30.0))
+    t = design.cam.at_cam_angle(phi)
+    contact = design.cam.contact(t)
+    pitch, profile = cams.main.points(phi)
+    np.testing.assert_allclose(pitch, contact.center, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(profile, contact.center - ROLLER * contact.normal, rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(np.abs(cams.main.pressure_angle(phi)), design.cam.pressure_angle(t), rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(cams.main.curvature(phi), design.cam.curvature(t), rtol=1e-7)
+    assert cams.motion.evaluate(np.linspace(0.0, 6.28, 721), 0)[0].min() == pytest.approx(0.0, abs=1e-4)
+    strokes = cams.motion.strokes
+    assert sum(each.end - each.start for each in strokes) == pytest.approx(2.0 * math.pi, rel=1e-12)
+    middle = np.array([0.5 * (each.start + each.end) for each in strokes])
+    assert np.sign(cams.motion.evaluate(middle, 1)[1]).tolist() == [each.sense for each in strokes]
+    moved = design.moving.at(phi, 1).links["follower"]
+    np.testing.assert_allclose(moved.turn.first, design.cam.motion(phi)[1], rtol=0.0, atol=1e-10)
+
+
+def test_loads_of_a_measured_cam_by_virtual_work() -> None:
+    """A slide with mass and spring: torque of the cam and force on the roller by the lift's own rates."""
+    loads = factory.design("measured_cam", command="loads", follower__mass=2.0)
+    phi, omega = np.radians([75.0, 100.0, 230.0, 280.0]), 4.0 * math.pi
+    value, speed, acceleration = loads.design.cam.motion(phi)
+    lift = value - loads.design.ends[0]
+    along = 60.0 + 4.0 * lift + 2e-3 * acceleration * omega**2
+    assert loads.machine.torque(phi) == pytest.approx(1e-3 * along * speed, rel=1e-9, abs=1e-12)
+    angle = np.abs(loads.design.cams.main.pressure_angle(phi))
+    assert loads.contact_force("main", phi) == pytest.approx(along / np.cos(angle), rel=1e-9)

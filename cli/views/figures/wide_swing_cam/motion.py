@@ -62,8 +62,11 @@ def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     """Torques of both shafts over the stroke and the rest after it, and the dynamic coefficient over the speed."""
     history, balance = design.table("history"), design.table("balance")
     columns = place.subgridspec(1, 3)
-    curves = (("", style.RED, "rigid, without device"), ("_balanced", style.BLUE, "rigid, with device"))
-    curves = (*curves, ("_elastic", style.GREEN, "elastic, with device"))
+    curves = (
+        ("", style.RED, "rigid, without device"),
+        ("_balanced", style.BLUE, "rigid, with device"),
+        ("_elastic", style.GREEN, "elastic, with device"),
+    )
     for i, (shaft, words) in enumerate((("rocker", "Rocker shaft"), ("drive", "Main shaft"))):
         axes = made.add_subplot(columns[0, i])
         style.curves(axes, "time [ms]", "torque [N m]")

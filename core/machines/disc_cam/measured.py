@@ -1,19 +1,25 @@
-"""A measured cam: how well the series fits, the motion of its follower, and the laws that it seems to be made of."""
+"""A measured cam: how well the series fits, the motion of its follower, and the laws that it seems to be made of.
+
+With that motion it is a disc cam: figure, film, loads, tolerances and export are those of one.
+"""
 
 from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.design import Outline
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.machines.disc_cam.cams import FollowerCams, Place
+from gearlink.core.machines.disc_cam.design import DiscCamDesign
+from gearlink.core.parts.cams.follower_motion import Stroke
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.measured_cam.phases import MeasuredPhase
-    from gearlink.core.machines.measured_cam.profile import MeasuredCam
-    from gearlink.core.machines.measured_cam.spec import MeasuredCamSpec
+    from gearlink.core.machines.disc_cam.measured_profile import MeasuredCam, MeasuredPhase
+    from gearlink.core.machines.disc_cam.measured_spec import MeasuredCamSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
 
@@ -28,14 +34,94 @@ QUANTITIES = (
     "min_curvature_radius_at",
     "max_pressure_angle",
     "max_pressure_angle_at",
+    "pressure_angle_rise",
+    "pressure_angle_return",
+    "prime_radius",
+    "max_radius",
+    "min_radius",
     "follower_velocity_max",
     "follower_acceleration_max",
+    "spring_preload",
+    "lift_off_speed",
 )
-_OSCILLATING = ("swing",)
-_TRANSLATING = ("stroke", "follower_velocity_max", "follower_acceleration_max")
+_CHECKS = ("pressure-angle", "cam-undercut", "shaft-clearance", "outer-wall", "lift-off")
+_SENSES = {"rise": 1, "dwell": 0, "return": -1}
 
 
-class MeasuredCamDesign(Design):
+class MeasuredMotion:
+    """The lift over a revolution of the cam, as that of a disc cam, to its second derivative.
+
+    Parameters
+        cam : MeasuredCam
+        least : float [rad or mm] - minimum coordinate of the follower, outward
+        phases : dwells and strokes
+    """
+
+    joints: tuple[float, ...] = ()
+    highest = 2
+    """Points of a profile have no third derivative that means something."""
+
+    def __init__(self, cam: MeasuredCam, least: float, phases: list[MeasuredPhase]) -> None:
+        self.cam, self.least, self._phases = cam, least, phases
+
+    def evaluate(self, phi: Reals, order: int = 2, *, side: int = 1) -> list[Reals]:
+        """Lift and its derivatives by the cam angle [mm or rad]; `side` is for laws that jump."""
+        del side
+        value, *rates = self.cam.motion(phi)
+        sense = self.cam.outward_sense
+        return [self.cam.outward(value) - self.least, *(sense * rate for rate in rates)][: order + 1]
+
+    @cached_property
+    def strokes(self) -> tuple[Stroke, ...]:
+        """Where the lift rises, falls and stands; what runs over the end of the revolution in two parts.
+
+        Notes
+            The ends of the phases are fitted and may miss each other a little: strokes meet in the middle of that.
+        """
+        phases, found = self._phases, []
+        apart = [(after.start - before.end + math.pi) % _TURN - math.pi for before, after in _round(phases)]
+        for k, each in enumerate(phases):
+            begin, end = each.start - 0.5 * apart[k - 1], each.end + 0.5 * apart[k]
+            sense = _SENSES[each.motion] * round(self.cam.outward_sense)
+            for off in (-_TURN, 0.0, _TURN):
+                low, high = max(begin + off, 0.0), min(end + off, _TURN)
+                if high > low:
+                    found.append(Stroke(low, high, sense))
+        return tuple(sorted(found))
+
+
+def _round(phases: list[MeasuredPhase]) -> list[tuple[MeasuredPhase, MeasuredPhase]]:
+    """Each phase and the one after it, over the end of the revolution."""
+    return list(zip(phases, [*phases[1:], *phases[:1]], strict=True))
+
+
+class MeasuredCams(FollowerCams):
+    """Motion, place and cam of a measured profile."""
+
+    spec: Any
+
+    def __init__(self, design: MeasuredCamDesign) -> None:
+        self.design, self.spec, self.sense = design, design.spec, design.spec.sense
+        self.follower = design.spec.disc_follower
+
+    @cached_property
+    def motion(self) -> Any:
+        """Lift over the cam angle [mm or rad]."""
+        design = self.design
+        least = min(design.cam.outward(value) for value in design.ends)
+        return MeasuredMotion(design.cam, least, design.phases)
+
+    @cached_property
+    def place(self) -> Place:
+        """The roller at lift 0, where it is nearest to the cam axis."""
+        least, follower = self.motion.least, self.follower
+        if not self.spec.oscillates:
+            return Place(math.hypot(least, follower.offset), follower.offset)
+        f, l = follower.center_distance, follower.arm  # noqa: E741
+        return Place(math.sqrt(f * f + l * l - 2.0 * f * l * math.cos(least)), 0.0, f, least)
+
+
+class MeasuredCamDesign(DiscCamDesign):
     """A follower on a cam whose profile was measured."""
 
     kind = "measured-cam"
@@ -50,33 +136,35 @@ class MeasuredCamDesign(Design):
             "min_curvature_radius",
         ),
     }
-    outlines = {"analyze": Outline(QUANTITIES, (), ("law", "phases"))}
-    extra_tables = ("profile_fit",)
-    advises = False
+    outlines = {"analyze": Outline(QUANTITIES, _CHECKS, ("law", "phases"))}
+    extra_tables = ("profile_fit", "main_cam", "radius")
+    extreme_names = ()
 
-    def outline(self, command: str) -> Outline:
-        """What this follower has."""
-        found = super().outline(command)
-        absent = _OSCILLATING if not self._oscillates else _TRANSLATING
-        if self.spec.speed is None:
-            absent = (*absent, *_TRANSLATING[1:])
-        return found._replace(quantities=tuple(name for name in found.quantities if name not in absent))
+    @property
+    def law_definitions(self) -> Mapping[str, Any]:
+        """None: the motion is that of the profile."""
+        return {}
+
+    @cached_property
+    def cams(self) -> FollowerCams:
+        """The cam as a disc cam."""
+        return MeasuredCams(self)
 
     @property
     def _oscillates(self) -> bool:
-        return self.spec.follower.type == "oscillating"
+        return self.spec.oscillates
 
     @cached_property
     def points(self) -> tuple[Reals, Reals]:
         """Angles [rad] and radii [mm] of the measured profile."""
-        from gearlink.core.machines.measured_cam.profile import places
+        from gearlink.core.machines.disc_cam.measured_profile import places
 
         return places(self.spec.profile.points or ())
 
     @cached_property
     def cam(self) -> MeasuredCam:
         """Series and follower."""
-        from gearlink.core.machines.measured_cam.profile import MeasuredCam, Series
+        from gearlink.core.machines.disc_cam.measured_profile import MeasuredCam, Series
 
         spec, follower = self.spec, self.spec.follower
         series = Series.fitted(*self.points, spec.order)
@@ -109,6 +197,11 @@ class MeasuredCamDesign(Design):
     def fit_harmonics(self) -> int:
         """Harmonics of the series."""
         return self.spec.order
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Minimum and maximum coordinate of the follower [rad or mm]."""
+        return self._range
 
     @cached_property
     def _range(self) -> tuple[float, float]:
@@ -182,18 +275,14 @@ class MeasuredCamDesign(Design):
         return float(np.mod(self.cam.follower(np.array([t])).cam_angle[0][0], _TURN))
 
     @property
-    def _speed(self) -> float | None:
-        return None if self.spec.speed is None or self._oscillates else self.spec.speed * math.pi / 30.0
-
-    @property
     def follower_velocity_max(self) -> float | None:
-        """Maximum velocity of a translating follower [mm/s]."""
-        return None if self._speed is None else self._speed * self._greatest(1)
+        """Maximum velocity of the follower [mm/s or rad/s]."""
+        return None if self.speed is None else self.speed * self._greatest(1)
 
     @property
     def follower_acceleration_max(self) -> float | None:
-        """Maximum acceleration of it [mm/s^2]."""
-        return None if self._speed is None else self._speed**2 * self._greatest(2)
+        """Maximum acceleration of it [mm/s^2 or rad/s^2]."""
+        return None if self.speed is None else self.speed**2 * self._greatest(2)
 
     def _greatest(self, order: int) -> float:
         from gearlink.core.numerics.extremes import maximum_over
@@ -205,7 +294,7 @@ class MeasuredCamDesign(Design):
         """Dwells and strokes."""
         import numpy as np
 
-        from gearlink.core.machines.measured_cam.phases import ROWS, phases_of
+        from gearlink.core.machines.disc_cam.measured_profile import ROWS, phases_of
 
         value = self.cam.motion(np.linspace(0.0, _TURN, ROWS, endpoint=False))[0]
         tolerance = self.spec.dwell_tolerance

@@ -2,13 +2,35 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.base.spec import Angle, Assembly, DesignSpec, Distance, Entries, Length, SignedLength, Spec, Speed
+from gearlink.core.base.spec import (
+    Assembly,
+    Deferred,
+    Distance,
+    Entries,
+    Length,
+    SignedLength,
+    Spec,
+    Speed,
+    TolerancedSpec,
+)
+from gearlink.core.machines.disc_cam.spec import (
+    CamBody,
+    DiscCamLimits,
+    OscillatingRoller,
+    Spring,
+    Translating,
+    TranslatingRoller,
+    usual_pressure_limits,
+)
+from gearlink.core.machines.disc_cam.spec import Inertia as FollowerInertia
 
 ProfilePoint = Annotated[
     list[SignedLength], Field(min_length=2, max_length=2), Entries("[angle, radius]", "[30, 52.4]")
@@ -29,14 +51,16 @@ class OscillatingFollower(Spec):
     pivot: Point = Field(description="axis of the rocker, seen from the cam axis")
     arm: Length = Field(description="pivot to roller centre")
     side: Assembly = Field(1, description="1: roller centre left of the direction from cam axis to pivot; -1: right")
+    inertia: FollowerInertia | None = Field(
+        None, description="moment of inertia about the pivot, for lift-off and loads"
+    )
 
 
-class TranslatingFollower(Spec):
+class TranslatingFollower(Translating):
     """A roller on a slide; the cam axis is the origin."""
 
     type: Literal["translating"] = Field(description="how the follower moves")
-    direction: Angle = Field(90.0, description="direction of the lift")
-    offset: SignedLength = Field(0.0, description="distance of the line of travel from the cam axis on its right")
+    offset: SignedLength = Field(0.0, description="how far the line of travel passes the cam axis on its right")
 
 
 class Profile(Spec):
@@ -67,7 +91,7 @@ class Profile(Spec):
         return self
 
 
-class MeasuredCamSpec(DesignSpec):
+class MeasuredCamSpec(TolerancedSpec):
     """A measured cam profile and the follower that runs on it."""
 
     kind: Literal["measured-cam"]
@@ -83,6 +107,13 @@ class MeasuredCamSpec(DesignSpec):
     )
     dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")
     speed: Speed | None = Field(None, description="speed of the cam")
+    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not judged")
+    closure: Literal["spring", "groove"] = Field("spring", description="what holds the follower on the cam")
+    spring: Spring | None = Field(None, description="what presses the follower on the cam")
+    limits: DiscCamLimits = DiscCamLimits.model_construct()
+    loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
+        None, description="forces, roller and vibration, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _enough(self) -> MeasuredCamSpec:
@@ -103,4 +134,43 @@ class MeasuredCamSpec(DesignSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze",)
+        return ("analyze", *(("loads",) if self.loads is not None else ()))
+
+    # What a disc cam has
+
+    is_flat: ClassVar[bool] = False
+    return_roller: ClassVar[None] = None
+    errors: ClassVar[None] = None
+    servo: ClassVar[None] = None
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the follower rocks."""
+        return self.follower.type == "oscillating"
+
+    @property
+    def cam(self) -> CamBody:
+        """Sense and shaft of the cam; its size is that of the profile."""
+        return CamBody.model_construct(sense=self.sense, shaft_radius=self.shaft_radius)
+
+    @property
+    def disc_follower(self) -> OscillatingRoller | TranslatingRoller:
+        """The follower in the words of a disc cam."""
+        given = self.follower
+        if isinstance(given, TranslatingFollower):
+            where = {"direction": given.direction, "offset": given.offset, "mass": given.mass}
+            return TranslatingRoller(type="translating-roller", roller_radius=self.roller_radius, **where)
+        pivot = complex(*given.pivot)
+        return OscillatingRoller(
+            type="oscillating-roller",
+            roller_radius=self.roller_radius,
+            pivot_direction=math.degrees(cmath.phase(pivot)),
+            side=given.side,
+            arm=given.arm,
+            center_distance=abs(pivot),
+            inertia=given.inertia,
+        )
+
+    def pressure_limits(self) -> tuple[float, float]:
+        """Maximum pressure angle of rise and return [deg], of the limits or the usual."""
+        return usual_pressure_limits(self.limits.pressure_angle, self.oscillates)
