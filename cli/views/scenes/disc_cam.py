@@ -27,7 +27,8 @@ _REACH = 1.15
 def build(design: DiscCamDesign, fraction: Reals) -> Scene:
     """Positions over fractions of a revolution of the cam."""
     scene = of_motion.build(design, fraction)
-    return replace(scene, parts=(*_cams(design, fraction), *scene.parts, *_followers(design, fraction)))
+    links = [part for part in scene.parts if getattr(part, "name", "") != "main"]  # the contact is no slot
+    return replace(scene, parts=(*_cams(design, fraction), *links, *_followers(design, fraction)))
 
 
 def _cams(design: DiscCamDesign, fraction: Reals) -> list[Part]:

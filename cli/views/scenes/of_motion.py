@@ -150,7 +150,7 @@ def _block(slot: Contact, half: float) -> Part:
     """The block about the pin of a slot."""
     square = 0.5 * half * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j])
     turn = np.asarray(np.angle(-1j * slot.normal), dtype=np.float64)
-    return Body(outline=square, place=slot.at, turn=turn, color=BLUE, fill=pale(BLUE, 0.3), width=1.2)
+    return Body(outline=square, place=slot.at, turn=turn, color=BLUE, fill=pale(BLUE, 0.3), width=1.2, name=slot.name)
 
 
 def _gears(mechanism: Mechanism) -> list[Part]:

@@ -52,6 +52,12 @@ class FollowerCamLoads(_Loads):
     stands = True
     outlines = loads_outline(pins, meshes, _SHOWN, CAM_CHECKS)
 
+    if TYPE_CHECKING:
+
+        @cached_property
+        def design(self) -> DiscCamDesign:
+            """The geometry."""
+
     @property
     def closing(self) -> Closing:
         """Spring, preload and lift-off."""

@@ -125,7 +125,7 @@ class MeasuredCamDesign(DiscCamDesign):
     """A follower on a cam whose profile was measured."""
 
     kind = "measured-cam"
-    spec: MeasuredCamSpec
+    spec: MeasuredCamSpec  # type: ignore[assignment]  # it has what a disc cam's has
     keys = {
         "analyze": (
             "swing",

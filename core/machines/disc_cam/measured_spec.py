@@ -158,8 +158,13 @@ class MeasuredCamSpec(TolerancedSpec):
         """The follower in the words of a disc cam."""
         given = self.follower
         if isinstance(given, TranslatingFollower):
-            where = {"direction": given.direction, "offset": given.offset, "mass": given.mass}
-            return TranslatingRoller(type="translating-roller", roller_radius=self.roller_radius, **where)
+            return TranslatingRoller(
+                type="translating-roller",
+                roller_radius=self.roller_radius,
+                direction=given.direction,
+                offset=given.offset,
+                mass=given.mass,
+            )
         pivot = complex(*given.pivot)
         return OscillatingRoller(
             type="oscillating-roller",

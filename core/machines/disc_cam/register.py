@@ -24,7 +24,7 @@ def errors(design: DiscCamDesign, _mechanism: Mechanism) -> Movable:
     sizes: dict[str, tuple[Shift, ...]] = {CAM_PROFILE: outwards}
     if design.spec.is_flat:
         return Movable(sizes, others={CAM_PROFILE: 0.0})
-    measured = design.spec.kind == "measured-cam"
+    measured = design.kind == "measured-cam"
     sizes["roller_radius" if measured else "follower.roller_radius"] = outwards
     radius = 0.0
     if design.spec.oscillates:

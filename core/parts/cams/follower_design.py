@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
@@ -43,7 +43,7 @@ FOLLOWER_QUANTITIES = (*_EXTREMES, *_SPEEDS)
 class OfFollower(WithExtremes, WithShapedLaws):
     """A design whose file gives the motion of a follower over the cam angle."""
 
-    extreme_names: ClassVar[tuple[str, ...]] = _EXTREMES
+    extreme_names: tuple[str, ...] = _EXTREMES
     spec: Any
 
     @property
