@@ -74,14 +74,15 @@ def press(design: Any) -> Makers:
 
 
 def gripper(design: Any) -> Makers:
-    """The cams."""
-    if design.spec.cam is None:
-        return _lacking("the file has no section cam: center, sense, roller")
-
-    found: Makers = {"main_cam": lambda: disc_cam("main_cam", design.main_cam)}
-    if design.spec.cam.return_roller is not None:
-        found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
-    return found
+    """The cams, and that of the fingers."""
+    found: Makers = {}
+    if design.spec.cam is not None:
+        found["main_cam"] = lambda: disc_cam("main_cam", design.main_cam)
+        if design.spec.cam.return_roller is not None:
+            found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
+    if design.spec.fingers is not None:
+        found["finger_cam"] = lambda: disc_cam("finger_cam", design.fingers.cam)
+    return found or _lacking("the file has no section cam: center, sense, roller")
 
 
 def follower_cam(design: Any) -> Makers:

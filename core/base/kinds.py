@@ -155,7 +155,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.swing_gripper:draw",
             scene="cli.views.scenes.swing_gripper:build",
             profiles="cli.export.parts:gripper",
-            parts=("main_cam", "return_cam"),
+            parts=("main_cam", "return_cam", "finger_cam"),
             sheets={
                 "motion": "cli.views.figures.sheets.motion_sheet:gripper",
                 "timing": "cli.views.figures.sheets.timing_sheet:gripper",

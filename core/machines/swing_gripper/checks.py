@@ -255,10 +255,15 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
 
 def pressure_angle(design: SwingGripper) -> Iterator[Check]:
-    """GL401 for both cams over the turn, and a warning for the phase accelerate; it fails where no cam can be."""
+    """GL401 for all cams over the turn, and a warning for the phase accelerate; it fails where no cam can be."""
     from gearlink.core.parts.cams.checks import impossible, is_steep, pressure_angle_checks
 
     limit = design.spec.limits.pressure_angle
+    if design.spec.fingers is not None:
+        fix = "lengthen fingers.open.over and fingers.close.over, or fingers.lever"
+        yield from pressure_angle_checks((design.fingers.cam,), limit, fix)
+    if design.spec.cam is None:
+        return
     if design.cams.refusal is not None:
         yield impossible("no cam can make this motion", design.cams.refusal, limit)
         return
@@ -283,10 +288,13 @@ def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
 
 
 def cam_undercut(design: SwingGripper) -> Iterator[Check]:
-    """GL402 for both cams."""
+    """GL402 for both cams, and for that of the fingers."""
     from gearlink.core.parts.cams.checks import undercut_checks
 
-    yield from undercut_checks(design.cams.discs, plainly=codes.FARTHER)
+    if design.spec.cam is not None:
+        yield from undercut_checks(design.cams.discs, plainly=codes.FARTHER)
+    if design.spec.fingers is not None:
+        yield from undercut_checks((design.fingers.cam,), plainly="set a smaller fingers.roller_radius")
 
 
 def shaft_clearance(design: SwingGripper) -> Iterator[Check]:

@@ -600,6 +600,9 @@ _NOT_OF_MOTION = {"name", "cam", "size"}
 _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
 
 
+_OF_FINGERS = ("finger-release", "pressure-angle", "cam-undercut")
+
+
 class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     """A swing gripper, from its design file to every quantity that is asked for."""
 
@@ -679,6 +682,12 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
         from gearlink.core.machines.swing_gripper.fingers import FingerCam
 
         return FingerCam(self.spec, self.motion)
+
+    @property
+    def discs(self) -> tuple[DiscCam, ...]:
+        """The cams that the file gives, that of the fingers the last."""
+        cams = () if self.spec.cam is None else tuple(self.cams.discs)
+        return cams if self.spec.fingers is None else (*cams, self.fingers.cam)
 
     @property
     def finger_lift(self) -> float | None:
@@ -807,7 +816,8 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
         """With cams each command judges them, and whether a spring keeps the rollers on."""
         of_cams = () if spec.cam is None else (*cls.outlines["cam"].checks, "lift-off")
-        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams)))
+        of_fingers = () if spec.fingers is None or command == "cam" else _OF_FINGERS
+        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams, *of_fingers)))
 
     def outline(self, command: str) -> Outline:
         """`gripper` and `analyze` add what the optional sections of the file make possible."""
@@ -816,14 +826,15 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
             return self._of_cams(outline)
         if spec.fingers is not None:
             outline = outline._replace(
-                quantities=(*outline.quantities, "finger_lift"), checks=(*outline.checks, "finger-release")
+                quantities=(*outline.quantities, "finger_lift"), checks=(*outline.checks, *_OF_FINGERS)
             )
         if spec.limits.return_acceleration is not None:
             outline = outline._replace(checks=(*outline.checks, "phase-allotment"))
         if spec.cam is None:
             return outline
         if self.cams.is_refused:
-            return Outline(outline.quantities, (*outline.checks, "pressure-angle"), outline.tables)
+            checks = dict.fromkeys((*outline.checks, "pressure-angle"))
+            return Outline(outline.quantities, tuple(checks), outline.tables)
         cams = self._of_cams(self.outlines["cam"])
         quantities, tables = [*outline.quantities, *cams.quantities[:-2]], outline.tables
         if command == "analyze":

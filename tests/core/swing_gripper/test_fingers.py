@@ -18,8 +18,21 @@ from gearlink.core.base.errors import NoSolution
 DEGREES = np.array([0.0, 55.0, 103.0, 107.0, 111.0, 150.0, 200.0, 260.0, 318.0, 330.0, 345.0, 355.0])
 
 
+FINGERS = {
+    "lever": 35.0,
+    "pivot": 60.0,
+    "angle": 100.0,
+    "roller_radius": 8.0,
+    "length": 30.0,
+    "open_angle": 25.0,
+    "open": {"from": 102.0, "over": 8.0},
+    "close": {"to": 352.0, "over": 40.0},
+}
+"""A cam that the roller cuts away where the fingers open."""
+
+
 def gripper(**keys: Any) -> Any:
-    return factory.design("swing_gripper_stop", command="gripper", **keys)
+    return factory.design("swing_gripper_stop", command="gripper", **({"fingers": FINGERS} | keys))
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -81,3 +94,18 @@ def test_without_fingers_nothing_is_said_of_them() -> None:
     assert design.raw("finger_lift") is None
     with pytest.raises(NoSolution, match="section fingers"):
         design.table("finger_cam")
+
+
+def test_the_cam_of_the_fingers_is_judged_as_others_are() -> None:
+    """Undercut where 1/curvature, by differences of the path, falls below the roller; none in the worked design."""
+    for design, status in ((gripper(), "fail"), (factory.design("swing_gripper_stop", command="gripper"), "pass")):
+        cam = design.fingers.cam
+        pitch = cam.points(np.linspace(0.0, 2.0 * math.pi, 40_001))[0]
+        first, second = np.gradient(pitch), np.gradient(np.gradient(pitch))
+        bend = (first.conj() * second).imag / np.abs(first) ** 3 * -cam.sense
+        inside = bend[5:-5].max()
+        assert (8.0 * inside >= 1.0) == (status == "fail")
+        for name in ("cam-undercut", "pressure-angle"):
+            (found,) = [each for each in design.check(name) if "finger" in each.what]
+            assert found.status == status
+        assert cam in design.discs

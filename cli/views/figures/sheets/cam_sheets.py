@@ -39,8 +39,8 @@ def press_discs(design: Any) -> tuple[DiscCam, ...]:
 
 
 def gripper_discs(design: Any) -> tuple[DiscCam, ...]:
-    """The cams of a gripper, one or two."""
-    return tuple(design.cams.discs)
+    """The cams of a gripper, and that of its fingers in the frame of the arm."""
+    return tuple(design.discs)
 
 
 def follower_discs(design: Any) -> tuple[DiscCam, ...]:

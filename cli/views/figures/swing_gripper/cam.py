@@ -34,11 +34,28 @@ def draw(command: str, design: SwingGripper) -> Figure:
     panels.curvatures(curves[2], cams, "cam angle [deg]")
     panels.shade(curves, phases(design))
     time_axes.over_input(curves[2], time_axes.turn_time(design))
-    below: Any = rows[3].subgridspec(1, 2, width_ratios=(3.0, 1.0))
+    below: Any = rows[3].subgridspec(1, 2, width_ratios=(3.0, 1.0 if design.spec.fingers is None else 1.3))
     drawing = made.add_subplot(below[0])
     _cams(drawing, design)
-    panels.legend_beside(made.add_subplot(below[1]), drawing)
+    if design.spec.fingers is None:
+        panels.legend_beside(made.add_subplot(below[1]), drawing)
+        return made
+    beside: Any = below[1].subgridspec(2, 1)
+    _fingers(made.add_subplot(beside[0]), design)
+    panels.legend_beside(made.add_subplot(beside[1]), drawing)
     return made
+
+
+def _fingers(axes: Axes, design: SwingGripper) -> None:
+    """The cam of the fingers about E, the arm along +x, its roller on the lever with the fingers closed."""
+    cam, section = design.fingers.cam, design.fingers.section
+    panels.drawing(axes, "Finger cam")
+    panels.cam_outline(axes, cam, style.PURPLE, 0j, "-")
+    roller = complex(cam.path(np.zeros(1), 1).position[0])
+    style.circle(axes, roller, section.roller_radius, color=style.PURPLE, linewidth=1.2)
+    for joints in ((0j, complex(section.pivot)), (complex(section.pivot), roller)):
+        axes.plot([each.real for each in joints], [each.imag for each in joints], color=style.GREY, linewidth=1.6)
+    style.pivot(axes, 0j)
 
 
 def _accelerating(axes: Axes, design: SwingGripper) -> None:
