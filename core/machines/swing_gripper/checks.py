@@ -39,7 +39,7 @@ _AGREEMENT = 64.0 * 2.0**-52
 
 def transmission_angle(design: SwingGripper) -> Iterator[Check]:
     """GL303 at D and at C."""
-    from gearlink.core.machines.swing_gripper.swing import turn_remedy
+    from gearlink.core.machines.swing_gripper.linkage import turn_remedy
 
     limit = design.spec.limits.transmission_angle
     for place, angle in zip(
@@ -74,7 +74,7 @@ def conditioning(design: SwingGripper) -> Check:
 
 
 def _away_from_dead_centre(design: SwingGripper) -> str:
-    from gearlink.core.machines.swing_gripper.swing import turn_remedy
+    from gearlink.core.machines.swing_gripper.linkage import turn_remedy
 
     aim = math.radians(design.spec.limits.transmission_angle)
     return turn_remedy(design.motion.linkage, aim, tells=False)
@@ -418,7 +418,7 @@ def _handover(design: SwingGripper) -> Iterator[Remedy]:
 
 def _turn(design: SwingGripper) -> Iterator[Remedy]:
     """ED turned as far as the whole swing needs, in half degrees."""
-    from gearlink.core.machines.swing_gripper.swing import clear_turn
+    from gearlink.core.machines.swing_gripper.linkage import clear_turn
 
     spec = design.spec
     for more in (0.0, 2.0, 5.0):

@@ -27,12 +27,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from gearlink.core.machines.swing_gripper.fingers import FingerCam
-    from gearlink.core.machines.swing_gripper.forces import LeverSpring
+    from gearlink.core.machines.swing_gripper.forces import LeverSpring, Stop
     from gearlink.core.machines.swing_gripper.handover_geometry import TipPath
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
     from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
     from gearlink.core.machines.swing_gripper.spec import ClosingSpring, GripperCam, Roller, SwingGripperSpec
-    from gearlink.core.machines.swing_gripper.stop import Stop
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.cams.disc_cam import DiscCam
@@ -100,7 +99,7 @@ def newton_table(design: SwingGripper, samples: int | None = None) -> Table:
     """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
     import numpy as np
 
-    from gearlink.core.machines.swing_gripper.loop import closed_form_error
+    from gearlink.core.machines.swing_gripper.linkage import closed_form_error
 
     degrees, loop = design.motion.loop_at(samples)
     _, motion = design.motion.rows(samples)
@@ -697,7 +696,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     @cached_property
     def stop(self) -> Stop:
         """Where the arm rests in the near dwell."""
-        from gearlink.core.machines.swing_gripper.stop import Stop
+        from gearlink.core.machines.swing_gripper.forces import Stop
 
         return Stop(self.spec, self.motion, self.cams, self.closure)
 

@@ -1,4 +1,4 @@
-"""The linkage of a swing gripper over the turn: gripper arm known, cam rocker sought.
+"""The linkage of a swing gripper: gripper arm known, cam rocker sought; where it may swing; its loop both ways.
 
 A is the pivot of the cam rocker AC, E that of the gripper ED; the coupler CD joins them. The gripper follows
 the six-phase law; the motion of rocker and coupler comes from the inverse four-bar. Derivatives are taken by
@@ -10,15 +10,20 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gearlink.core.base.errors import at_key
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last
+from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.position import solve_inverse as solve_one_inverse
 from gearlink.core.parts.linkages.fourbar.sweep import FourBarInverseSweep, dead_point_distance, solve_inverse
@@ -205,3 +210,217 @@ def _folded(angle: Reals) -> Reals:
 def _into_first_turn(angle: float) -> float:
     """Whole turns that bring an angle into (-pi, pi]."""
     return -2.0 * math.pi * math.ceil((angle - math.pi) / (2.0 * math.pi))
+
+
+# Where the links of a gripper may swing: refusal of a swing that they cannot make, and the remedy in degrees
+
+
+DEAD_POINT = 1e-3
+_LEAST_AIM = math.radians(10.0)
+_STEP = math.radians(0.1)
+_JOINTS = (("D", "coupler", "output"), ("C", "input", "coupler"))
+
+
+def require_swing(linkage: GripperLinkage, limit: float) -> None:
+    """Refuse a linkage that cannot make its swing: open somewhere, or within 1e-3 rad of a dead centre.
+
+    |AC - CD| <= |AD| <= AC + CD,   mu_C >= 1e-3,   mu_D >= 1e-3 for every swing angle
+
+    Parameters
+        linkage : GripperLinkage
+        limit : float [rad] - transmission angle that the remedy aims at
+    Raises
+        NoSolution - with the cylinder angle, and what to change by how much
+    Source
+        own derivation; a sign change of sin(th4 - th3) passes mu_D = 0
+    """
+    swing = np.linspace(0.0, linkage.law.total_swing, 1801)
+    reach = _reach(linkage, linkage.local_output(swing))
+    low, high = abs(linkage.input - linkage.coupler), linkage.input + linkage.coupler
+    wrong = (reach > high) | (reach < low)
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        off = float(reach.max()) - high
+        change = f"lengthen input or coupler by {safely_above(off, 4)} mm"
+        if off <= 0.0:
+            change = f"bring input and coupler {safely_above(low - float(reach.min()), 4)} mm nearer"
+        raise NoSolution(
+            f"the linkage cannot be assembled at cylinder angle {short(linkage.law.reaches(float(swing[first])))} deg: "
+            f"AD {reach[first]:.6g} mm (reach {low:.6g} to {high:.6g} mm)",
+            key="links",
+            fix=change,
+        )
+    for extreme, (joint, one, other) in zip(linkage.least_transmission, _JOINTS, strict=True):
+        if extreme.value < DEAD_POINT:
+            raise NoSolution(
+                f"dead centre at joint {joint} ({one} and {other} collinear): {math.degrees(extreme.value):.2g} deg "
+                f"(limit >= {safely_above(math.degrees(DEAD_POINT), 2)} deg) at cylinder angle "
+                f"{short(linkage.law.reaches(extreme.place))} deg",
+                key="links",
+                fix=turn_remedy(linkage, limit),
+            )
+
+
+def turn_remedy(linkage: GripperLinkage, limit: float, *, tells: bool = True) -> str:
+    """Words for what brings the whole swing to a transmission angle [rad]: a revolution of ED, or a lesser swing.
+
+    Parameters
+        tells : bool - by how much ED is to be turned; not where cams stand that the turn may make impossible
+    """
+    limit = max(limit, _LEAST_AIM)
+    turn, widest = clear_turn(linkage, limit)
+    aim = f"(transmission angle {math.degrees(limit):g} deg)"
+    if turn is not None:
+        sign = "+" if turn > 0.0 else "-"
+        angle = f" by {sign}{safely_above(abs(math.degrees(turn)), 4)} deg" if tells else ""
+        return f"turn output_direction{angle} {aim}"
+    swing = math.degrees(linkage.law.total_swing)
+    if widest > 0.0:
+        return (
+            f"reduce the swing from {short(swing)} to {safely_below(math.degrees(widest))} deg {aim} by shorter phases"
+        )
+    return f"change links or pivots {aim}"
+
+
+def clear_turn(linkage: GripperLinkage, limit: float) -> tuple[float | None, float]:
+    """How to turn ED on the gripper so that both transmission angles keep a limit over the whole swing.
+
+    Parameters
+        linkage : GripperLinkage - the swing need not close
+        limit : float [rad] - minimum angle between CD and ED and between AC and CD
+    Returns
+        turn : float [rad] or None - what to add to the output direction, the smallest; None where no direction
+            serves the swing
+        widest : float [rad] - the largest swing that keeps the limit with these links; 0 where none does
+    Notes
+        Directions of ED are tried every 0.1 deg; the result lies inside the exact range.
+    """
+    four_bar = linkage.four_bar
+    directions = np.arange(-math.pi, 3.0 * math.pi, _STEP)
+    reach = _reach(linkage, directions)
+    low, high = abs(four_bar.crank - four_bar.coupler), four_bar.crank + four_bar.coupler
+    good = (reach > low * (1.0 + 1e-9)) & (reach < high * (1.0 - 1e-9))
+    if good.any():
+        at_d, at_c = linkage.transmission(directions[good])
+        good[good] = np.minimum(at_d, at_c) >= limit
+    swing = linkage.law.total_swing
+    start = math.remainder(linkage.output_direction - linkage.frame_direction, 2.0 * math.pi)
+    first, last = sorted((start, start + linkage.swing_sense * swing))
+    turns, widest = [], 0.0
+    for left, right in _runs(directions, good):
+        widest = max(widest, min(right - left, 2.0 * math.pi))
+        if right - left >= swing:
+            for turns_away in (-2.0 * math.pi, 0.0):
+                window = (left + turns_away - first, right + turns_away - last)
+                turns.append(min(max(0.0, window[0]), window[1]))
+    return min(turns, key=abs, default=None), widest
+
+
+def _reach(linkage: GripperLinkage, directions: Reals) -> Reals:
+    """|AD| [mm] at directions of ED from the frame line."""
+    reach: Reals = np.abs(linkage.four_bar.frame + linkage.output * np.exp(1j * directions))
+    return reach
+
+
+def _runs(places: Reals, good: NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """First and last place of every unbroken run of good ones."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], good.astype(np.int8), [0]))))
+    return [(float(places[i]), float(places[j - 1])) for i, j in zip(edges[::2], edges[1::2], strict=True)]
+
+
+# The gripper's loop both ways: closed form against Newton-Raphson, and the closed form against 40 digits
+
+
+@dataclass(frozen=True, slots=True)
+class TwoWays:
+    """Closed form and Newton-Raphson at the same positions.
+
+    Attributes
+        deviation : (N,) array [rad] - larger difference of the two in the angles of cam rocker and coupler
+        iterations : (N,) array of whole numbers - Newton-Raphson steps
+        residual : (N,) array [mm] - opening of the loop that Newton-Raphson left
+    """
+
+    deviation: Reals
+    iterations: NDArray[np.int64]
+    residual: Reals
+
+
+def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
+    """Check the closed form of the linkage by Newton-Raphson on the vector loop.
+
+    Parameters
+        linkage : GripperLinkage
+        motion : GripperMotion - of any order
+    Returns
+        ways : TwoWays
+    Raises
+        NoSolution - where Newton-Raphson finds no position of the assembly
+    Notes
+        Both lose 8 eps/mu_C near a dead centre, mu_C the angle of cam rocker and coupler; `closed_form_error` tells how
+        much of it is the closed form's.
+    Source
+        swing-gripper paper (4), there called Newton-Simpson; loop in the inverse reading: own derivation
+    """
+    driving, coupler, rocker = _inverse_angles(linkage, motion)
+    bite = linkage.output_direction + linkage.output_shift - linkage.frame_direction + math.pi
+    swing = (bite, bite + linkage.swing_sense * linkage.law.total_swing)
+    newton = fourbar_newton.solve(linkage.four_bar.inverse(), driving, swing)
+    return TwoWays(
+        deviation=np.maximum(_apart(newton.coupler_angle, coupler), _apart(newton.rocker_angle, rocker)),
+        iterations=newton.iterations,
+        residual=newton.residual,
+    )
+
+
+def closed_form_error(linkage: GripperLinkage, motion: GripperMotion) -> Reals:
+    """Errors of the closed form in the angles of cam rocker and coupler, the larger of both [rad].
+
+    The Newton-Raphson step from the closed form's position, whose residual is computed with 40 digits
+
+    Parameters
+        linkage : GripperLinkage
+        motion : GripperMotion - of any order
+    Returns
+        error : (N,) array [rad]
+    """
+    inverse, angles = linkage.four_bar.inverse(), _inverse_angles(linkage, motion)
+    r = np.array([_opening(inverse, *row) for row in zip(*(x.tolist() for x in angles), strict=True)])
+    _, coupler, rocker = angles
+    sine = np.abs(np.sin(coupler - rocker))
+    of_coupler = np.abs((r * np.exp(-1j * rocker)).real) / (inverse.coupler * sine)
+    of_rocker = np.abs((r * np.exp(-1j * coupler)).real) / (inverse.rocker * sine)
+    return np.asarray(np.maximum(of_coupler, of_rocker))
+
+
+def _inverse_angles(linkage: GripperLinkage, motion: GripperMotion) -> tuple[Reals, Reals, Reals]:
+    """Angles of driving link, coupler and driven link of the linkage read from E to A."""
+    turned = linkage.frame_direction
+    return motion.output_angle - turned + math.pi, motion.coupler_angle - turned, motion.input_angle - turned - math.pi
+
+
+def _opening(links: FourBar, phi: float, coupler: float, rocker: float) -> complex:
+    """a e(phi) + b e(theta_b) - c e(theta_c) - d, rounded once."""
+    with localcontext() as context:
+        context.prec = 40
+        x, y = -Decimal(links.frame), Decimal(0)
+        for length, angle in ((links.crank, phi), (links.coupler, coupler), (-links.rocker, rocker)):
+            cosine, sine = _cos_sin(Decimal(angle))
+            x, y = x + Decimal(length) * cosine, y + Decimal(length) * sine
+        return complex(x, y)
+
+
+def _cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:
+    """By their series."""
+    sums, term, n = [Decimal(0), Decimal(0)], Decimal(1), 0
+    while abs(term) > Decimal("1e-40"):
+        sums[n % 2] += term if n % 4 < 2 else -term
+        n += 1
+        term *= angle / n
+    return sums[0], sums[1]
+
+
+def _apart(one: Reals, other: Reals) -> Reals:
+    difference = one - other
+    turns: Reals = np.abs(difference - 2.0 * math.pi * np.rint(difference / (2.0 * math.pi)))
+    return turns

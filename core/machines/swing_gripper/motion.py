@@ -12,8 +12,7 @@ from gearlink.core.base.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases
-    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion
-    from gearlink.core.machines.swing_gripper.loop import TwoWays
+    from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, GripperMotion, TwoWays
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.laws import Law
@@ -178,8 +177,7 @@ class Motion:
     @cached_property
     def linkage(self) -> GripperLinkage:
         """The four-bar A-C-D-E driven by the law at ED."""
-        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage
-        from gearlink.core.machines.swing_gripper.swing import require_swing
+        from gearlink.core.machines.swing_gripper.linkage import GripperLinkage, require_swing
 
         spec = self.spec
         self._require_pivots_apart()
@@ -249,7 +247,7 @@ class Motion:
 
     def loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
         """Cylinder angles in degrees, and closed form against Newton-Raphson there."""
-        from gearlink.core.machines.swing_gripper.loop import two_ways
+        from gearlink.core.machines.swing_gripper.linkage import two_ways
 
         degrees, motion = self.rows(samples)
         return degrees, two_ways(self.linkage, motion)

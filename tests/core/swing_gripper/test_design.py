@@ -25,7 +25,7 @@ from sweeps import mostly_slow
 from gearlink.core.base.codes import rules
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import changed
-from gearlink.core.machines.swing_gripper.swing import clear_turn
+from gearlink.core.machines.swing_gripper.linkage import clear_turn
 
 EPS = 2.0**-52
 ROOT = Path(__file__).parents[3]

@@ -24,8 +24,13 @@ from oracles.vector_loop import exact_angles
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.swing_gripper.loop import closed_form_error, two_ways
-from gearlink.core.machines.swing_gripper.swing import DEAD_POINT, clear_turn, require_swing
+from gearlink.core.machines.swing_gripper.linkage import (
+    DEAD_POINT,
+    clear_turn,
+    closed_form_error,
+    require_swing,
+    two_ways,
+)
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 
 EPS = 2.0**-52
