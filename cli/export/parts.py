@@ -112,6 +112,14 @@ def cycloidal(design: Any) -> Makers:
     return {"disc": lambda: cycloidal_disc(design), "ring": lambda: cycloidal_ring(design)}
 
 
+def geneva(design: Any) -> Makers:
+    """The slotted wheel, and the crank's locking disc where the file has one."""
+    found: Makers = {"wheel": lambda: geneva_wheel(design)}
+    if design.spec.locking_radius is not None:
+        found["driver"] = lambda: geneva_driver(design)
+    return found
+
+
 def grooved(design: Any) -> Makers:
     """Both walls of a groove in the frame, each with the path of the roller's centre."""
     return {name: partial(_wall, design, name, place) for place, name in enumerate(("groove_inner", "groove_outer"))}
@@ -715,6 +723,53 @@ def cycloidal_ring(design: Any) -> Part:
         closed=True,
         circles=tuple(pins),
         notes=(f"{disc.pins} pins of radius {disc.pin:.9g} mm, the first on the x axis",),
+    )
+
+
+def geneva_wheel(design: Any) -> Part:
+    """The wheel of a Geneva drive, the middle of a slot on the x axis; of an internal one its inner contour."""
+    spec, inner = design.spec, design.drive.sign < 0.0
+    locking = spec.locking_radius
+    arcs = "no locking arcs: the file has no locking_radius"
+    if locking is not None:
+        arcs = f"locking arcs of radius {locking:.9g} mm about the crank's axis in the dwell, without running clearance"
+    form = "inner contour, the body lies outside it; the rim is the designer's choice" if inner else "outer contour"
+    return Part(
+        name="wheel",
+        title=f"{'internal ' if inner else ''}wheel of {spec.slots} slots",
+        stretches=tuple(_stretch(*piece) for piece in design.outlines_with(locking or 0.0).wheel_half()),
+        closed=True,
+        teeth=spec.slots,
+        circles=() if spec.hub_radius is None else (Circle("HUB", spec.hub_radius),),
+        notes=(
+            f"{form}; slots as wide as the pin, {2.0 * spec.pin_radius:.9g} mm: add the running clearance",
+            arcs,
+            f"distance of the axes {spec.center_distance:.9g} mm",
+            "frame: axis of the wheel at the origin, the middle of a slot on the x axis",
+        ),
+        findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
+    )
+
+
+def geneva_driver(design: Any) -> Part:
+    """The locking disc of a Geneva drive with its cut-outs, and the places of the pins."""
+    spec, drive = design.spec, design.drive
+    outlines = design.outlines_with(spec.locking_radius)
+    pins = [Circle("PINS", spec.pin_radius, cmath.rect(drive.crank, _TURN * k / drive.pins)) for k in range(drive.pins)]
+    shaft = [] if spec.shaft_radius is None else [Circle("SHAFT", spec.shaft_radius)]
+    return Part(
+        name="driver",
+        title="locking disc and pins of the crank",
+        stretches=tuple(_stretch(*piece) for piece in outlines.driver()),
+        closed=True,
+        circles=(*pins, *shaft),
+        notes=(
+            f"pins of radius {spec.pin_radius:.9g} mm at {drive.crank:.9g} mm from the axis",
+            "the crank's arm, which carries pin and disc, lies beside the wheel and is not drawn",
+            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius; no running clearance",
+            "frame: axis of the crank at the origin, a pin on the x axis",
+        ),
+        findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
     )
 
 

@@ -385,6 +385,8 @@ KINDS: dict[str, Kind] = {
             outputs={"motion": ("wheel_angle",)},
             picture="cli.views.figures.of_motion:draw",
             scene="cli.views.scenes.stepping:geneva",
+            profiles="cli.export.parts:geneva",
+            parts=("wheel", "driver"),
         ),
         Kind(
             "cycloidal-reducer",

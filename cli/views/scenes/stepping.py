@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.grooved import Grooved
     from gearlink.core.machines.cam_drives.linked import LinkedCams
     from gearlink.core.machines.cycloidal.design import CycloidalReducer
+    from gearlink.core.machines.geneva.bodies import Outlines, Piece
     from gearlink.core.machines.geneva.design import GenevaDrive
 
-_ARC = np.linspace(-1.0, 1.0, 41)
 _RIM = 2.5
 """Pin radii from the bottoms of an internal wheel's slots to its rim."""
 
@@ -38,9 +38,12 @@ def geneva(design: GenevaDrive, fraction: Reals) -> Scene:
     parts.append(Body(outline=_slotted(design), place=center, turn=turn, color=ORANGE, fill=fill,
                       repeats=drive.slots, width=1.6, name="wheel"))  # fmt: skip
     crank, angle = links["crank"].origin.value, links["crank"].turn.value
-    if drive.sign > 0.0 and drive.pins * drive.half < math.pi:
-        disc = _locking_disc(design)
-        parts.append(Body(outline=disc, place=crank, turn=angle, color=BLUE, fill=pale(BLUE, 0.25)))
+    if drive.pins * drive.half < math.pi:
+        parts.append(
+            Body(
+                outline=_traced(_outlines(design).driver()), place=crank, turn=angle, color=BLUE, fill=pale(BLUE, 0.25)
+            )
+        )
     pins = [
         Body(outline=circle(pin, 36), place=crank + drive.crank * np.exp(1j * (angle + k * TURN / drive.pins)),
              turn=np.zeros_like(angle), color=GREEN, fill=pale(GREEN, 0.4), repeats=0)
@@ -54,37 +57,22 @@ def _locking_radius(design: GenevaDrive) -> float:
     return design.spec.locking_radius or max(design.crank_radius - 1.5 * design.spec.pin_radius, 1e-3)
 
 
+def _outlines(design: GenevaDrive) -> Outlines:
+    """Wheel and disc; a disc that the file does not give, or that is too large to be drawn, leaves some lip."""
+    given, most = design.spec.locking_radius, max(design.crank_radius - design.spec.pin_radius, 1e-3)
+    return design.outlines_with(min(given or max(most - 0.5 * design.spec.pin_radius, 0.5 * most), most))
+
+
+def _traced(pieces: list[Piece]) -> Points:
+    counts = {"slot": 2, "locking arc": 61}
+    return np.concatenate([each.curve(np.linspace(each.low, each.high, counts.get(each.name, 21))) for each in pieces])
+
+
 def _slotted(design: GenevaDrive) -> Points:
     """The wheel's contour, the first slot along its x axis; of an internal wheel its hollow."""
-    drive, pin = design.drive, design.spec.pin_radius
-    bottom = drive.distance - drive.sign * drive.crank
-    end = bottom - drive.sign * pin * np.exp(-0.5j * math.pi * drive.sign * _ARC)
-    slot = np.array([drive.wheel - 1j * pin, *end, drive.wheel + 1j * pin])
-    between = np.exp(1j * math.pi / drive.slots)
-    if drive.sign > 0.0:
-        radius = _locking_radius(design)
-        arc = between * (drive.distance - radius * np.exp(-0.5j * math.pi * _ARC))
-        arc = arc[np.abs(arc) < drive.wheel]
-    else:
-        half = math.pi / drive.slots - math.asin(min(1.0, pin / design.tip_radius))
-        arc = between * design.tip_radius * np.exp(1j * half * _ARC)
-    sector = np.concatenate([slot, arc])
-    whole = np.concatenate([sector * np.exp(1j * TURN * k / drive.slots) for k in range(drive.slots)])
-    return np.asarray([*whole, whole[0]])
-
-
-def _locking_disc(design: GenevaDrive) -> Points:
-    """The disc that turns with the crank, cut out where a pin moves the wheel."""
-    drive, radius = design.drive, _locking_radius(design)
-    hollow = np.conj(drive.distance - drive.wheel * np.exp(1j * np.linspace(-0.5, 0.5, 41) * drive.step))
-    pieces = []
-    for k in range(drive.pins):
-        middle = np.exp(1j * TURN * (k + 0.5) / drive.pins)
-        half = math.pi / drive.pins - drive.half
-        pieces.append(radius * middle * np.exp(1j * half * _ARC))
-        inside = hollow[np.abs(hollow) < radius] * np.exp(1j * TURN * (k + 1) / drive.pins)
-        pieces.append(inside[np.argsort(np.angle(inside * np.exp(-1j * TURN * (k + 1) / drive.pins)))])
-    whole = np.concatenate(pieces)
+    half = _traced(_outlines(design).wheel_half())
+    sector = np.concatenate([half[::-1].conj(), half])
+    whole = np.concatenate([sector * np.exp(1j * TURN * k / design.spec.slots) for k in range(design.spec.slots)])
     return np.asarray([*whole, whole[0]])
 
 

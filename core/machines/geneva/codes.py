@@ -7,12 +7,15 @@ from gearlink.core.base.report import Rule
 LOCKING = Rule(
     "GL344",
     "locking disc and slots leave too little metal",
-    "The lip of the wheel between the locking arc and the end of a slot has no thickness, or two slots run into each "
-    "other at their bottoms.",
+    "The lip of the wheel between the locking arc and the end of a slot has no thickness, two slots run into each "
+    "other at their bottoms, or the locking disc is so small that it does not reach the wheel or that the lips hit its "
+    "edge on their way past.",
     "The lip takes the shock of the entering pin, and the arc holds the wheel in the dwell: without metal the wheel "
     "breaks or turns freely.",
-    "Take a smaller locking disc (locking_radius) or a thinner pin; a larger center_distance leaves more of both.",
-    "r - r_pin - locking_radius > 0; between the bottoms of two slots (a - r) sin(pi/n) > r_pin (external)",
+    "Take a smaller locking disc (locking_radius) or a thinner pin where metal lacks, a larger disc where it does not "
+    "hold; a larger center_distance leaves more of both.",
+    "r - r_pin - locking_radius > 0; locking_radius > a - tip_radius; between the "
+    "bottoms of two slots (a - r) sin(pi/n) > r_pin (external)",
     "thesis 4.2.1; own derivation",
     ("locking",),
     ("locking_radius", "pin_radius", "center_distance"),

@@ -16,6 +16,7 @@ from gearlink.core.machines.geneva.codes import LOCKING, STEP_RATE
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
+    from gearlink.core.machines.geneva.bodies import Outlines
     from gearlink.core.machines.geneva.mechanism import Geneva
     from gearlink.core.machines.geneva.spec import GenevaDriveSpec
     from gearlink.core.numerics.arrays import Reals
@@ -85,7 +86,13 @@ class GenevaDrive(RealSpeed, Design):
     @property
     def tip_radius(self) -> float:
         """Wheel axis to the corners of a slot's mouth, as wide as the pin [mm]: sqrt(wheel^2 + r_pin^2)."""
-        return math.hypot(self.wheel_radius, self.spec.pin_radius)
+        return self.outlines_with(0.0).tip
+
+    def outlines_with(self, locking: float) -> Outlines:
+        """Wheel and driver with a locking disc of this radius [mm]."""
+        from gearlink.core.machines.geneva.bodies import Outlines
+
+        return Outlines(self.drive, self.spec.pin_radius, locking)
 
     @property
     def slot_bottom_radius(self) -> float | None:
@@ -290,6 +297,7 @@ class GenevaDrive(RealSpeed, Design):
             what, overlap = "thickness of the lip between locking arc and slot", "overlap of locking arc and slot"
             fix = "take a smaller locking_radius or pin_radius"
             yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
+            yield from self._held(self.outlines_with(self.spec.locking_radius or 0.0))
         if self.drive.sign > 0.0:
             bottom = self.drive.distance - self.crank_radius
             web = 2.0 * (bottom * self.drive.ratio - self.spec.pin_radius)
@@ -297,6 +305,17 @@ class GenevaDrive(RealSpeed, Design):
             what, overlap = "web between the bottoms of two slots", "overlap of the bottoms of two slots"
             fix = "take a smaller pin_radius, or a larger center_distance"
             yield LOCKING.check(status, what, web, 0.0, "mm", overlap=overlap, fix=fix)
+
+    @staticmethod
+    def _held(outlines: Outlines) -> Iterator[Check]:
+        """Whether the disc reaches into the wheel at all, and lets the lips beside a driven slot pass."""
+        depth, deeper = outlines.depth, "choose a larger locking_radius"
+        status: Status = "fail" if depth <= 0.0 else "pass"
+        what, overlap = "depth of the locking disc in the wheel", "gap between locking disc and wheel"
+        yield LOCKING.check(status, what, depth, 0.0, "mm", overlap=overlap, fix=deeper)
+        if depth > 0.0 and (over := outlines.overlap) > 0.0:
+            what = "interference of the lip beside a slot with the edge of the locking disc"
+            yield LOCKING.check("fail", what, over, 0.0, "mm", side="<=", fix=deeper)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the crank's shaft beside an external wheel, and the wheel's hub within the bottoms of its slots."""

@@ -6,6 +6,7 @@ Tolerances: differences of a step of 1e-4 rad are good to 1e-8; searches of smoo
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from typing import Any
 
@@ -16,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gearlink.core.base.errors import MissingSection, NoSolution
+from gearlink.core.machines.geneva.bodies import Outlines
 from gearlink.core.machines.geneva.mechanism import Geneva
 
 GIVEN: dict[str, Any] = {
@@ -142,3 +144,44 @@ def test_refusals() -> None:
     for keys, key in (({"slots": 2}, "slots"), ({"pins": 4}, "pins"), ({"pin_radius": 60.0}, "axis")):
         with pytest.raises(ValueError, match=key):
             design(GIVEN, **keys)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(("slots", "share"), [(3, 0.8), (4, 0.95), (6, 0.5), (12, 0.85)])
+def test_wheel_and_driver_turn_without_touching(sign: float, slots: int, share: float) -> None:
+    """The outlines join and, turned through a revolution, the wheel's points stay out of the disc but for its arc."""
+    drive = Geneva(slots, 1, 100.0, sign)
+    pin = 0.1 * drive.crank
+    outlines = Outlines(drive, pin, share * (drive.crank - pin))
+    half, driver = outlines.wheel_half(), outlines.driver()
+    for chain in (half, [*driver, driver[0]]):
+        ends = [(each.curve(np.array([each.low]))[0], each.curve(np.array([each.high]))[0]) for each in chain]
+        for (_, end), (start, _) in itertools.pairwise(ends):
+            assert abs(end - start) < 1e-9
+    assert outlines.overlap == 0.0
+    sector = np.concatenate([each.curve(np.linspace(each.low, each.high, 60)) for each in half])
+    sector = np.concatenate([sector, sector.conj()])
+    wheel = (sector * np.exp(1j * drive.step * np.arange(slots))[:, None]).ravel()
+    f = np.linspace(-math.pi, math.pi, 181)[:, None]
+    angle = (math.pi if sign > 0.0 else 0.0) - sign * drive.over(f[:, 0], 0)[0][0][:, None]
+    seen = (sign * drive.distance + wheel * np.exp(1j * angle)) * np.exp(-1j * f)
+    vertex, end = outlines.cut_vertex, outlines.edge
+    into = outlines.locking - np.abs(seen)
+    # left of the arc through both edges and its vertex: the edges are seen at less than from the vertex
+    whole = np.angle((end - vertex) / (end.conjugate() - vertex)) % (2.0 * math.pi)
+    left = whole - np.angle((end - seen) / (end.conjugate() - seen)) % (2.0 * math.pi)
+    assert np.max(np.minimum(into, outlines.locking * left)) < 1e-3
+    assert np.max(into) > 0.1  # what the disc is cut out for
+
+
+def test_a_disc_that_does_not_hold_the_wheel() -> None:
+    """On both sides of a - tip_radius; then a lip that hits the edge of a small disc."""
+    least = 120.0 - design(GIVEN).tip_radius
+    found = [design(GIVEN, locking_radius=least + way).check("locking")[1] for way in (0.1, -0.1)]
+    assert [each.status for each in found] == ["pass", "fail"]
+    assert found[1].value == pytest.approx(-0.1)
+    hit = [
+        c for c in design(GIVEN, slots=12, pin_radius=2.0, locking_radius=8.0).check("locking") if c.status == "fail"
+    ]
+    assert len(hit) == 1
+    assert "edge of the locking disc" in hit[0].what
