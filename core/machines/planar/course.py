@@ -270,6 +270,10 @@ class Course:
         """Inputs as the equations have them, lengths in units of size."""
         return np.asarray(q * self._scale)
 
+    def unwalked(self, q: Reals) -> Reals:
+        """Inputs of the equations in rad or mm."""
+        return np.asarray(q / self._scale)
+
     def _parts(self, q: Reals) -> Iterator[Reals]:
         block = max(16, min(4096, _MOST // self.system.unknowns**2))
         yield from (q[start : start + block] for start in range(0, max(1, q.size), block))
@@ -403,8 +407,8 @@ class Start:
                     f"{_count(freedoms - drives, 'more mesh', 'more meshes')} or slots"
                 ),
             )
-        starts = {each.name: self._exact(each.name) for each in structure.drives}
-        rows = joint_rows(structure, {}) + drive_rows(structure, starts) + self._mesh_rows() + self._cam_rows()
+        rows = joint_rows(structure, {}) + drive_rows(structure, self.exact_starts)
+        rows += self._mesh_rows() + self._cam_rows()
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         if freedoms < drives:
             raise self._held(system, freedoms, drives)
@@ -674,16 +678,25 @@ class Start:
         return found
 
     @cached_property
+    def slide_turns(self) -> dict[str, float]:
+        """Whole revolutions that the directions of links on slides are off the slides' own [rad]."""
+        t, turns = self.closed[1], {}
+        for name, slide in self.structure.slides.items():
+            apart = float(t[slide.line.other] - t[slide.line.body]) - slide.line.direction - (slide.lean or 0.0)
+            turns[name] = _START_TURN * round(apart / _START_TURN)
+        return turns
+
+    @property
+    def exact_starts(self) -> dict[str, float]:
+        """Starts of the drives [rad or size]."""
+        return {each.name: self._exact(each.name) for each in self.structure.drives}
+
+    @cached_property
     def running(self) -> System:
         """The equations of the motion, with the constants of the start."""
         structure, (x, t) = self.structure, self.closed
         jets = Jets([x[None]], [t[None]])
-        turns = {}
-        for name, slide in structure.slides.items():
-            apart = float(t[slide.line.other] - t[slide.line.body]) - slide.line.direction - (slide.lean or 0.0)
-            turns[name] = _START_TURN * round(apart / _START_TURN)
-        starts = {each.name: self._exact(each.name) for each in structure.drives}
-        rows = [*joint_rows(structure, turns), *drive_rows(structure, starts)]
+        rows = [*joint_rows(structure, self.slide_turns), *drive_rows(structure, self.exact_starts)]
         for mesh in structure.meshes.values():
             row = mesh_row(mesh, structure.size)
             still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))

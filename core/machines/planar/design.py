@@ -328,9 +328,9 @@ _ANYWAY = ("degrees_of_freedom", "period_turns")
 _INPUTS = ("free_range", "min_transmission_angle_at")
 
 
-def _folded(angle: float) -> float:
+def folded(angle: Any) -> Any:
     """The acute angle between two lines."""
-    return min(abs(angle) % math.pi, math.pi - abs(angle) % math.pi)
+    return np.minimum(np.abs(angle) % math.pi, math.pi - np.abs(angle) % math.pi)
 
 
 class OfFile:
@@ -550,19 +550,27 @@ class PlanarMechanism(Design):
     def prepare(self, quantities: Iterable[str], /) -> None:
         """Search the extremes of these quantities together; a motion that is refused is so where one is asked for."""
         with suppress(GearlinkError):
-            self._search(key for name in quantities for key in self._needed(name))
+            self._search(key for name in quantities for key in self.needed(name))
 
-    def _needed(self, name: str) -> list[tuple[str, int]]:
+    def needed(self, name: str) -> list[tuple[str, int]]:
+        """Numbers and orders of their derivatives whose extremes a quantity is made of."""
         if name.startswith("min_transmission_angle"):
-            return self._dyads
+            return self.dyad_keys
         meaning = self.meanings.get(name)
         if meaning is None or meaning.side in ("turns", "path") or self._turns_through(meaning):
             return []
         return [(meaning.output.name, meaning.order)]
 
     @property
-    def _dyads(self) -> list[tuple[str, int]]:
+    def dyad_keys(self) -> list[tuple[str, int]]:
+        """The angles of the dyads."""
         return [(f"dyad {i}", 0) for i in range(len(self.course.dyads))]
+
+    @property
+    def moving_numbers(self) -> dict[str, tuple[Any, str]]:
+        """By name what moves, its Taylor coefficients and its unit."""
+        found = {each.output.name: (each.output.coefficient, each.output.unit) for each in self.meanings.values()}
+        return found | {f"dyad {i}": (dyad.angle, "rad") for i, dyad in enumerate(self.course.dyads)}
 
     def extremes(self, *keys: tuple[str, int]) -> list[Pair]:
         """Extremes of numbers by name and order of the derivative."""
@@ -572,10 +580,7 @@ class PlanarMechanism(Design):
     def _search(self, keys: Iterable[tuple[str, int]]) -> None:
         from gearlink.core.machines.planar.extremes import Wanted, extremes
 
-        moving: dict[str, tuple[Any, str]] = {
-            each.output.name: (each.output.coefficient, each.output.unit) for each in self.meanings.values()
-        }
-        moving |= {f"dyad {i}": (dyad.angle, "rad") for i, dyad in enumerate(self.course.dyads)}
+        moving = self.moving_numbers
         orders: dict[str, list[int]] = {}
         for name, order in dict.fromkeys(keys):
             if (name, order) not in self._found:
@@ -617,8 +622,8 @@ class PlanarMechanism(Design):
     @cached_property
     def _transmission(self) -> tuple[float, float] | None:
         """Minimum transmission angle of the dyads and its input."""
-        found = self.extremes(*self._dyads)
-        angles = [(_folded(each.value), each.place) for pair in found for each in pair]
+        found = self.extremes(*self.dyad_keys)
+        angles = [(float(folded(each.value)), each.place) for pair in found for each in pair]
         if not angles:
             return None
         least = min(angle for angle, _ in angles)

@@ -118,10 +118,10 @@ def _dyad(block: Block, bodies: set[int], ties: list[_Tie | None], structure: St
     known = [tie for tie in ties if tie is not None]
     if len(known) != len(ties) or len(ties) != 3 * len(bodies):
         return None
-    rows: dict[PinJoint | LineJoint, list[_Tie]] = {}
+    rows: dict[int, list[_Tie]] = {}  # by identity: of many mechanisms the sizes of a joint are arrays
     for tie in known:
-        rows.setdefault(tie.joint, []).append(tie)
-    whole = [joint for joint, own in rows.items() if len(own) == 2]
+        rows.setdefault(id(tie.joint), []).append(tie)
+    whole = [own[0].joint for own in rows.values() if len(own) == 2]
     if len(bodies) == 1 and len(rows) == 2 and len(whole) == 1:
         (body,), ((tie,),) = bodies, (own for own in rows.values() if len(own) == 1)
         joint = tie.joint
@@ -146,7 +146,8 @@ def _held_way(joint: PinJoint | LineJoint, body: int, pin: tuple[int, complex], 
 def _of_two(block: Block, bodies: tuple[int, ...], joints: list[PinJoint | LineJoint], size: float) -> Dyad | None:
     one, other = bodies
     inner = [each for each in joints if {*_ends(each)} == {one, other}]
-    outer = {body: [each for each in joints if body in _ends(each) and each not in inner] for body in bodies}
+    rest = [each for each in joints if {*_ends(each)} != {one, other}]
+    outer = {body: [each for each in rest if body in _ends(each)] for body in bodies}
     if len(inner) != 1 or any(len(each) != 1 for each in outer.values()):
         return None
     (joint,), (first,), (second,) = inner, outer[one], outer[other]

@@ -105,6 +105,33 @@ def _sought(course: Course, wanted: Mapping[str, Wanted], highest: int) -> dict[
     return found
 
 
+def humps(
+    course: Course, wanted: Mapping[str, Wanted], share: float
+) -> dict[tuple[str, int], list[tuple[float, float]]]:
+    """Places of the local extremes of courses and their derivatives, with 1 for a maximum and -1 for a minimum.
+
+    Parameters
+        share : float - of the range of a course: what is farther from the extreme is left out
+    Returns
+        found : (name, order) -> places; what stands still is left out
+    """
+    highest = max((max(each.orders) for each in wanted.values()), default=0)
+    grid = course.grid
+    jets = course.jets(grid, highest + 1)
+    brackets, found = [], {}
+    for name, each in wanted.items():
+        rows = course.derivatives(each.of, jets, max(each.orders) + 1)
+        for order in each.orders:
+            noise = _NOISE * max(_size(rows, order), course.floor(each.unit, order))
+            if float(np.ptp(rows[order])) > noise:
+                found[name, order] = list[tuple[float, float]]()
+            brackets += _brackets(name, order, grid, rows, noise, share)
+    places, _ = _refined(course, {name: each.of for name, each in wanted.items()}, brackets, highest)
+    for each_one, place in zip(brackets, places.tolist(), strict=True):
+        found[each_one.course, each_one.order].append((place, each_one.sign))
+    return found
+
+
 def turning_points(course: Course, of: Coefficient, *, ahead: int) -> Reals:
     """Where a number is smallest next to its neighbours.
 
@@ -122,7 +149,9 @@ def _size(rows: Sequence[Reals], order: int) -> float:
     return max(float(np.abs(each).max()) for each in rows[1 if order else 0 : order + 1])
 
 
-def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals], noise: float) -> list[_Sought]:
+def _brackets(
+    name: str, order: int, grid: Reals, rows: Sequence[Reals], noise: float, share: float = 0.0
+) -> list[_Sought]:
     """Steps of the grid in which the next derivative changes its sign next to the maximum and the minimum values."""
     value, slope = rows[order], rows[order + 1]
     size = _size(rows, order)
@@ -135,7 +164,7 @@ def _brackets(name: str, order: int, grid: Reals, rows: Sequence[Reals], noise: 
     for sign in (1.0, -1.0):
         top = np.maximum(sign * value[:-1], sign * value[1:])
         turns = (slope[:-1] > 0.0) if sign > 0.0 else (slope[:-1] <= 0.0)
-        near = top + room >= float(top.max()) - _EQUAL * size
+        near = top + room >= float(top.max()) - _EQUAL * size - share * float(np.ptp(value))
         found += (
             _Sought(name, order, float(grid[i]), float(grid[i + 1]), sign)
             for i in np.flatnonzero(changes & turns & near)

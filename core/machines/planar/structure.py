@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.wiring import FRAME, bearer_of, carrier_of, tied
@@ -94,15 +94,31 @@ class Structure:
     Parameters
         spec : PlanarSpec
         plays : by pin - by how much the second body's hole is off the first one's, in the frame's directions [mm]
+        sizes : by key of the file - sizes in place of those of the file [mm], numbers or (N,) arrays of N mechanisms
     """
 
     spec: PlanarSpec
     plays: Mapping[str, complex] = field(default_factory=dict)
+    sizes: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
     def bodies(self) -> dict[str, dict[str, complex]]:
         """Points by body, the frame first."""
-        return self.spec.bodies
+        found = self.spec.bodies
+        for name, points in found.items() if self.sizes else ():
+            group, link = (FRAME, None) if name == FRAME else (f"links.{name}", self.spec.links[name])
+            if isinstance(link, list):
+                points[str(link[1])] = self.sizes.get(f"{group}[2]", points[str(link[1])]) + 0j
+                continue
+            for point, place in points.items():
+                points[point] = self._sized(f"{group}.{point}", place)
+        return found
+
+    def _sized(self, key: str, place: complex) -> complex:
+        """A pair of coordinates with the sizes that differ."""
+        x, y = self.sizes.get(f"{key}[0]", place.real), self.sizes.get(f"{key}[1]", place.imag)
+        found: complex = x + 1j * y
+        return found
 
     @cached_property
     def numbers(self) -> dict[str, int]:
@@ -119,8 +135,9 @@ class Structure:
         """L, the maximum distance of a point of a link from its origin, or of two points of the frame, or of a slide's
         start from the frame's origin [mm].
         """
-        links = [abs(place) for name, body in self.bodies.items() if name != FRAME for place in body.values()]
-        frame = [abs(one - other) for one in self.bodies[FRAME].values() for other in self.bodies[FRAME].values()]
+        bodies = self.spec.bodies
+        links = [abs(place) for name, body in bodies.items() if name != FRAME for place in body.values()]
+        frame = [abs(one - other) for one in bodies[FRAME].values() for other in bodies[FRAME].values()]
         slides = [
             abs(complex(*each.through)) + abs(self.spec.start.get(name, 0.0)) for name, each in self.spec.slides.items()
         ]
@@ -129,7 +146,7 @@ class Structure:
     @cached_property
     def largest(self) -> float:
         """The largest distance of two points of one body, which closures are judged by [mm]."""
-        bodies = [[*body.values()] for body in self.bodies.values()]
+        bodies = [[*body.values()] for body in self.spec.bodies.values()]
         found = max(abs(one - other) for places in bodies for one in places for other in places)
         return found or self.size
 
@@ -154,8 +171,8 @@ class Structure:
         for name, each in self.spec.slides.items():
             points = self.bodies[each.link]
             point = points[each.point] if each.point is not None else next(iter(points.values()))
-            line = Line(self.numbers[each.on], complex(*each.through), math.radians(each.direction),
-                        self.numbers[each.link], point)  # fmt: skip
+            through = self._sized(f"slides.{name}.through", complex(*each.through))
+            line = Line(self.numbers[each.on], through, math.radians(each.direction), self.numbers[each.link], point)
             found[name] = LineJoint(name, line, math.radians(each.angle))
         return found
 
@@ -165,8 +182,11 @@ class Structure:
         found = {}
         for name, each in self.spec.slots.items():
             other = next(body for body, points in self.bodies.items() if each.point in points and body != each.on)
-            line = Line(self.numbers[each.on], complex(*each.through), math.radians(each.direction),
-                        self.numbers[other], self.bodies[other][each.point])  # fmt: skip
+            through, point = (
+                self._sized(f"slots.{name}.through", complex(*each.through)),
+                self.bodies[other][each.point],
+            )
+            line = Line(self.numbers[each.on], through, math.radians(each.direction), self.numbers[other], point)
             found[name] = LineJoint(name, line)
         return found
 

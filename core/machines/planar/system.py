@@ -99,7 +99,8 @@ class System:
 
     Parameters
         bodies : int - the frame among them
-        pins : ((first, second, place on first, place on second, play), ...) in units of size
+        pins : ((first, second, place on first, place on second, play), ...) in units of size; as the numbers of lines
+            and rows, places may be (N,) arrays of N mechanisms, a row each
         rows : Row, ...
         whole : bool - solved at once: for one row at a time that is quicker than part by part
     """
@@ -121,8 +122,9 @@ class System:
 
     @cached_property
     def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points, Points]:
-        a, b, s, r, play = zip(*self.pins, strict=True) if self.pins else ((), (), (), (), ())
-        return np.array(a, int), np.array(b, int), np.array(s, complex), np.array(r, complex), np.array(play, complex)
+        a, b, *places = zip(*self.pins, strict=True) if self.pins else ((), (), (), (), ())
+        s, r, play = (np.stack(np.broadcast_arrays(*each, 0j)[:-1], -1) if each else np.zeros(0) for each in places)
+        return np.array(a, int), np.array(b, int), s + 0j, r + 0j, play + 0j
 
     def values(self, jets: Jets, k: int, q: Reals) -> Reals:
         """Coefficient k of all equations along a motion; (N, count).

@@ -13,12 +13,12 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.explore.base import Refused
 from gearlink.core.studies.tolerance.sampling import REPLICATIONS, replication, rounded_up
-from gearlink.core.studies.tolerance_study.problem import Problem
+from gearlink.core.studies.tolerance_study.problem import ARRAY_SAMPLES, Problem
 from gearlink.core.studies.tolerance_study.samples import design_of, rows_of
 from gearlink.core.studies.tolerance_study.shares import replicated
 
 SHARES = (0.00135, 0.05, 0.5, 0.95, 0.99865)
-_ARRAY_SAMPLES, _SCALAR_SAMPLES = 16_384, 8 * REPLICATIONS
+_SCALAR_SAMPLES = 8 * REPLICATIONS
 _PLACES = 120
 _LEAST_TAIL = 5  # samples beyond a percentile, or it is none
 
@@ -89,12 +89,14 @@ def _reference(made: Problem) -> float | None:
 
 def deviations(made: Problem, number: int) -> list[Reals]:
     """Outputs of one replication less those of the nominal design; a (K, N) array each."""
-    count = rounded_up(_ARRAY_SAMPLES if made.is_quick else _SCALAR_SAMPLES)
-    columns = made.sizes(replication(made.coordinates, count, made.section.seed, number))
     table, names = outputs_of(made) or ("", ())
     nominal = made.nominal.table(table, samples=_PLACES)
     places = np.asarray(nominal.data[0], dtype=float)
-    if made.is_quick and made.axis is not None:
+    units = [nominal.units[nominal.columns.index(name)] for name in names]
+    over_arrays = made.is_quick and made.axis is not None and units == ["deg"]
+    count = rounded_up(getattr(made.axis, "samples", ARRAY_SAMPLES) // 8 if over_arrays else _SCALAR_SAMPLES)
+    columns = made.sizes(replication(made.coordinates, count, made.section.seed, number))
+    if over_arrays and made.axis is not None:
         return [np.degrees(made.axis.course(columns, np.radians(places)))]
     tables = [_table(made, row, table, len(places)) for row in rows_of(columns)]
     found = []

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.base.design import in_unit
-from gearlink.core.base.design_axis import Evaluated, Single, as_arrays
+from gearlink.core.base.design_axis import Evaluated, Single, as_arrays, put_in
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
@@ -92,7 +92,12 @@ def _judged(made: Problem, points: Reals) -> Judged:
 def evaluated(made: Problem, columns: Columns) -> Evaluated:
     """Designs of given sizes, over arrays where the kind has them."""
     if made.is_quick and made.axis is not None:
-        return made.axis.evaluate(columns, made.quick_names)
+        found = made.axis.evaluate(columns, made.quick_names)
+        if found.unsure is None or not found.unsure.any():
+            return found
+        rows = list(rows_of({key: value[found.unsure] for key, value in columns.items()}))
+        few = as_arrays([_single(made, row) for row in rows], made.names, list(made.base.codes))
+        return put_in(found, found.unsure, few)
     return as_arrays([_single(made, row) for row in rows_of(columns)], made.names, list(made.base.codes))
 
 

@@ -17,7 +17,6 @@ from sweeps import mostly_slow
 from gearlink.cli.opening import design, load
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.design import PlanarMechanism
-from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.system import joined
 
 DESIGNS = Path(__file__).parents[3] / "designs"
@@ -32,10 +31,17 @@ def planar(name: str, **more: Any) -> PlanarMechanism:
     return PlanarMechanism(made(name, **more)) if more else of_zoo(name)
 
 
-@pytest.mark.parametrize("share", [0.31, pytest.param(0.83, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", mostly_slow(["quick-return", *(name for name in ZOO if name != "quick-return")], 2))
+_QUICK = [("four-bar", 0.31), ("slide-on-lever", 0.83)]
+
+
+@pytest.mark.parametrize(
+    ("name", "share"),
+    mostly_slow(
+        [*_QUICK, *((name, share) for name in ZOO for share in (0.31, 0.83) if (name, share) not in _QUICK)], 2
+    ),
+)
 def test_positions_and_three_derivatives_against_forty_digits(name: str, share: float) -> None:
-    """Joints written down anew from the file, a root of 40 digits, differences of nine places; at two inputs."""
+    """Joints written down anew from the file, a root of 40 digits, differences of nine places."""
     course = planar(name).course
     size = course.structure.size
     x, t = course.at_start.closed
@@ -47,7 +53,7 @@ def test_positions_and_three_derivatives_against_forty_digits(name: str, share: 
     wanted = motion(ZOO[name], start.tolist(), found[0].tolist(), q)
     for order, (mine, other) in enumerate(zip(found, wanted, strict=True)):
         exact = np.array([float(each) for each in other])
-        assert mine == pytest.approx(exact, rel=1e-10, abs=1e-11 * max(1.0, np.abs(exact).max())), order
+        assert mine == pytest.approx(exact, rel=1e-10, abs=1e-11 * max(1.0, np.abs(exact).max())), (order, share)
 
 
 def _unknowns(x: Any, t: Any) -> Any:
@@ -204,34 +210,6 @@ def test_the_limit_of_the_transmission_angle_is_judged() -> None:
     assert [each.status for each in strict.check("transmission-angle")] == ["fail"]
 
 
-@pytest.mark.parametrize("pin", ["B", "C"])
-def test_the_play_of_a_pin_is_that_of_a_pivot_beyond_it(pin: str) -> None:
-    """A hole of the coupler off the crank's pin, in the frame, moves the crank's circle as its pivot would; one of the
-    rocker off the coupler's pin moves the rocker's pivot back."""
-    off = 0.3 - 0.2j
-    played = PlanarSamples(planar("four-bar")).design({f"pins.{pin}": off})
-    a, d = (off, 120 + 15j) if pin == "B" else (0j, 120 + 15j - off)
-    frame = {"A": [a.real, a.imag], "D": [d.real, d.imag]}
-    moved = planar("four-bar", frame=frame)
-    for name in ("rocker.angle_max", "rocker.speed_ratio_max", "rocker.jerk_ratio_min", "min_transmission_angle"):
-        assert played.raw(name) == pytest.approx(moved.raw(name), rel=1e-10), name
-
-
-@pytest.mark.slow
-def test_samples_follow_the_keys_of_the_file_and_the_play() -> None:
-    """A yield of the four-bar with a require line on its own output, twice the same."""
-    tolerance = {
-        "seed": 3,
-        "samples": 16,
-        "sources": {"links.crank[2]": {"plus_minus": 0.05}, "pins.C": {"clearance": [0.01, 0.03]}},
-        "require": ["rocker.swing <= 48.5 deg"],
-    }
-    made_ = design("tolerance", kind="planar-mechanism", name="four", **ZOO["four-bar"], tolerance=tolerance)
-    assert 0.0 < made_.raw("yield") < 1.0
-    table = made_.table("contributions")
-    assert {*table["source"]} == {"links.crank[2]", "pins.C"}
-
-
 def test_poles_are_where_a_link_stands_still() -> None:
     """A point of each link at its pole has no velocity; the Watt coupler's pole is where crank and rocker meet."""
     design_ = planar("watt")
@@ -245,17 +223,6 @@ def test_poles_are_where_a_link_stands_still() -> None:
     pole = np.asarray(table["coupler_pole_x"]) + 1j * np.asarray(table["coupler_pole_y"])
     assert np.abs(((pole - b) * np.conj(b)).imag / np.abs(b)).max() < 1e-6  # on the line of the crank
     assert np.abs(((pole - c) * np.conj(c - 110.0)).imag / 90.0).max() < 1e-6
-
-
-@pytest.mark.slow
-def test_the_band_is_that_of_the_first_output() -> None:
-    """Links that may be longer alone: the rocker's band over the cycle, with its nominal angle."""
-    tolerance = {"seed": 3, "samples": 16, "sources": {"links.crank[2]": {"plus_minus": 0.05}}}
-    made_ = design("tolerance", kind="planar-mechanism", name="four", **ZOO["four-bar"], tolerance=tolerance)
-    table = made_.table("band")
-    assert {*table["output"]} == {"rocker_angle"}
-    nominal = planar("four-bar").table("motion", samples=120)
-    assert np.asarray(table["nominal"]) == pytest.approx(np.asarray(nominal["rocker_angle"]), abs=1e-12)
 
 
 def test_a_differential_of_two_drives() -> None:
