@@ -85,7 +85,7 @@ def slips(one: str, other: str, most: int) -> int:
     return row[-1] if row[-1] <= most else -1
 
 
-_JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name
+_JSON_NAMES = {"How to repair": "how_to_mend", "Figure": "picture"}  # scripts depend on the names
 _LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "remedy": "How to repair"}
 
 

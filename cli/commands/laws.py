@@ -50,7 +50,7 @@ def laws(
 
         raise typer.BadParameter(f"no such file: {of_law(spec)}", param_hint=spec)
     if spec and law:
-        raise typer.BadParameter("a design file names its law: leave out --law, or the file", param_hint="--law")
+        raise typer.BadParameter("a design file names its law: omit --law, or the file", param_hint="--law")
     if not spec:
         for name in _OF_FILES:
             if getattr(options, name) != getattr(Options(), name):

@@ -22,7 +22,7 @@ A = TypeVar("A", bound=NDArray[Any])
 
 
 class Rates(tuple[A, ...]):
-    """A value and its derivatives with respect to the input angle, as many as were asked for; arrays of one shape.
+    """A value and its derivatives with respect to the input angle, as many as were requested; arrays of one shape.
 
     Example
         >>> angle = steady(np.array([0.0, 1.0]), 2.0, order=1)
@@ -30,7 +30,7 @@ class Rates(tuple[A, ...]):
         (1, [2.0, 2.0])
         >>> angle.second
         Traceback (most recent call last):
-        AssertionError: the second derivative was not asked for
+        AssertionError: the second derivative was not requested
     """
 
     __slots__ = ()
@@ -68,7 +68,7 @@ class Rates(tuple[A, ...]):
         """A derivative, 1 to 3, or the value, 0.
 
         Raises
-            AssertionError - where it was not asked for
+            AssertionError - where it was not requested
         """
         if order >= len(self):
             raise AssertionError(f"the {_NAMES[order]} derivative was not requested")

@@ -1,4 +1,4 @@
-"""The sections of a page as HTML: verdict, key results, animation, input, and for each command its sheet, results, findings, tables."""
+"""The sections of a page as HTML: verdict, key results, film, input, and for each command sheet, results, tables."""
 
 from __future__ import annotations
 

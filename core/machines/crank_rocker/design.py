@@ -118,7 +118,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         asked = [f"`{command}`" for command in self.spec.syntheses()]
         text = "`analyze` needs the section links: {crank, coupler, rocker, frame} (mm)"
         if len(asked) > 1:
-            return f"{text}; {' or '.join(asked)} finds it: leave all but one of their sections out"
+            return f"{text}; {' or '.join(asked)} finds it: keep one of their sections"
         return f"{text}; a section swing or function would have it found"
 
     crank_length: float = placed("linkage.crank")

@@ -99,7 +99,7 @@ class CrankRockerSpec(DrivenSpec):
     @model_validator(mode="after")
     def _range_goes_up(self) -> CrankRockerSpec:
         if self.range is not None and self.range[1] <= self.range[0]:
-            message = "the range ends before it starts: give a greater end"
+            message = "the range ends before it starts\ngive a greater end"
             raise PydanticCustomError("GL111", message, {"key": "range"})
         return self
 

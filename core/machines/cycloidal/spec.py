@@ -96,7 +96,7 @@ class CycloidalReducerSpec(DrivenSpec):
             message = "a pin of {radius} mm leaves no disc: pin_radius below pin_circle_radius less eccentricity"
             raise PydanticCustomError("GL111", message, {"key": "pin_radius", "radius": f"{self.pin_radius:g}"})
         if self.friction is not None and self.friction.bearing > 0.0 and self.bearing_radius is None:
-            message = "friction of the bearing acts at its radius: give bearing_radius (mm)"
+            message = "friction of the bearing acts at its radius\ngive bearing_radius (mm)"
             raise PydanticCustomError("GL106", message, {"key": "bearing_radius"})
         if self.friction is not None and self.output_pins is None:
             message = "the efficiency needs output_pins: {count, circle_radius, radius}"

@@ -77,7 +77,7 @@ class Profile(Spec):
             given = self.points is not None
             raise _refused("file" if given else "points", "give points or file" + (", not both" if given else ""))
         if self.points is None:
-            raise _refused("file", "the file is read with the design file; give points here")
+            raise _refused("file", "the file is read with the design file\ngive points here")
         angles = [angle for angle, _ in self.points]
         for k, (before, after) in enumerate(pairwise(angles), 1):
             if after <= before:

@@ -234,9 +234,9 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         size, follower = self.cam.size, self.follower
         if size is not None and self.is_flat:
             if size.curvature_radius is None:
-                raise _refuse("cam.size", "a flat face is sized by curvature_radius: give it")
+                raise _refuse("cam.size", "a flat face is sized by curvature_radius\ngive it")
             if size.pressure_angle is not None:
-                raise _refuse("cam.size", "a flat face is sized by curvature_radius alone: leave out pressure_angle")
+                raise _refuse("cam.size", "a flat face is sized by curvature_radius alone\nomit pressure_angle")
         if isinstance(follower, TranslatingRoller):
             if follower.offset == "best":
                 if size is None:

@@ -110,11 +110,11 @@ class HypocycloidDwellSpec(DrivenSpec):
         if self.is_arm:
             for key in ("rod", "target"):
                 if getattr(self, key) is not None:
-                    message = "{key} goes with output: slider: omit it"
+                    message = "{key} goes with output: slider\nomit it"
                     raise PydanticCustomError("GL111", message, {"key": key})
             return self
         if self.point.ratio != 1.0 and (self.target is not None or self.rod is None or self.rod.rule is not None):
-            message = "rules and targets are those of a point on the pitch circle: give rod.length, or point.ratio 1"
+            message = "rules and targets are those of a point on the pitch circle\ngive rod.length, or point.ratio 1"
             raise PydanticCustomError("GL111", message, {"key": "point.ratio"})
         if self.rod is None and self.target is None:
             raise PydanticCustomError("GL106", "give rod, or target from which it is found", {"key": "rod"})

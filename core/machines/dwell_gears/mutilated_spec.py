@@ -65,7 +65,7 @@ class WantedTimes(Spec):
                 message = "give {name}_turns, or {name}_time with input_speed"
                 raise PydanticCustomError("GL106", message, {"key": f"{name}_turns", "name": name})
             if len(given) > 1:
-                message = "{name}_turns and {name}_time exclude each other: give one"
+                message = "{name}_turns and {name}_time exclude each other\ngive one"
                 raise PydanticCustomError("GL111", message, {"key": given[1], "name": name})
         return self
 
@@ -106,11 +106,11 @@ class MutilatedGearDwellSpec(DrivenSpec):
             return self
         given = [key for key in ("reduction", "gears.full_teeth", "gears.group_teeth") if values[key] is not None]
         if given:
-            message = "{given} follows from the times that target requires: omit it"
+            message = "{given} follows from the times that target requires\nomit it"
             raise PydanticCustomError("GL111", message, {"key": given[0], "given": given[0]})
         timed = self.target.motion_time is not None or self.target.dwell_time is not None
         if timed and self.input_speed is None:
-            message = "a time needs the input's speed: give input_speed, or turns instead of times"
+            message = "a time needs the input's speed\ngive input_speed, or turns instead of times"
             raise PydanticCustomError("GL106", message, {"key": "input_speed"})
         return self
 

@@ -175,10 +175,10 @@ class FiveBarTarget(Spec):
     def _one_target(self) -> FiveBarTarget:
         given = [name for name in ("poses", "points", "positions", "function") if getattr(self, name) is not None]
         if len(given) > 1:
-            message = "{one} and {other} exclude each other: give one"
+            message = "{one} and {other} exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
         if self.poses is not None and self.tolerance is None and len(self.poses) > (exact := _EXACT_POSES[self.frame]):
-            message = "with a {frame} frame at most {exact} poses are met exactly: give tolerance for {count}"
+            message = "with a {frame} frame at most {exact} poses are met exactly\ngive tolerance for {count}"
             words = {"key": "poses", "frame": self.frame, "exact": str(exact), "count": str(len(self.poses))}
             raise PydanticCustomError("GL111", message, words)
         timed = self.input_angles is not None
@@ -191,7 +191,7 @@ class FiveBarTarget(Spec):
                 "GL108", "input angles count from the first point's, 0", {"key": "input_angles[0]"}
             )
         if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
-            message = "budget goes with a function whose links are sought, or with timed points: omit it"
+            message = "budget goes with a function whose links are sought, or with timed points\nomit it"
             raise PydanticCustomError("GL111", message, {"key": "budget"})
         return self
 
@@ -226,7 +226,7 @@ class GearedFiveBarSpec(DrivenSpec):
                     "key": key, "form": self.form, "needed": needed,
                 })  # fmt: skip
         _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
-                "shafts.O_radius", "O_radius goes with an idler: give gears.idler, or omit it")  # fmt: skip
+                "shafts.O_radius", "O_radius goes with an idler\ngive gears.idler, or omit it")  # fmt: skip
         if self.form == "path":
             self._path()
         else:
@@ -236,38 +236,38 @@ class GearedFiveBarSpec(DrivenSpec):
     def _path(self) -> None:
         gears, links = self.gears, self.links
         _refuse(self.target is not None and self.target.positions is not None, "target.positions",
-                "positions go with form: function; give points")  # fmt: skip
+                "positions go with form: function\ngive points")  # fmt: skip
         _refuse(self.target is not None and self.target.function is not None, "target.function",
-                "a function goes with form: function; give points")  # fmt: skip
+                "a function goes with form: function\ngive points")  # fmt: skip
         _refuse(self.range is not None, "range", "range goes with form: function; a path has its whole period")
         _refuse(any(z is not None for z in (gears.planet, gears.sun, gears.ring)), "gears",
-                "planet, sun and ring go with form: function; give input and output")  # fmt: skip
+                "planet, sun and ring go with form: function\ngive input and output")  # fmt: skip
         _refuse(gears.mesh == "internal" and gears.idler is not None, "gears.mesh",
-                "an idler meshes outside both gears: leave mesh or idler out")  # fmt: skip
+                "an idler meshes outside both gears\nomit mesh or idler")  # fmt: skip
         _refuse(gears.mesh == "internal" and gears.input == gears.output, "gears.output",
-                "a ring gear needs more teeth than the gear in it: change input or output")  # fmt: skip
+                "a ring gear needs more teeth than the gear in it\nchange input or output")  # fmt: skip
         _refuse(gears.idler is not None and links.frame is None, "links.frame",
-                "with an idler the gears do not fix the frame: give links.frame")  # fmt: skip
+                "with an idler the gears do not fix the frame\ngive links.frame")  # fmt: skip
 
     def _function(self) -> None:
         gears = self.gears
         _refuse(self.target is not None and self.target.poses is not None, "target.poses",
-                "poses go with form: path; give positions")  # fmt: skip
+                "poses go with form: path\ngive positions")  # fmt: skip
         _refuse(self.target is not None and self.target.points is not None, "target.points",
-                "points go with form: path; give positions")  # fmt: skip
+                "points go with form: path\ngive positions")  # fmt: skip
         sought = self.target is not None and self.target.function is not None
         judged = sought and self.target is not None and self.target.function.links == "given"  # type: ignore[union-attr]
         _refuse(sought and not judged and self.range is not None, "range",
-                "the interval of a function starts where it fits best: omit range")  # fmt: skip
+                "the interval of a function starts where it fits best\nomit range")  # fmt: skip
         _refuse(judged and self.range is None, "range",
-                "given links are evaluated from range.start on: give range: {start, end}")  # fmt: skip
+                "given links are evaluated from range.start on\ngive range: {start, end}")  # fmt: skip
         _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
-                "input, output and idler go with form: path; give planet and sun or ring")  # fmt: skip
+                "input, output and idler go with form: path\ngive planet and sun or ring")  # fmt: skip
         _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")
         _refuse(gears.ring is not None and gears.planet is not None and gears.ring <= gears.planet, "gears.ring",
-                "a ring gear needs more teeth than the gear in it: change ring or planet")  # fmt: skip
+                "a ring gear needs more teeth than the gear in it\nchange ring or planet")  # fmt: skip
         _refuse(self.range is not None and self.range.end <= self.range.start, "range.end",
-                "the range ends before it starts: give a greater end")  # fmt: skip
+                "the range ends before it starts\ngive a greater end")  # fmt: skip
 
 
 _NEEDED = {

@@ -77,7 +77,7 @@ class Cylinder(Spec):
     @model_validator(mode="after")
     def _same_ratio(self) -> Cylinder:
         if self.gears is not None and "gear_ratio" in self.model_fields_set and self.gear_ratio != self.ratio:
-            message = "the teeth of gears 3 and 4 make a ratio of {ratio}: omit gear_ratio, or change the teeth"
+            message = "the teeth of gears 3 and 4 make a ratio of {ratio}\nomit gear_ratio, or change the teeth"
             raise PydanticCustomError("GL111", message, {"key": "gear_ratio", "ratio": f"{self.ratio:.9g}"})
         return self
 
@@ -152,7 +152,7 @@ class PressCam(Spec):
                 "GL106", "either transition_end or transition_angle is needed", {"key": "transition_end"}
             )
         if self.transition_end is not None and self.transition_angle is not None:
-            message = "transition_end and transition_angle exclude each other: give one"
+            message = "transition_end and transition_angle exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": "transition_angle"})
         return self
 
@@ -202,7 +202,7 @@ class FlatbedPressSpec(TolerancedSpec):
             keys, z = teeth
             found = 0.5 * keys.module * z / cos(radians(keys.helix_angle))
             if keys.profile_shift is None and abs(given - found) > 1e-9 * found:
-                message = "the teeth make a radius of {found} mm: omit {last}, or give the same"
+                message = "the teeth make a radius of {found} mm\nomit {last}, or give the same"
                 words = {"key": f"loads.{key}", "found": f"{found:.9g}", "last": key}
                 raise PydanticCustomError("GL111", message, words)
         return self

@@ -92,10 +92,10 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         internal = isinstance(second, int) and second < 0
         self._fits_a_rack()
         if self.cutter is not None and not internal:
-            message = "a pinion cutter goes with a ring (negative teeth): omit it, or give tool"
+            message = "a pinion cutter goes with a ring (negative teeth)\nomit it, or give tool"
             raise PydanticCustomError("GL111", message, {"key": "cutter"})
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
-            message = "a cutter of {cutter} teeth does not go into a ring of {ring}: take a smaller one"
+            message = "a cutter of {cutter} teeth does not go into a ring of {ring}\ntake a smaller one"
             raise PydanticCustomError(
                 "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
             )
@@ -103,7 +103,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
-            message = "spur gears have no hand of helix: omit it, or give helix_angle"
+            message = "spur gears have no hand of helix\nomit it, or give helix_angle"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         if (self.helix_hand[0] == self.helix_hand[1]) != internal:
             message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
@@ -129,19 +129,19 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         """Refuse what a rack cannot have."""
         if not self.rack:
             if self.rack_teeth is not None:
-                message = "rack_teeth goes with teeth: [z, rack]: omit it"
+                message = "rack_teeth goes with teeth: [z, rack]\nomit it"
                 raise PydanticCustomError("GL111", message, {"key": "rack_teeth"})
             return
         if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
-            message = "a rack has no shift: give profile_shift: [x1, 0], or center_distance to its datum line"
+            message = "a rack has no shift\ngive profile_shift: [x1, 0], or center_distance to its datum line"
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
             raise PydanticCustomError("GL111", message, {"key": key})
         if self.shift_split != "equal":
-            message = "a rack takes no share of the shift: omit shift_split; center_distance alone gives x1"
+            message = "a rack takes no share of the shift\nomit shift_split; center_distance alone gives x1"
             raise PydanticCustomError("GL111", message, {"key": "shift_split"})
         for key in ("loads", "tip_diameter", "rating"):
             if getattr(self, key) is not None:
-                message = "{key} is not known of a gear on a rack: omit it"
+                message = "{key} is not known of a gear on a rack\nomit it"
                 raise PydanticCustomError("GL111", message, {"key": key})
 
     def commands(self) -> tuple[str, ...]:
@@ -152,7 +152,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
 def exclude_each_other(spec: Any, first: str, second: str) -> None:
     """Refuse a file that gives both of two keys."""
     if getattr(spec, first) is not None and getattr(spec, second) is not None:
-        message = f"{first} and {second} exclude each other: give one"
+        message = f"{first} and {second} exclude each other\ngive one"
         raise PydanticCustomError("GL111", message, {"key": second})
 
 

@@ -102,9 +102,9 @@ class Member(Spec):
         if self.of is None and self.design is None:
             raise _refuse("GL106", "of", "give `of` or `design`, exactly one")
         if self.ratio == 0.0:
-            raise _refuse("GL108", "ratio", "with ratio 0 the member does not move: give another one")
+            raise _refuse("GL108", "ratio", "with ratio 0 the member does not move\ngive another one")
         if self.phase == "free" and self.input is not None:
-            raise _refuse("GL111", "phase", "a member with input moves with its driver: give a number for its phase")
+            raise _refuse("GL111", "phase", "a member with input moves with its driver\ngive a number for its phase")
         return self
 
     @property
@@ -186,9 +186,9 @@ class MainShaft(Spec):
             raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 does not move")
         names = [name for disc in self.acting for name in disc]
         if twice := [name for name in names if names.count(name) > 1]:
-            raise _refuse("GL111", "members", f"{named(twice[0])} is on two discs: put it on one")
+            raise _refuse("GL111", "members", f"{named(twice[0])} is on two discs\nput it on one")
         if [] in self.acting:
-            raise _refuse("GL108", "members", "a disc without a name: give it one, such as motor")
+            raise _refuse("GL108", "members", "a disc without a name\ngive it one, such as motor")
         return self
 
     @property
@@ -291,7 +291,7 @@ class MachineSpec(TolerancedSpec):
                 raise _refuse("GL109", f"members.{name}.input", message)
         for name in self.members:
             if loop := self._circle(name):
-                message = f"{' <- '.join(loop)} drive each other in a circle: let one of them be driven by the shaft"
+                message = f"{' <- '.join(loop)} drive each other in a circle\nlet one of them be driven by the shaft"
                 raise _refuse("GL111", f"members.{name}.input", message)
         return self
 

@@ -92,7 +92,7 @@ class Teeth(Spec):
         of_rack = {"rack": self.rack, "pinion": self.pinion, "direction": self.direction, "side": self.side}
         if self.gears is not None:
             if wrong := next((key for key, value in of_rack.items() if value is not None), ""):
-                _refuse(wrong, f"{wrong} goes with rack and pinion: leave it or gears out")
+                _refuse(wrong, f"{wrong} goes with rack and pinion\nomit it or gears")
             if not isinstance(self.at, list) or not isinstance(self.teeth, list):
                 _refuse("at" if not isinstance(self.at, list) else "teeth", "two gears need a list of two, [.., ..]")
             if isinstance(self.teeth, list):
@@ -105,7 +105,7 @@ class Teeth(Spec):
                 "GL106", "{message}", {"key": "rack", "message": f"{missing} is missing: {words}"}
             )
         if isinstance(self.at, list) or isinstance(self.teeth, list):
-            _refuse("at" if isinstance(self.at, list) else "teeth", "a rack meets one pinion: give one, without a list")
+            _refuse("at" if isinstance(self.at, list) else "teeth", "a rack meets one pinion\ngive one, without a list")
         if isinstance(self.teeth, int) and self.teeth < 1:
             _refuse("teeth", "a pinion has 1 tooth or more")
         if self.carrier is not None:
@@ -115,11 +115,11 @@ class Teeth(Spec):
 
 def _require_gears(teeth: list[int]) -> None:
     if 0 in teeth:
-        _refuse(f"teeth[{teeth.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less: write its teeth")
+        _refuse(f"teeth[{teeth.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth")
     if max(teeth) < 0:
-        _refuse("teeth", "two rings cannot mesh: make one of them an external gear")
+        _refuse("teeth", "two rings cannot mesh\nmake one of them an external gear")
     if min(teeth) < 0 <= sum(teeth):
-        _refuse("teeth", "a ring gear needs more teeth than the gear in it: change one of the two")
+        _refuse("teeth", "a ring gear needs more teeth than the gear in it\nchange one of the two")
 
 
 class CamPair(Spec):
@@ -180,7 +180,7 @@ class Range(Spec):
     @model_validator(mode="after")
     def _ascending(self) -> Range:
         if self.end <= self.start:
-            _refuse("end", "the range ends before it starts: give a greater end")
+            _refuse("end", "the range ends before it starts\ngive a greater end")
         return self
 
 

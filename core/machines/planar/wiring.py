@@ -37,7 +37,7 @@ def _sizes(spec: PlanarSpec) -> Iterator[Fault]:
     for key in () if spec.tolerance is None else spec.tolerance.sources:
         section = key.partition(".")[0]
         if section in ("start", "drive", "range", "limits", "input_speed"):
-            words = f"{section} is no size of a part: name a number of frame, links, slides or slots, or pins.PIN"
+            words = f"{section} is no size of a part\nname a number of frame, links, slides or slots, or pins.PIN"
             yield "GL170", f'tolerance.sources."{key}"', words
 
 
@@ -64,11 +64,11 @@ def _bars(spec: PlanarSpec) -> Iterator[Fault]:
         first, second, length = link
         for k, point in enumerate((first, second)):
             if not isinstance(point, str):
-                yield "GL111", f"links.{name}[{k}]", "a bar is [first point, second point, length]: name its points"
+                yield "GL111", f"links.{name}[{k}]", "a bar is [first point, second point, length]\nname its points"
         if isinstance(length, str):
-            yield "GL111", f"links.{name}[2]", "a bar is [first point, second point, length]: give its length in mm"
+            yield "GL111", f"links.{name}[2]", "a bar is [first point, second point, length]\ngive its length in mm"
         if first == second:
-            yield "GL111", f"links.{name}[1]", "a bar leads from one point to another: name two"
+            yield "GL111", f"links.{name}[1]", "a bar leads from one point to another\nname two"
 
 
 def _near(wrong: str, known: Iterable[str]) -> str:
@@ -98,7 +98,7 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
             yield "GL111", f"{key}.link", f"no link is called {named(slide.link)}: {_near(slide.link, spec.links)}"
         yield from _body(spec, slide.on, f"{key}.on")
         if slide.on == slide.link:
-            yield "GL111", f"{key}.on", "a link cannot slide on itself: name the body that has the line"
+            yield "GL111", f"{key}.on", "a link cannot slide on itself\nname the body that has the line"
         if slide.point is not None:
             yield from _point(spec, slide.point, slide.link, f"{key}.point")
         if slide.link in taken:
@@ -114,7 +114,7 @@ def _slides(spec: PlanarSpec) -> Iterator[Fault]:
         if slot.point not in points:
             yield "GL111", f"{key}.point", f"no body has a point {named(slot.point)}: {_near(slot.point, points)}"
         if not any(slot.point in body for other, body in spec.bodies.items() if other != slot.on):
-            words = f"{slot.point} stands on {slot.on} itself, which has the slot: name a point of another body"
+            words = f"{slot.point} stands on {slot.on} itself, which has the slot\nname a point of another body"
             yield "GL111", f"{key}.point", words
 
 
@@ -129,15 +129,15 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
             )
         yield from _point(spec, str(mesh.at), mesh.pinion or "", f"{key}.at")
         if mesh.rack == mesh.pinion:
-            yield "GL111", f"{key}.pinion", "rack and pinion are one link: name two"
+            yield "GL111", f"{key}.pinion", "rack and pinion are one link\nname two"
         return
     for k, (gear, point) in enumerate(zip(mesh.gears, mesh.at, strict=True)):
         yield from _body(spec, gear, f"{key}.gears[{k}]")
         yield from _point(spec, point, gear, f"{key}.at[{k}]")
     if mesh.gears[0] == mesh.gears[1]:
-        yield "GL111", f"{key}.gears[1]", "both gears are one body: name two"
+        yield "GL111", f"{key}.gears[1]", "both gears are one body\nname two"
     if mesh.at[0] == mesh.at[1]:
-        yield "GL111", f"{key}.at", "both gears have one centre, which leaves no distance for teeth: name two points"
+        yield "GL111", f"{key}.at", "both gears have one centre, which leaves no distance for teeth\nname two points"
     if mesh.carrier is not None:
         yield from _body(spec, mesh.carrier, f"{key}.carrier")
         for point in mesh.at:
@@ -145,9 +145,9 @@ def _mesh(spec: PlanarSpec, key: str, mesh: Teeth) -> Iterator[Fault]:
     holder = carrier_of(spec, mesh)
     if holder is None:
         words = f"no body has both points {' and '.join(mesh.at)}, so nothing holds the gears at their distance"
-        yield "GL111", f"{key}.at", f"{words}: add a link between them"
+        yield "GL111", f"{key}.at", f"{words}\nadd a link between them"
     elif spec.bodies[holder][mesh.at[0]] == spec.bodies[holder][mesh.at[1]]:
-        yield "GL111", f"{key}.at", "the centres of the gears coincide: move one of them"
+        yield "GL111", f"{key}.at", "the centres of the gears coincide\nmove one of them"
 
 
 def _cam(spec: PlanarSpec, key: str, cam: CamPair) -> Iterator[Fault]:
@@ -187,15 +187,15 @@ def _drives(spec: PlanarSpec) -> Iterator[Fault]:
     if drive.slide is not None and drive.slide not in spec.slides:
         yield "GL111", "drive.slide", f"no slide is called {named(drive.slide)}: {_near(drive.slide, spec.slides)}"
     if drive.link in spec.slid:
-        yield "GL111", "drive.link", f"{drive.link} slides: give slide: {spec.slid[drive.link]} instead of link"
+        yield "GL111", "drive.link", f"{drive.link} slides\ngive slide: {spec.slid[drive.link]} instead of link"
     for name in drive.others:
         key, known = f"drive.with.{name}", [*spec.links, *spec.slides]
         if name not in known:
             yield "GL111", key, f"no link or slide is called {named(name)}: {_near(name, known)}"
         if name in spec.slid:
-            yield "GL111", key, f"{name} slides: name its slide {spec.slid[name]} instead of the link"
+            yield "GL111", key, f"{name} slides\nname its slide {spec.slid[name]} instead of the link"
         if name == drive.main:
-            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1: omit it"
+            yield "GL111", key, f"{name} is the drive itself, which the input moves 1 to 1\nomit it"
     if drive.slide is not None and spec.range is None:
         words = "a slide as drive needs a range: {start, end} (mm), since nothing repeats"
         yield "GL106", "range", words
@@ -205,13 +205,13 @@ def _starts(spec: PlanarSpec) -> Iterator[Fault]:
     known = [*(name for name in spec.links if name not in spec.slid), *spec.slides]
     for name in spec.start:
         if name in spec.slid:
-            yield "GL111", f"start.{name}", f"{name} slides: give the position of {spec.slid[name]}, or omit it"
+            yield "GL111", f"start.{name}", f"{name} slides\ngive the position of {spec.slid[name]}, or omit it"
         if name not in known:
             yield "GL111", f"start.{name}", f"no link or slide is called {named(name)}: {_near(name, known)}"
     given = {spec.drive.main, *spec.drive.others, *tied(spec).values(), *spec.start, *spec.slid}
     for name in spec.links:
         if name not in given:
-            words = f"{name} has no start: give start.{name}, its rough direction at input 0 (deg)"
+            words = f"{name} has no start\ngive start.{name}, its rough direction at input 0 (deg)"
             yield "GL106", f"start.{name}", words
 
 
@@ -252,7 +252,7 @@ def _outputs(spec: PlanarSpec) -> Iterator[Fault]:
             words = f"no link, slide, slot or point of a link is called {named(name)}: {_near(name, known)}"
             yield "GL111", f"outputs[{k}]", words
         if name in (spec.outputs or ())[:k]:
-            yield "GL111", f"outputs[{k}]", f"{name} is listed twice: omit one"
+            yield "GL111", f"outputs[{k}]", f"{name} is listed twice\nomit one"
     for name in spec.shafts:
         point, _, rest = name.rpartition("_")
         if rest != "radius" or point not in spec.frame:
@@ -281,5 +281,5 @@ def _hanging(spec: PlanarSpec) -> Iterator[Fault]:
         edge = [name for each in edge for name in near[each] if name not in reached and not reached.add(name)]  # type: ignore[func-returns-value]
     for name in spec.links:
         if name not in reached:
-            words = f"{name} hangs on nothing: no pin, slide or slot leads from the frame to it; give it a common point"
+            words = f"{name} hangs on nothing: no pin, slide or slot leads from the frame to it\ngive it a common point"
             yield "GL111", f"links.{name}", words

@@ -116,18 +116,18 @@ class TwoGearFourBarSpec(DrivenSpec):
     def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
         syntheses = self._syntheses()
         if self.links.frame is None and not syntheses:
-            message = "give frame, or have it sought: give dwell, back_step, or target with motion: momentary-dwell"
+            message = "give frame, or have it sought\ngive dwell, back_step, or target with motion: momentary-dwell"
             raise PydanticCustomError("GL106", message, {"key": "links.frame"})
         sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
         if self.links.frame is not None and sections:
-            message = "links.frame is what {section} has sought: leave one of them out"
+            message = "links.frame is what {section} has sought\nomit one of them"
             raise PydanticCustomError("GL111", message, {"key": "links.frame", "section": sections[0]})
         return self
 
     @model_validator(mode="after")
     def _one_tolerance(self) -> TwoGearFourBarSpec:
         if self.dwell_tolerance is not None and self.dwell is not None:
-            message = "dwell_tolerance measures links that are given, dwell has the frame sought: leave one of them out"
+            message = "dwell_tolerance measures links that are given, dwell has the frame sought\nomit one of them"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None:
             raise PydanticCustomError(

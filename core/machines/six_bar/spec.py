@@ -54,18 +54,18 @@ class SixTrain(Spec):
     @model_validator(mode="after")
     def _whole(self) -> SixTrain:
         if any((PINS.index(b) - PINS.index(a)) % 6 != 1 for a, b in pairwise(self.pins)):
-            _refuse("pins", "a train's pins follow each other in the order A B C D E F A: write them so, as [F, A]")
+            _refuse("pins", "a train's pins follow each other in the order A B C D E F A\nwrite them so, as [F, A]")
         if len(self.gears) != len(self.pins):
             _refuse("gears", f"give the teeth of a gear on each pin: {len(self.gears)} for {len(self.pins)} pins")
         if 0 in self.gears:
-            _refuse(f"gears[{self.gears.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less: write its teeth")
+            _refuse(f"gears[{self.gears.index(0)}]", "a gear has 1 tooth or more, a ring -1 or less\nwrite its teeth")
         for k, (one, other) in enumerate(pairwise(self.gears)):
             if one < 0 and other < 0:
-                _refuse(f"gears[{k + 1}]", "two rings cannot mesh: make one of them an external gear")
+                _refuse(f"gears[{k + 1}]", "two rings cannot mesh\nmake one of them an external gear")
             if one + other >= 0 and min(one, other) < 0:
-                _refuse(f"gears[{k}]", "a ring gear needs more teeth than the gear in it: change one of the two")
+                _refuse(f"gears[{k}]", "a ring gear needs more teeth than the gear in it\nchange one of the two")
         if sum(z < 0 for z in self.gears) > 1:
-            _refuse("gears", "a train takes one ring: make the others external gears")
+            _refuse("gears", "a train takes one ring\nmake the others external gears")
         require_rim(self.rim, -min(self.gears) if min(self.gears) < 0 else None, self.module)
         return self
 
@@ -130,7 +130,7 @@ class GearedSixBarSpec(DrivenSpec):
     @model_validator(mode="after")
     def _swing(self) -> GearedSixBarSpec:
         if self.range is not None and self.range.end <= self.range.start:
-            _refuse("range.end", "the range ends before it starts: give a greater end")
+            _refuse("range.end", "the range ends before it starts\ngive a greater end")
         return self
 
 

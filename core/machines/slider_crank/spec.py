@@ -64,13 +64,13 @@ class SliderCrankSpec(DrivenSpec):
         if self.quick_return_ratio is None:
             return self
         if self.stroke is None:
-            message = "quick_return_ratio goes with stroke: give it"
+            message = "quick_return_ratio goes with stroke\ngive it"
             raise PydanticCustomError("GL106", message, {"key": "stroke"})
         if "offset" in self.model_fields_set:
-            message = "the offset is found for quick_return_ratio: omit it"
+            message = "the offset is found for quick_return_ratio\nomit it"
             raise PydanticCustomError("GL111", message, {"key": "offset"})
         if self.rod is not None and self.crank is not None:
-            message = "stroke and quick_return_ratio leave one of rod and crank free: omit crank"
+            message = "stroke and quick_return_ratio leave one of rod and crank free\nomit crank"
             raise PydanticCustomError("GL111", message, {"key": "crank"})
         return self
 

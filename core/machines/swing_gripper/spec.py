@@ -233,7 +233,7 @@ class ClosingSpring(Spec):
         missing = [key for key, value in needed.items() if value is None]
         given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
         if self.torque is not None and given:
-            text = "torque and {other} exclude each other: give the torque, or the levers that make it"
+            text = "torque and {other} exclude each other\ngive the torque, or the levers that make it"
             _refuse("torque", text, other=given[0])
         if self.torque is None and missing:
             _refuse("torque", "give torque, or arms, angle and preload; {missing} missing", missing=", ".join(missing))
@@ -291,7 +291,7 @@ class FingerSection(Spec):
     def _one_after_the_other(self) -> FingerSection:
         opened, closing = self.open.from_ + self.open.over, self.close.to - self.close.over
         if opened > closing:
-            text = "the fingers are open from {opened} deg and begin to close at {closing} deg: let them close later"
+            text = "the fingers are open from {opened} deg and begin to close at {closing} deg\nlet them close later"
             _refuse("close", text, opened=f"{opened:g}", closing=f"{closing:g}")
         return self
 

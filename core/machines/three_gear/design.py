@@ -218,7 +218,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         asked = [f"`{command}`" for command in self.spec.syntheses()]
         if not asked:
             return "; a section dwell, back_step, speed or momentary would have it found"
-        several = ": leave all but one of their sections out" if len(asked) > 1 else ""
+        several = ": keep one of their sections" if len(asked) > 1 else ""
         return f"; {' or '.join(asked)} finds it{several}"
 
     crank_teeth: int = placed("spec.gears.crank")

@@ -24,7 +24,7 @@ class Placing(Spec):
     def _one_placing(self) -> Placing:
         given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
         if len(given) > 1:
-            message = "crank, frame and balanced exclude each other: give one"
+            message = "crank, frame and balanced exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         return self
 
@@ -46,6 +46,6 @@ class Dwell(DwellBand, Placing):
             message = "angle excludes window and tolerance: it specifies another dwell"
             raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
         if self.margin is not None and (self.window is not None or self.tolerance is None):
-            message = "margin goes with tolerance alone: omit it"
+            message = "margin goes with tolerance alone\nomit it"
             raise PydanticCustomError("GL111", message, {"key": "margin"})
         return self

@@ -51,11 +51,11 @@ class Gears(TrainKeys):
     def _rings_are_larger(self) -> Gears:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
-                message = "a ring gear of {ring} teeth does not take an idler of {idler}: give it more teeth"
+                message = "a ring gear of {ring} teeth does not take an idler of {idler}\ngive it more teeth"
                 words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
                 raise PydanticCustomError("GL111", message, words)
         if self.i3 is not None and min(self.crank, self.output) < 0:
-            message = "i3 goes with external gears: give idler instead of i3"
+            message = "i3 goes with external gears\ngive idler instead of i3"
             raise PydanticCustomError("GL111", message, {"key": "i3"})
         ring = -self.output if self.output < 0 else None
         require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
@@ -66,7 +66,7 @@ class Gears(TrainKeys):
         if self.i3 is not None and self.idler is not None:
             raise PydanticCustomError("GL111", "i3 and idler exclude each other\ngive one", {"key": "i3"})
         if self.i3 is not None and self.crank != self.output:
-            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler instead of i3"
+            message = "i3 goes with equal crank and output teeth\nset output to {crank}, or give idler instead of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
         return self
 
@@ -130,17 +130,17 @@ class ThreeGearSpec(DrivenSpec):
                 "GL111", "dwell_tolerance and dwell_backlash exclude each other\ngive one", {"key": "dwell_backlash"}
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
-            message = "dwell_tolerance and dwell.tolerance specify the same: give one"
+            message = "dwell_tolerance and dwell.tolerance specify the same\ngive one"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
-            message = "dwell_window goes with dwell_tolerance or dwell_backlash: give one of them"
+            message = "dwell_window goes with dwell_tolerance or dwell_backlash\ngive one of them"
             raise PydanticCustomError("GL111", message, {"key": "dwell_window"})
         return self
 
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> ThreeGearSpec:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None and self.speed is None:
-            message = "the speed at the lay needs the input's: give input_speed"
+            message = "the speed at the lay needs the input's\ngive input_speed"
             raise PydanticCustomError("GL106", message, {"key": "input_speed"})
         return self
 

@@ -50,7 +50,7 @@ class Speed(Placing):
         band = [name for name in ("min", "max") if getattr(self, name) is not None]
         even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
         if band and even:
-            message = "uniform_angle and uniform_tolerance replace min and max: give one pair"
+            message = "uniform_angle and uniform_tolerance replace min and max\ngive one pair"
             raise PydanticCustomError("GL111", message, {"key": even[0]})
         pair = ("uniform_angle", "uniform_tolerance") if even else ("min", "max")
         missing = [name for name in pair if getattr(self, name) is None]
@@ -95,7 +95,7 @@ class Momentary(Spec):
         if not given:
             raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
         if len(given) > 1:
-            message = "eccentricity, frame, gap and balanced exclude each other: give one"
+            message = "eccentricity, frame, gap and balanced exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         return self
 

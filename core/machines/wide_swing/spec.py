@@ -394,8 +394,11 @@ class WideSwingSpec(TolerancedSpec):
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
-        if self.unloader.type == "gravity" and self.slider is not None:
-            _refuse("slider", "unloader.type: gravity is for a rocker alone: leave out slider")
+        if self.unloader.type == "gravity":
+            for name in ("slider", "loads"):
+                if getattr(self, name) is not None:
+                    words = "unloader.type: gravity is for a rocker alone, without forces at its joints\nomit {name}"
+                    _refuse(name, words, name=name)
         if self.slider is not None and self.cam is not None:
             self._cam_with_slider(self.cam)
         return self
@@ -417,26 +420,28 @@ class WideSwingSpec(TolerancedSpec):
             )
         if parallel and self.gears is not None and self.cam is None:
             _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
+        if parallel and self.loads is not None:
+            _refuse("loads", "the loads of cams on two shafts are not computed\nomit loads, or take twin-cam")
 
     def _cam_with_slider(self, cam: SwingCam) -> None:
         if self.layout != "twin-cam":
             _refuse("layout", "the cam of a rocker with a slider has an external profile: layout must be twin-cam")
         if self.cycle is not None:
-            _refuse("cycle", "a cycle is that of a rocker without a slider: give cycle_angle")
+            _refuse("cycle", "a cycle is that of a rocker without a slider\ngive cycle_angle")
         if cam.rocker_radius is not None:
-            _refuse("cam.rocker_radius", "the law of a slider gives the rocker radius: leave out cam.rocker_radius")
+            _refuse("cam.rocker_radius", "the law of a slider gives the rocker radius\nomit cam.rocker_radius")
 
     def _agree_with_drive(self) -> None:
         if self.cycle is not None:
-            _refuse("cycle", "the drive's dead centres give the crank angles of both strokes: leave out cycle")
+            _refuse("cycle", "the drive's dead centres give the crank angles of both strokes\nomit cycle")
         if self.cycle_angle is not None:
-            _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke: leave out cycle_angle")
+            _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke\nomit cycle_angle")
         if self.cam is None:
             _refuse("cam", "a drive needs the section cam: center_distance, roller_radius", "GL106")
         if self.layout != "twin-cam":
             _refuse("layout", "an oscillating cam has an external profile: layout must be twin-cam")
         if self.cam.rocker_radius is not None:
-            _refuse("cam.rocker_radius", "the drive gives the rocker radius: leave out cam.rocker_radius")
+            _refuse("cam.rocker_radius", "the drive gives the rocker radius\nomit cam.rocker_radius")
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

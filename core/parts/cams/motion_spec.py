@@ -36,7 +36,7 @@ class Segment(Spec):
         if self.return_ is not None:
             for key in ("lift", "law"):
                 if getattr(self, key) is not None:
-                    message = "return: mirrored takes lift and law from the rise: omit them"
+                    message = "return: mirrored takes lift and law from the rise\nomit them"
                     raise PydanticCustomError("GL111", message, {"key": key})
         if self.law != "polynomial":
             for key in ("end_velocity", "end_acceleration"):
@@ -93,7 +93,7 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
         if any(each.return_ for each in motion):
             return  # the lift after a mirrored rise is known with the laws
         if last != initial_lift:
-            raise _refused(f"the lift ends at {last:.9g} and starts at {initial_lift:.9g}: let it return")
+            raise _refused(f"the lift ends at {last:.9g} and starts at {initial_lift:.9g}\nlet it return")
 
 
 def _require_table(rows: list[list[float]]) -> None:

@@ -87,7 +87,7 @@ class Polydyne(Spec):
     @model_validator(mode="after")
     def _one(self) -> Polydyne:
         if self.periods is not None and self.frequency is not None:
-            raise _refused("frequency", "periods and frequency say the same: give one")
+            raise _refused("frequency", "periods and frequency say the same\ngive one")
         if self.periods is not None and self.speed is not None:
             raise _refused("speed", "speed goes with frequency; periods need none")
         return self
@@ -126,16 +126,16 @@ class OptimalLaw(Spec):
         if (self.band is None) != (self.minimize != "residual"):
             raise _refused("band", "minimize: residual needs band, and nothing else has one")
         if self.band is not None and self.band[0] >= self.band[1]:
-            raise _refused("band", f"the band runs from {self.band[0]:g} to {self.band[1]:g}: let it ascend")
+            raise _refused("band", f"the band runs from {self.band[0]:g} to {self.band[1]:g}\nlet it ascend")
         if self.minimize in self.KEYS and getattr(self, self.minimize) is not None:
-            raise _refused(self.minimize, f"{self.minimize} is what is minimized: leave out its limit")
+            raise _refused(self.minimize, f"{self.minimize} is what is minimized\nomit its limit")
         for key in self.KEYS if self.limit is not None else ():
             if getattr(self.limit, key) is not None and (getattr(self, key) is not None or key == self.minimize):
-                raise _refused(f"limit.{key}", f"{key} has another limit, or is minimized: leave this one out")
+                raise _refused(f"limit.{key}", f"{key} has another limit, or is minimized\nomit this one")
         places = [at for at in (self, self.limit) if at is not None]
         bounded = any(getattr(at, key) is not None for at in places for key in ("acceleration", "jerk"))
         if self.minimize == "residual" and not bounded:
-            raise _refused("acceleration", "minimize: residual needs a limit of acceleration or jerk: give one")
+            raise _refused("acceleration", "minimize: residual needs a limit of acceleration or jerk\ngive one")
         return self
 
 
@@ -168,7 +168,7 @@ class TableLaw(Spec):
     @model_validator(mode="after")
     def _ascends(self) -> TableLaw:
         if self.points is not None and self.file is not None:
-            raise _refused("file", "points and file exclude each other: give one")
+            raise _refused("file", "points and file exclude each other\ngive one")
         if self.points is None:
             raise _refused("points", "a table law needs points, or file")
         if len(self.points) < FEWEST_POINTS:

@@ -47,7 +47,7 @@ class Feed(Spec):
         if self.step is not None:
             return self._of_step()
         if self.radius is not None and chain:
-            message = "radius goes with a roller or a belt, pitch and teeth with a chain: give one of them"
+            message = "radius goes with a roller or a belt, pitch and teeth with a chain\ngive one of them"
             raise PydanticCustomError("GL111", message, {"key": chain[0]})
         if self.radius is None and len(chain) < 2:
             raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
@@ -59,18 +59,16 @@ class Feed(Spec):
         """A step leaves one size to be found."""
         ratio = "ratio" in self.model_fields_set
         if self.radius is not None:
-            raise PydanticCustomError("GL111", "step finds the radius: leave one of them out", {"key": "radius"})
+            raise PydanticCustomError("GL111", "step finds the radius\nomit one of them", {"key": "radius"})
         if self.teeth is not None and self.pitch is None:
-            raise PydanticCustomError("GL106", "teeth go with pitch: give it", {"key": "pitch"})
+            raise PydanticCustomError("GL106", "teeth go with pitch\ngive it", {"key": "pitch"})
         if self.teeth is not None and ratio:
-            raise PydanticCustomError(
-                "GL111", "step finds the ratio, or the teeth: leave one of them out", {"key": "ratio"}
-            )
+            raise PydanticCustomError("GL111", "step finds the ratio, or the teeth\nomit one of them", {"key": "ratio"})
         if self.pitch is not None and self.teeth is None and not ratio:
             message = "of a chain step needs pitch and teeth, or pitch and ratio"
             raise PydanticCustomError("GL106", message, {"key": "teeth"})
         if self.pitch is not None and self.belt_thickness:
-            raise PydanticCustomError("GL111", "a chain has no belt_thickness: omit it", {"key": "belt_thickness"})
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness\nomit it", {"key": "belt_thickness"})
         return self
 
 

@@ -222,7 +222,7 @@ class Bearing(Spec):
             raise PydanticCustomError("GL106", "a plain bearing needs width and diameter", {"key": "kind"})
         rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
         if self.kind == "plain" and rating is not None:
-            message = f"a plain bearing has no rating life, only bearing_pressure: omit {rating}"
+            message = f"a plain bearing has no rating life, only bearing_pressure\nomit {rating}"
             raise PydanticCustomError("GL111", "{message}", {"key": rating, "message": message})
         if self.kind != "plain" and self.dynamic_rating is None:
             raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})

@@ -42,7 +42,7 @@ class VariableSpec(Spec):
         if self.values is not None:
             for name in ("from_", "to", "step", "points", "times"):
                 if getattr(self, name) is not None:
-                    message = "values goes without from, to, step, points and times: give the one or the others"
+                    message = "values goes without from, to, step, points and times\ngive the one or the others"
                     raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
             if self.log:
                 raise PydanticCustomError("GL111", "values are taken as they are\nomit log", {"key": "log"})
@@ -59,7 +59,7 @@ class VariableSpec(Spec):
             numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}
             raise PydanticCustomError("GL111", words, numbers)
         if self.log and self.step is not None:
-            message = "step makes equal steps, log equal ratios: give points instead of step, or omit log"
+            message = "step makes equal steps, log equal ratios\ngive points instead of step, or omit log"
             raise PydanticCustomError("GL111", message, {"key": "log"})
         if self.log and not self.from_ > 0.0:
             raise PydanticCustomError("GL108", "equal ratios need a range above 0", {"key": "from"})
@@ -124,7 +124,7 @@ class StudySpec(DesignSpec):
         if not objectives:
             raise PydanticCustomError("GL106", "give minimize, maximize or both", {"key": "minimize"})
         if len(objectives) > _MOST_OBJECTIVES:
-            message = "{count} objectives are more than {most}: make some of them conditions under where"
+            message = "{count} objectives are more than {most}\nmake some of them conditions under where"
             context = {"key": "maximize" if self.maximize else "minimize", "count": len(objectives)}
             raise PydanticCustomError("GL108", message, {**context, "most": _MOST_OBJECTIVES})
         return self

@@ -102,7 +102,7 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
         raise _no(
             "GL175",
-            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): leave out the minimum",
+            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): omit the minimum",
             ("tolerance", "sources"),
         )
     return tuple(found)

@@ -87,18 +87,18 @@ class ToleranceSource(Spec):
     def _one_form(self) -> ToleranceSource:
         given = [name for name in _SIZES if getattr(self, name if name != "class" else "class_") is not None]
         if self.upper is not None and self.lower is None:
-            raise _wrong("GL171", "upper without lower: give both, or plus_minus")
+            raise _wrong("GL171", "upper without lower\ngive both, or plus_minus")
         if self.lower is not None and self.upper is None:
-            raise _wrong("GL171", "lower without upper: give both, or plus_minus")
+            raise _wrong("GL171", "lower without upper\ngive both, or plus_minus")
         if not given and self.grades is not None:
             text = (
-                "grades alone say no size to begin with, from which --allocate chooses: add class: js8, or plus_minus"
+                "grades alone say no size to begin with, from which --allocate chooses\nadd class: js8, or plus_minus"
             )
             raise _wrong("GL171", text)
         if not given:
-            raise _wrong("GL171", f"no limits: give one of {', '.join(_SIZES)}")
+            raise _wrong("GL171", f"no limits\ngive one of {', '.join(_SIZES)}")
         if len(given) > 1:
-            raise _wrong("GL171", f"{' and '.join(given)} exclude each other: keep one")
+            raise _wrong("GL171", f"{' and '.join(given)} exclude each other\nkeep one")
         self._complete(given[0])
         self._process()
         return self
@@ -107,17 +107,17 @@ class ToleranceSource(Spec):
         for one, other in (("fit", "size"), ("group", "bore"), ("grade", "width")):
             if (form == one) != (getattr(self, other) is not None):
                 what = f"{other} belongs to {one}" if form != one else f"{one} needs {other}"
-                raise _wrong("GL171", f"{what}: give both or neither")
+                raise _wrong("GL171", f"{what}\ngive both or neither")
         for name, pair in (("limits", self.limits), ("clearance", self.clearance), ("lower", (self.lower, self.upper))):
             if form == name and pair is not None and not pair[0] < pair[1]:  # type: ignore[operator]
                 raise _wrong(
                     "GL171", f"the limits {pair[0]:g} and {pair[1]:g} leave no interval: the first must be the smaller"
                 )
         if self.clearance is not None and self.clearance[0] < 0:
-            raise _wrong("GL171", f"a clearance of {self.clearance[0]:g} mm is an interference: give 0 or more")
+            raise _wrong("GL171", f"a clearance of {self.clearance[0]:g} mm is an interference\ngive 0 or more")
         if self.grades is not None and not 1 <= self.grades[0] <= self.grades[1] <= 18:
             raise _wrong(
-                "GL173", f"grades {self.grades}: give the finest and the coarsest of IT1 to IT18, in that order"
+                "GL173", f"grades {self.grades}\ngive the finest and the coarsest of IT1 to IT18, in that order"
             )
 
     def _process(self) -> None:
@@ -130,7 +130,7 @@ class ToleranceSource(Spec):
                 "GL172", f"cpk {self.cpk:g} is below cp {self.cp:g}: say with shift: up or down where the process lies"
             )
         if self.mode is not None and self.law != "triangular":
-            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}: omit it")
+            raise _wrong("GL171", f"mode belongs to the triangular law, this one is {self.law}\nomit it")
 
 
 class Correlation(Spec):
@@ -184,12 +184,12 @@ class Tolerance(Spec):
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
                 raise _wrong(
-                    "GL176", f"{named(unknown[0])} of correlated is no source: name keys of `sources`", "correlated"
+                    "GL176", f"{named(unknown[0])} of correlated is no source\nname keys of `sources`", "correlated"
                 )
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
                 raise _wrong(
                     "GL176",
-                    f"{named(twice[0])} is listed twice in one group of correlated: name different sources",
+                    f"{named(twice[0])} is listed twice in one group of correlated\nname different sources",
                     "correlated",
                 )
         return self

@@ -177,7 +177,7 @@ def test_byte_order_mark_is_no_part_of_the_text(parser: Any) -> None:
         ("a: !x {b: 1}\n", (1, 4), "tags"),
         ("b: &b {x: 1}\na:\n  <<: *b\n", (3, 3), "merge keys"),
         ("? [a]\n: 1\n", (1, 3), "a key must be"),
-        ("x: &x k\n*x : 1\n", (2, 1), "cannot serve as a key"),
+        ("x: &x k\n*x : 1\n", (2, 1), "cannot be a key"),
         ("a: *x\n", (1, 4), "no anchor '&x'"),
         ("a: &x [*x]\n", (1, 8), "inside of its own value"),
         ("a: 1\nb: {x: 1\n", (2, 4), "'{' is never closed"),
@@ -224,7 +224,7 @@ def test_the_longest_key_and_a_long_line_without_a_colon(parser: Any) -> None:
 
 def test_each_hint_says_what_to_type() -> None:
     assert "spaces" in errors("a:\n\tb: 1\n")[0].help
-    assert errors("kind：x\n")[0].help == "type : in its place"
+    assert errors("kind：x\n")[0].help == "type : instead"
     assert errors("module:4\ncrank: 3\n")[0].help == "write 'module: ...'"
 
 

@@ -14,14 +14,14 @@ from gearlink.core.base.kinds import KINDS
 
 
 def refusal(file: dict[str, Any]) -> tuple[str, str, str]:
-    """Code, key and message of the first error of a file."""
+    """Code, key and message with help of the first error of a file."""
     import json
 
     text = json.dumps({"kind": "planar-mechanism", "name": "one", **file}, indent=1)
     with pytest.raises(DesignFileError) as found:
         validate(parse(text.encode(), "one.yaml"), KINDS["planar-mechanism"].spec_model())
     first = found.value.diagnostics[0]
-    return first.code, first.key, first.message
+    return first.code, first.key, f"{first.message}\n{first.help}"
 
 
 def changed(base: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
@@ -55,7 +55,7 @@ def changed(base: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
         (QUICK_RETURN, "slots/slot/point", "Z", "GL111", "slots.slot.point", "no body has a point"),
         (QUICK_RETURN, "slides/guide/link", "ramm", "GL111", "slides.guide.link", "did you mean ram"),
         (QUICK_RETURN, "slides/guide/on", "ram", "GL111", "slides.guide.on", "cannot slide on itself"),
-        (QUICK_RETURN, "start/ram", 90, "GL111", "start.ram", "give the place of guide"),
+        (QUICK_RETURN, "start/ram", 90, "GL111", "start.ram", "give the position of guide"),
         (QUICK_RETURN, "drive", {"link": "ram"}, "GL111", "drive.link", "give slide: guide"),
         (QUICK_RETURN, "drive", {"slide": "guide"}, "GL106", "range", "needs a range"),
         (PLANET, "meshes/ring/teeth", [20, -18], "GL111", "meshes.ring.teeth", "more teeth"),

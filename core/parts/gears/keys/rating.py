@@ -77,7 +77,7 @@ class LubricantSpec(Spec):
         if self.vg is None and self.viscosity_40 is None:
             raise PydanticCustomError("GL106", "give vg or viscosity_40, the viscosity at 40 deg C", {"key": "vg"})
         if self.vg is not None and self.viscosity_40 is not None:
-            message = "vg and viscosity_40 exclude each other: give one"
+            message = "vg and viscosity_40 exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": "viscosity_40"})
         names = ("viscosity_100", "temperature", "scuffing_stage")
         missing = [name for name in names if getattr(self, name) is None]
@@ -85,7 +85,7 @@ class LubricantSpec(Spec):
             message = f"scuffing needs {', '.join(names)} together: {missing[0]} is missing"
             raise PydanticCustomError("GL106", message, {"key": missing[0]})
         if self.viscosity_100 is not None and self.viscosity_100 >= self.at_40:
-            message = "the oil is not thinner at 100 deg C than at 40: lower viscosity_100"
+            message = "the oil is not thinner at 100 deg C than at 40\nlower viscosity_100"
             raise PydanticCustomError("GL111", message, {"key": "viscosity_100"})
         return self
 
@@ -125,7 +125,7 @@ class FaceSpec(Spec):
             return self
         for key in ("shaft", "modification"):
             if getattr(self, key) is not None:
-                message = "misalignment has all effects in it: omit {key}"
+                message = "misalignment has all effects in it\nomit {key}"
                 raise PydanticCustomError("GL111", message, {"key": key})
         return self
 
@@ -204,7 +204,7 @@ class RatingSpec(Spec):
     def _whole(self) -> Self:
         if self.spectrum is not None and abs(sum(row.share for row in self.spectrum) - 1.0) > _MOST_SHARE:
             total = sum(row.share for row in self.spectrum)
-            message = f"the shares of the spectrum add up to {total:.9g}, not 1: change one of them"
+            message = f"the shares of the spectrum add up to {total:.9g}, not 1\nchange one of them"
             raise PydanticCustomError("GL111", message, {"key": "spectrum"})
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
             raise PydanticCustomError(
@@ -221,7 +221,7 @@ class RatingSpec(Spec):
                 }
                 raise PydanticCustomError("GL108", message, words)
         if self.system == "pair" and self.planets is not None:
-            message = "planets goes with system: sun-planet or planet-ring: omit it"
+            message = "planets goes with system: sun-planet or planet-ring\nomit it"
             raise PydanticCustomError("GL111", message, {"key": "planets"})
         if self.system != "pair" and self.planets is None and self.reduced_mass is None:
             raise PydanticCustomError(
@@ -330,16 +330,16 @@ def require_rated(spec: Any, rating: Any) -> None:
         refuse("GL106", "face_width", "rating needs face_width")
     if rating.grade is None and spec.accuracy_grade is None:
         refuse(
-            "GL106", "rating.grade", "rating needs an accuracy grade of ISO 1328-1: give rating.grade or accuracy_grade"
+            "GL106", "rating.grade", "rating needs an accuracy grade of ISO 1328-1\ngive rating.grade or accuracy_grade"
         )
     material = spec.material
     for product in ("contact_factors", "bending_factors"):
         if material is not None and product in material.model_fields_set:
-            text = f"rating computes the factors that material.{product} gives as one product: omit it"
+            text = f"rating computes the factors that material.{product} gives as one product\nomit it"
             refuse("GL111", f"material.{product}", text)
     factors = spec.load.factors.model_fields_set
     if rating.face is not None and "face_contact" in factors:
-        refuse("GL111", "rating.face", "load.factors.face_contact gives the face load factor: omit face, or that")
+        refuse("GL111", "rating.face", "load.factors.face_contact gives the face load factor\nomit face, or that")
     limits = [None if material is None else getattr(material, f"{name}_limit") for name in ("contact", "bending")]
     if rating.material is None and None in limits:
         refuse(
@@ -354,5 +354,5 @@ def _require_hardness(rating: Any, by_material: bool, refuse: Any) -> None:
         hardness = one_of(rating.hardness, place) if len(names) > 1 else rating.hardness
         lacking = hardness is None or (isinstance(hardness, list) and None in hardness)
         if by_material and name in CLASSES and CLASSES[name].needs_hardness and lacking:
-            text = f"the strength of {name} depends on its hardness: give rating.hardness, or name a steel"
+            text = f"the strength of {name} depends on its hardness\ngive rating.hardness, or name a steel"
             refuse("GL106", "rating.hardness", text)

@@ -49,7 +49,7 @@ _SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
 def _a_series(name: str) -> str:
     if not re.fullmatch(_SERIES, name):
         message = (
-            "DIN 3967 has no series {name}: take a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
+            "DIN 3967 has no series {name}\ntake a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
         )
         raise PydanticCustomError("GL108", message, {"name": name})
     return name
@@ -73,7 +73,7 @@ class AllowanceSpec(Spec):
     def _one_way(self) -> AllowanceSpec:
         limits = self.upper is not None or self.lower is not None
         if self.series is not None and limits:
-            message = "series excludes upper and lower: give one"
+            message = "series excludes upper and lower\ngive one"
             raise PydanticCustomError("GL111", message, {"key": "upper" if self.upper is not None else "lower"})
         if self.series is None and (self.upper is None or self.lower is None):
             missing = "series" if not limits else "upper" if self.upper is None else "lower"
@@ -120,7 +120,7 @@ class LoadSpec(Spec):
         if not given:
             raise PydanticCustomError("GL106", "give torque, power with speed, or tangential_force", {"key": "torque"})
         if len(given) > 1:
-            message = "torque, power and tangential_force exclude each other: give one"
+            message = "torque, power and tangential_force exclude each other\ngive one"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         if self.power is not None and self.speed is None:
             raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})

@@ -122,7 +122,7 @@ class TrainKeys(ToothKeys):
 
         require_rated(self, self.rating)
         if self.rating.system != "pair":
-            message = "system is that of a gear-pair: omit it, and give reduced_mass where planets matter"
+            message = "system is that of a gear-pair\nomit it, and give reduced_mass where planets matter"
             raise PydanticCustomError("GL111", message, {"key": "rating.system"})
         return self
 
@@ -135,7 +135,7 @@ class TrainKeys(ToothKeys):
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:
-            message = "spur gears have no hand of helix: omit it, or give helix_angle"
+            message = "spur gears have no hand of helix\nomit it, or give helix_angle"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         for (one, other), internal in zip(pairwise(self.helix_hand), map(any, pairwise(rings)), strict=True):
             if (one == other) != internal:
