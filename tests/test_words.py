@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import re
+from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
-from typing import Any
+from types import CodeType
 
 import pytest
-from sources import tree
 
 ROOT = Path(__file__).parents[1]
 
@@ -58,22 +58,17 @@ KEYS = re.compile(r"`[^`]*`|https?:\S+|\]\([^)]*\)|\b[\w-]+[._/][\w./_-]+\b")
 
 
 def _literals(path: Path) -> Iterator[str]:
-    """The prose among the strings of a module, without docstrings and the descriptions of constants."""
-    docs, left = set[int](), list[Any]([tree(path)])  # what is above comes before what is in it
-    while left:
-        node = left.pop()
-        kind = type(node)
-        if kind is ast.Constant:
-            if isinstance(node.value, str) and " " in node.value and id(node) not in docs:
-                yield node.value
-        elif kind is not ast.Name:
-            if kind is ast.Expr:
-                docs.add(id(node.value))
-            for inner in vars(node).values():
-                if isinstance(inner, list):
-                    left += (each for each in inner if isinstance(each, ast.AST))
-                elif isinstance(inner, ast.AST):
-                    left.append(inner)
+    """The prose among the strings of a module; the compiler drops docstrings and the descriptions of constants."""
+    source = path.read_bytes().replace(b"from __future__ import annotations", b"")  # annotations are no texts
+    yield from _constants(compile(source, path, "exec", dont_inherit=True, optimize=2))
+
+
+def _constants(value: object) -> Iterator[str]:
+    if isinstance(value, str) and " " in value:
+        yield value
+    elif isinstance(value, (CodeType, tuple, frozenset)):
+        for each in value.co_consts if isinstance(value, CodeType) else value:
+            yield from _constants(each)
 
 
 def _strings(data: object) -> Iterator[str]:
@@ -89,9 +84,9 @@ def _strings(data: object) -> Iterator[str]:
 
 
 @cache
-def _texts() -> dict[str, str]:
-    """Every text that a user reads in small letters, by the file that it stands in; a text has its own lines."""
-    found = dict[str, list[str]]()
+def _texts() -> dict[str, list[str]]:
+    """Every text that a user reads, by the file that it stands in."""
+    found = {}
     for top in ("core", "cli"):
         for path in sorted((ROOT / top).rglob("*.py")):
             found[str(path.relative_to(ROOT))] = list(_literals(path))
@@ -105,15 +100,29 @@ def _texts() -> dict[str, str]:
     for path in sorted((ROOT / "designs").rglob("*.yaml")):
         comments = re.findall(r"(?m)(?:^|\s)#(.*)$", path.read_text(encoding="utf-8"))
         found[str(path.relative_to(ROOT))] = [KEYS.sub("", text) for text in comments]
-    return {file: "\n\0\n".join(texts).lower() for file, texts in found.items()}
+    return found
+
+
+@cache
+def _joined() -> tuple[str, list[int], list[str]]:
+    """Every text once, in small letters and a line each, where each begins and the file that it is in."""
+    whose = {" ".join(text.split()).lower(): file for file, texts in _texts().items() for text in texts}
+    starts = list(accumulate((len(text) + 1 for text in whose), initial=0))
+    return "\n".join(whose), starts, list(whose.values())
 
 
 @pytest.mark.parametrize("pattern", WORDS)
 def test_texts_have_the_words_of_the_field(pattern: str) -> None:
-    word = re.compile(pattern)
+    text, starts, files = _joined()
     found = [
-        f"{file}: {text[max(0, hit.start() - 40) : hit.end() + 30]!r}"
-        for file, text in _texts().items()
-        for hit in word.finditer(text)
+        f"{files[bisect_right(starts, hit.start()) - 1]}: {text[max(0, hit.start() - 40) : hit.end() + 30]!r}"
+        for hit in re.finditer(pattern, text)
     ]
     assert not found, f"{len(found)} times, write {WORDS[pattern]!r}:\n" + "\n".join(found)
+
+
+def test_the_texts_are_read() -> None:
+    text, _, files = _joined()
+    assert len(text) > 500_000
+    assert {Path(file).suffix for file in files} == {".py", ".json", ".md", ".yaml"}
+    assert re.search(r"\bmaximum\b", text)

@@ -394,11 +394,8 @@ class WideSwingSpec(TolerancedSpec):
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
-        if self.unloader.type == "gravity":
-            for name in ("slider", "loads"):
-                if getattr(self, name) is not None:
-                    words = "unloader.type: gravity is for a rocker alone, without forces at its joints\nomit {name}"
-                    _refuse(name, words, name=name)
+        if self.unloader.type == "gravity" and self.slider is not None:
+            _refuse("slider", "unloader.type: gravity is for a rocker alone\nomit slider")
         if self.slider is not None and self.cam is not None:
             self._cam_with_slider(self.cam)
         return self
@@ -420,8 +417,6 @@ class WideSwingSpec(TolerancedSpec):
             )
         if parallel and self.gears is not None and self.cam is None:
             _refuse("cam", "the gears need the section cam: center_distance, roller_radius, second", "GL106")
-        if parallel and self.loads is not None:
-            _refuse("loads", "the loads of cams on two shafts are not computed\nomit loads, or take twin-cam")
 
     def _cam_with_slider(self, cam: SwingCam) -> None:
         if self.layout != "twin-cam":

@@ -82,7 +82,6 @@ def test_gears_between_the_shafts() -> None:
     [
         ({"layout": "twin-cam"}, "belongs to layout: twin-cam-parallel"),
         ({"cam": {"second": None}}, "second"),
-        ({"loads": {}}, "omit loads"),
     ],
 )
 def test_contradictions(changes: dict[str, Any], words: str) -> None:
