@@ -70,7 +70,7 @@ def _course(axes: Axes, course: Course) -> None:
     axes.set_xlim(places[0], places[-1])
     if over == "deg" and course.period == 360.0:
         style.full_turn(axes)
-    panels.legend_under_heading(axes, f"{course.output}: designs as manufactured over the cycle", 4)
+    panels.legend_under_heading(axes, f"{course.output.replace('_', ' ')}: designs as manufactured over the cycle", 4)
 
 
 def _closed(course: Course) -> tuple[Any, Any]:

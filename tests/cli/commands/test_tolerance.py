@@ -194,7 +194,7 @@ def test_the_page_of_a_file_with_tolerances_shows_budget_and_samples(gearlink: A
     assert "<h2>register</h2>" in page
     assert "GL520" in page
     assert "<h2>tolerance</h2>" in page
-    assert "output_angle: designs as manufactured over the cycle" in page
+    assert "output angle: designs as manufactured over the cycle" in page
 
 
 @pytest.mark.quick(1)

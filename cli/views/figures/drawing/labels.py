@@ -73,12 +73,11 @@ def _arrange(axes: Axes, movable: list[Text], others: Reals, marks: Reals, rende
         panel = np.array(axes.bbox.extents)
         own = boxes[i : i + 1]
         taken = np.vstack([others, before])
-        all_words = np.vstack([taken, after])
-        if _on(own, all_words, _room(axes))[0] + _on(own, marks)[0] + _outside(own, panel)[0] <= _FREE:
+        if _on(own, taken, _room(axes))[0] + _on(own, marks)[0] + _outside(own, panel)[0] <= _FREE:
             continue
         if curves is None:
             curves = _curves(axes)
-        room = _Room(all_words, marks, curves, panel)
+        room = _Room(np.vstack([taken, after]), marks, curves, panel)
         boxes[i] = _moved(axes, movable[i], boxes[i], room)
 
 
@@ -249,7 +248,7 @@ def _shift(axes: Axes, text: Text, away: complex) -> None:
     if hasattr(given, "xyann"):
         points = 72.0 / axes.figure.dpi
         x, y = given.xyann
-        given.xyann = (x + points * away.real, y + points * away.imag)
+        given.xyann = (float(x + points * away.real), float(y + points * away.imag))
         return
     at = axes.transData.transform(given.get_position()) + np.array([away.real, away.imag])
     given.set_position(tuple(axes.transData.inverted().transform(at).tolist()))
