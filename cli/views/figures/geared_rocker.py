@@ -23,7 +23,7 @@ _WORDS = {
     "rocker_swing": "swing of the rocker",
     "output_swing": "swing of the output",
     "swing_multiple": "output swing/rocker swing",
-    "naive_multiple": "1 + z2/z5",
+    "naive_multiple": "1 + z₂/z₅",
     "min_transmission_angle": "minimum transmission angle",
 }
 

@@ -462,7 +462,10 @@ def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
 def _shaking(axes: Axes, design: LoadsDesign) -> None:
     columns = _columns(design, "frame")
     _locus(axes, "Shaking force", columns["force_x"], columns["force_y"], style.RED)
-    _angle_marks(axes, columns, columns["force_x"], columns["force_y"])
+    if any(columns["force_x"]) or any(columns["force_y"]):
+        _angle_marks(axes, columns, columns["force_x"], columns["force_y"])
+    else:
+        axes.text(0.5, 0.62, "0 N throughout", transform=axes.transAxes, fontsize=8, ha="center")
 
 
 def _angle_marks(axes: Axes, columns: dict[str, Any], x: Any, y: Any) -> None:

@@ -66,6 +66,11 @@ def _runs(design: Any, name: str) -> list[tuple[str, float, float]]:
     return [(name, start, start + duration) for name, start, duration in runs]
 
 
+def _called(member: str) -> str:
+    """A member as it is called on sheets."""
+    return member.replace("_", " ")
+
+
 # The line
 
 
@@ -80,7 +85,7 @@ def _line(axes: Axes, design: Any) -> None:
         share = (values - low) / (high - low) if high > low else np.zeros_like(values)
         axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
         _bars(axes, design, name, bottom)
-        labels.append(f"{name}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
+        labels.append(f"{_called(name)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
     for relation, margin in design.margins:
         _relation(axes, design, rows, relation, margin)
     style.curves(axes, "machine angle [deg]", "")
@@ -152,6 +157,8 @@ def _words(axes: Axes, x: float, y: float, words: str, color: str) -> None:
 
 def _key(axes: Axes, design: Any) -> None:
     """What bars and arrows mean, below."""
+    from matplotlib.transforms import ScaledTranslation
+
     for word in ("rise", "dwell", "return"):
         axes.bar([0.0], [0.0], color=PHASE_TINTS[word], edgecolor=style.GREY, linewidth=0.6, label=word)
     for status, words in (("pass", "relation that holds, with its margin"), ("fail", "relation that does not hold")):
@@ -159,8 +166,9 @@ def _key(axes: Axes, design: Any) -> None:
             axes.plot([], [], color=_STATUS[status], linewidth=1.4, label=words)
     handles, labels = axes.get_legend_handles_labels()
     kept = [(handle, label) for handle, label in zip(handles, labels, strict=True) if label not in design.spec.members]
-    axes.legend(*zip(*kept, strict=True), loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=5, frameon=False,
-                fontsize=7.5)  # fmt: skip
+    down = ScaledTranslation(0.0, -0.47, axes.figure.dpi_scale_trans)
+    place: dict[str, Any] = {"bbox_to_anchor": (0.5, 0.0), "bbox_transform": axes.transAxes + down}
+    axes.legend(*zip(*kept, strict=True), loc="upper center", ncols=5, frameon=False, fontsize=7.5, **place)
 
 
 # The circle
@@ -191,7 +199,7 @@ def _circle(axes: Any, design: Any) -> None:
         span = float(np.ptp(values))
         share = (values - values.min()) / span if span > 0.0 else np.zeros_like(values)
         axes.plot(_degrees(design) * turn, radius + 0.26 + 0.58 * share, color=style.BLUE, linewidth=1.3)
-        axes.text(0.0, radius + 0.46, name, fontsize=9, fontweight="bold", ha="center", va="center",
+        axes.text(0.0, radius + 0.46, _called(name), fontsize=9, fontweight="bold", ha="center", va="center",
                   path_effects=style.outlined(), zorder=8)  # fmt: skip
     axes.set_ylim(0.0, _INNER + len(members))
     axes.text(0.5, 0.5, "machine angle,\nclockwise from the top", transform=axes.transAxes, ha="center", va="center",
@@ -234,7 +242,7 @@ def _loads(design: Any) -> Figure:
     for i, column in enumerate(name for name in found.columns if name.endswith(".torque")):
         line = _LINES[(i // len(_COLORS) + i) % len(_LINES)]
         axes.plot(x, found[column], color=_COLORS[i % len(_COLORS)], linestyle=line, linewidth=1.1,
-                  label=column.removesuffix(".torque"))  # fmt: skip
+                  label=_called(column.removesuffix(".torque")))  # fmt: skip
     axes.plot(x, found["input_torque"], color=style.BLACK, linewidth=1.9, label="sum")
     panels.legend_above(axes, 6)
     if runs:
@@ -248,7 +256,11 @@ def _loads(design: Any) -> Figure:
         table = design.table("wind_up_course")
         for i, column in enumerate(table.columns[2:]):
             swing.plot(
-                table["input_angle"], table[column], color=_COLORS[i % len(_COLORS)], linewidth=1.2, label=column
+                table["input_angle"],
+                table[column],
+                color=_COLORS[i % len(_COLORS)],
+                linewidth=1.2,
+                label=_called(column),
             )
         panels.legend_above(swing, 6)
     return made

@@ -46,7 +46,7 @@ def draw(command: str, design: Any) -> Figure:
         axes.plot(np.degrees(q) if turning else q, np.degrees(rate) if angle and order == 0 else rate,
                   color=_COLORS[order], linewidth=1.6, label=output.name)  # fmt: skip
         if order == 0:
-            panels.heading(axes, output.name)
+            panels.heading(axes, output.name.replace("_", " "))
     return made
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from factory import DESIGNS, design, each_kind, worked
+from factory import DESIGNS, each_kind, worked
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import meetings, placed_sheet
 from sweeps import mostly_slow
@@ -23,7 +23,7 @@ Case = tuple[str, str, dict[str, Any]]
 
 
 def _cases() -> list[Case]:
-    """Designs of all kinds at the ends of what can be built: short and long links, few and many teeth, tiny and huge."""
+    """Designs at the ends of what can be built: short and long links, few and many teeth, tiny and huge."""
     found: list[Case] = []
 
     def add(name: str, command: str, **keys: list[Any]) -> None:

@@ -15,7 +15,7 @@ from sweeps import mostly_slow
 from gearlink.cli.commands import sheet as sheets
 from gearlink.cli.views.figures import motion_laws
 from gearlink.cli.views.figures.drawing import style
-from gearlink.cli.views.figures.flatbed_press.motion import cylinder_positions
+from gearlink.cli.views.figures.flatbed_press import cylinder_positions
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
 from gearlink.cli.views.figures.write import failures
 from gearlink.core.machines.wide_swing.design import torque_peaks

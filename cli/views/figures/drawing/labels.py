@@ -144,7 +144,9 @@ def _share_of_points(boxes: Reals, points: Reals, height: float) -> Reals:
 
 def _moves(text: Text, axes: Axes) -> bool:
     """Whether words belong to a point of the panel, and may stand elsewhere beside it."""
-    if not is_seen(text) or text.get_rotation() % 90.0 or text.get_gid() == "stays" or axes.name != "rectilinear":
+    if not is_seen(text) or text.get_rotation() % 90.0 or axes.name != "rectilinear":
+        return False
+    if not axes.axison and axes.get_aspect() == "auto":  # a table
         return False
     coordinates = getattr(text, "xycoords", None)
     if coordinates is not None:

@@ -19,6 +19,8 @@ BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "l
 """A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
 TURN = 360.0
 _MOST_LINES = 12
+_ACROSS = 40.0
+"""Letters that a row of numbers has room for."""
 _APART, _LEGEND = 0.062, 0.048
 """Shares of the panel's height, which is much the same on every sheet: rows of numbers, where there is room for them,
 and an entry of the legend above them."""
@@ -70,6 +72,7 @@ def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) ->
     apart = min(_APART, (1.0 - _LEGEND * (entries + 1)) / max(len(shown), 1))
     look: dict[str, Any] = {"transform": axes.transAxes, "va": "bottom", "fontsize": 8, "in_layout": False}
     for i, (short, value) in enumerate(reversed(shown)):
+        look["fontsize"] = 8.0 * min(1.0, _ACROSS / (len(short) + len(value)))
         axes.text(0.0, apart * i, short, **look)
         axes.text(1.0, apart * i, value, ha="right", **look)
 

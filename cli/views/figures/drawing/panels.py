@@ -80,19 +80,23 @@ def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
                 style.stretch(each, start, end, color=PHASE_TINTS[phase.name], linewidth=0, zorder=0)
         start, end = max(parts, key=lambda part: part[1] - part[0])
         names.append((0.5 * (start + end), phase.name))
-        crowded |= _width_in_degrees(phase.name) > end - start
+        crowded |= (len(phase.name) + 1) * 0.6 * _NAME_SIZE / _across(axes[0]) * 360.0 > end - start
     top = axes[0].secondary_xaxis("top")
     top.set_xticks([place for place, _ in names], [name for _, name in names], fontsize=_NAME_SIZE)
     top.tick_params(length=0, pad=2)
     top.spines["top"].set_visible(False)
     if crowded:
+        places = sorted(place for place, _ in names)
+        apart = min((b - a for a, b in pairwise(places)), default=360.0) / 360.0 * _across(axes[0])
+        steep = math.degrees(math.asin(min(1.0, 1.2 * _NAME_SIZE / max(apart, 1e-9))))
         for label in top.get_xticklabels():
-            label.set(rotation=35, ha="left", va="bottom", rotation_mode="anchor")
+            label.set(rotation=min(max(35.0, steep), 85.0), ha="left", va="bottom", rotation_mode="anchor")
 
 
-def _width_in_degrees(name: str) -> float:
-    """Width of a phase's name on axes that fill a page, with some space round it."""
-    return (len(name) + 1) * 0.6 * _NAME_SIZE / 72.0 / (_A4[0] - 1.2) * 360.0
+def _across(axes: Axes) -> float:
+    """Width of a panel [pt], without what stands beside it."""
+    share = _share_of_page(axes)
+    return 72.0 * (_A4[0] - 1.2) * share - (0.0 if share > 0.9 else _BESIDE)
 
 
 def heading(axes: Axes, title: str) -> None:
@@ -172,9 +176,11 @@ def drawing(axes: Axes, title: str) -> None:
 
 def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "", at: str = "°") -> None:
     """A marked extreme of a curve over its input, with its value; `at` is the unit of places."""
+    import numpy as np
+
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
     left, right = axes.get_xlim()
-    words = f"{style.number(value, 5)}{unit} at {degrees:.5g}{at}"
+    words = f"{style.number(value, 5, 1e3 * float(np.ptp(axes.get_ylim())))}{unit} at {degrees:.5g}{at}"
     share, half = (degrees - left) / (right - left), _half_width(axes, words)
     side = "right" if share > 1.0 - half else "left" if share < half else "center"
     look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}

@@ -22,7 +22,7 @@ PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, color
 MARGIN = 8.0 / 25.4
 """White edge of a page [in], which printers need."""
 _PARTS = (1, 2, 5, 10, 15, 30, 60, 180, 360)
-"""Parts of a turn that numbers along an axis count in [deg]."""
+"""Steps of the numbers along an axis over angles [deg]."""
 GRID = 0.6
 """Width of the lines of a grid."""
 _TITLE = 12

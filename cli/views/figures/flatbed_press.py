@@ -1,4 +1,4 @@
-"""The motion of a flatbed cylinder press: twelve positions of both chains, travel and speed, kinematic diagram."""
+"""Figures of a flatbed cylinder press: its motion in twelve positions, its cams, its input gears and slider-crank."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.machines.flatbed_press.design import FlatbedPress
+    from gearlink.core.machines.slider_crank.design import SliderCrankDesign
 
 POSITIONS = 12
 HIGHLIGHTED = 2
@@ -24,9 +25,17 @@ BED, CYLINDER, LEAST = style.BLUE, style.GREEN, style.RED
 _ROWS = 720
 _SHAFT = 2.0 / 130.0
 """Width of a velocity arrow [inch]."""
+_CAM_ROWS = 1440
 
 
 def draw(command: str, design: FlatbedPress) -> Figure:
+    """The figure of a command on a press."""
+    if command == "cam":
+        return _draw_cams(command, design)
+    return _draw_parts(command, design) if command in ("gear", "crank") else _draw_motion(command, design)
+
+
+def _draw_motion(command: str, design: FlatbedPress) -> Figure:
     """Both chains in twelve positions, the whole machine, displacement and velocity over the input angle."""
     made = panels.page(f"{design.spec.name}: {command}")
     rows: Any = made.add_gridspec(4, 1, height_ratios=(3.7, 3.5, 1.7, 1.9))
@@ -228,3 +237,115 @@ def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
     axes.plot(
         np.degrees(found), speed, "D", color="white", markeredgecolor=style.RED, markersize=5, label=f"equal: {named}"
     )
+
+
+# Cams
+
+
+def _draw_cams(command: str, design: FlatbedPress) -> Figure:
+    """Lift, velocity, acceleration, pressure angle, curvature over the cam angle; compensation; both cams."""
+    made = panels.page(f"{design.spec.name}: {command}")
+    rows: Any = made.add_gridspec(6, 1, height_ratios=(1.5, 1.05, 1.05, 1.05, 1.05, 4.2))
+    curves = [made.add_subplot(rows[i]) for i in range(5)]
+    _follower(curves[:3], design)
+    cams = (design.main_cam, design.return_cam)
+    panels.pressure_angles(curves[3], cams, design.spec.limits.pressure_angle, "")
+    panels.curvatures(curves[4], cams, "cam angle [deg]")
+    panels.shade(curves, _phases(design))
+    _times(curves[4], design)
+    below: Any = rows[5].subgridspec(1, 2, width_ratios=(1.55, 1.0))
+    drawing = made.add_subplot(below[0])
+    _cams(drawing, design)
+    right: Any = below[1].subgridspec(2, 1, height_ratios=(1.5, 1.0))
+    _compensation(made.add_subplot(right[0]), design)
+    panels.legend_beside(made.add_subplot(right[1]), drawing)
+    return made
+
+
+def _times(axes: Axes, design: FlatbedPress) -> None:
+    """The cam angle in time: its link turns unevenly."""
+    degrees = np.arange(0.0, 361.0)
+    inputs = np.unwrap(np.asarray(design.bed.input_angle(np.radians(degrees))))
+    time_axes.in_uneven_ms(axes, degrees, 1e3 * (inputs - inputs[0]) / design.input_speed)
+
+
+def _phases(design: FlatbedPress) -> list[panels.Phase]:
+    return [
+        panels.Phase(segment.phase, math.degrees(segment.start), math.degrees(segment.end))
+        for segment in design.follower.segments
+    ]
+
+
+def _follower(axes: list[Axes], design: FlatbedPress) -> None:
+    """The table `follower` and the steps that are left at its joints."""
+    table = design.table("follower", samples=_CAM_ROWS)
+    degrees = table.data[0]
+    names = (("lift", "lift [mm]"), ("velocity", "velocity\n[mm/rad]"), ("acceleration", "acceleration\n[mm/rad²]"))
+    for each, (name, ylabel) in zip(axes, names, strict=True):
+        panels.turn_panel(each, ylabel)
+        each.plot(degrees, table.data[table.columns.index(name)], color=style.BLUE, linewidth=1.6)
+        each.axhline(0.0, color=style.GREY, linewidth=0.6)
+    panels.heading(axes[0], "Motion of the follower over the cam angle")
+
+
+def _compensation(axes: Axes, design: FlatbedPress) -> None:
+    """Difference of bed and cylinder travel that the cam makes good in the zone, over the input angle."""
+    from gearlink.core.machines.flatbed_press.chains import difference
+
+    phi = np.linspace(design.sync_start, design.sync_end, 241)
+    gap = difference(design.bed, design.cylinder, phi).value
+    style.curves(axes, "input angle [deg]", "bed less cylinder travel [mm]")
+    panels.small_ticks(axes)
+    panels.heading(axes, f"Compensation: {design.compensation:.5g} mm")
+    axes.plot(np.degrees(phi), gap - gap[0], color=style.GREEN, linewidth=1.6)
+    end = float(np.degrees(phi[-1]))
+    axes.plot([end], [design.compensation], "o", color=style.GREEN, markersize=4.5)
+
+
+def _cams(axes: Axes, design: FlatbedPress) -> None:
+    """Both cams on their shaft at cam angle 0, with the line of the rollers."""
+    panels.drawing(axes, "Main and return cam at cam angle 0, to scale")
+    cams = (design.main_cam, design.return_cam)
+    rollers = [
+        panels.cam_outline(axes, cam, color, line=line)
+        for cam, color, line in zip(cams, panels.CAM_COLORS, panels.CAM_LINES, strict=True)
+    ]
+    panels.base_circles(axes, cams)
+    spec = design.cams.section
+    panels.cam_shaft(axes, 0j, spec.shaft_radius)
+    panels.cam_axis(axes, 0j, cams, 1, spec.shaft_radius)
+    reach = 1.15 * spec.roller_radius
+    left, right = rollers[1].real - reach, rollers[0].real + reach
+    axes.plot([left, right], [0.0, 0.0], color=style.GREY, linewidth=0.8, linestyle="-.", zorder=2)
+    axes.plot(
+        [rollers[1].real, rollers[0].real],
+        [0.0, 0.0],
+        " ",
+        label=f"roller distance {design.roller_center_distance:.6g} mm",
+    )
+
+
+# Parts that are designs of their own kind
+
+
+def _draw_parts(command: str, design: FlatbedPress) -> Figure:
+    """The pair of input gears, or the slider-crank D-E-F."""
+    if command == "gear":
+        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+
+        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
+    from gearlink.cli.views.figures import slider_crank
+
+    return slider_crank.draw(command, _slider_crank(design))
+
+
+def _slider_crank(design: FlatbedPress) -> SliderCrankDesign:
+    """D-E-F as a design of its own: its slider makes half the bed's stroke."""
+    from gearlink.core.machines.slider_crank.design import SliderCrankDesign
+    from gearlink.core.machines.slider_crank.spec import SliderCrankSpec
+
+    part = design.slider_crank
+    spec = SliderCrankSpec(
+        kind="slider-crank", name=design.spec.name, stroke=part.stroke, rod=part.rod, offset=part.offset
+    )
+    return SliderCrankDesign(spec)

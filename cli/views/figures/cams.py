@@ -1,0 +1,104 @@
+"""Pictures of cams: profile with pitch curve and follower, developed track or measured points, over the motion."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.views.figures.drawing import panels, scene_axes, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.machines.cylindrical_cam.design import CylindricalCamDesign
+    from gearlink.core.machines.disc_cam.design import DiscCamDesign
+    from gearlink.core.machines.disc_cam.measured import MeasuredCamDesign
+
+_LABELS = ("lift", "velocity", "acceleration", "jerk")
+_COLORS = (style.BLUE, style.GREEN, style.ORANGE, style.PURPLE)
+_SHOWN = 0.125
+
+
+def draw_disc(command: str, design: DiscCamDesign) -> Figure:
+    """The picture of a command on a disc cam."""
+    from gearlink.cli.views.scenes.disc_cam import build
+
+    outline, rows = _page(f"{design.spec.name}: {command}", 3.2)
+    panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")
+    scene = build(design, np.array([_SHOWN]))
+    scene_axes.draw(outline, scene, ahead=build(design, np.array([_SHOWN + scene_axes.AHEAD])))
+    phi = np.linspace(0.0, 2.0 * math.pi, 1441)
+    rates = design.cams.motion.evaluate(phi, 3)
+    rates[:] = [np.where(phi == phi[-1], design.cams.motion.evaluate(phi, 3, side=-1)[n], rates[n]) for n in range(4)]
+    _motion(rows, phi, rates, "rad" if design.spec.oscillates else "mm")
+    return outline.figure  # type: ignore[return-value]
+
+
+def draw_cylindrical(command: str, design: CylindricalCamDesign) -> Figure:
+    """The picture of a command on a cylindrical cam: the track developed at its bottom."""
+    track, rows = _page(f"{design.spec.name}: {command}", 1.8)
+    phi, drum = np.linspace(0.0, 2.0 * math.pi * (1.0 - 1e-9), 1441), design.drum
+    panels.drawing(track, f"Track developed at its bottom, radius {drum.bottom:.6g} mm")
+    for side, color, width in ((0, style.GREY, 0.9), (1, style.BLUE, 1.6), (-1, style.BLUE, 1.6)):
+        track.plot(*drum.developed(drum.bottom, side, phi), color=color, linewidth=width)
+    _motion(rows, phi, design.follower_motion.evaluate(phi, 3), "mm")
+    return track.figure  # type: ignore[return-value]
+
+
+def _page(title: str, height: float) -> tuple[Axes, list[Axes]]:
+    """A drawing of a height above panels of the motion."""
+    made = panels.page(title)
+    grid = made.add_gridspec(5, 1, height_ratios=(height, 1.0, 1.0, 1.0, 1.0))
+    drawing, *rows = (made.add_subplot(grid[i]) for i in range(5))
+    return drawing, rows
+
+
+def _motion(rows: list[Axes], phi: Any, rates: Any, unit: str) -> None:
+    """Lift and its derivatives over the cam angle."""
+    for order, (axes, label, color) in enumerate(zip(rows, _LABELS, _COLORS, strict=True)):
+        power = ("", "/rad", "/rad²", "/rad³")[order]
+        shown = "deg" if unit == "rad" and order == 0 else f"{unit}{power}"
+        panels.turn_panel(axes, f"{label} [{shown}]", "cam angle [deg]" if order == 3 else "")
+        values = np.degrees(rates[order]) if unit == "rad" and order == 0 else rates[order]
+        axes.plot(np.degrees(phi), values, color=color, linewidth=1.6)
+
+
+def draw_measured(command: str, design: MeasuredCamDesign) -> Figure:
+    """The picture of a command."""
+    made = panels.page(f"{design.spec.name}: {command}")
+    grid = made.add_gridspec(4, 1, height_ratios=(2.6, 1.0, 1.0, 1.0))
+    t = np.linspace(0.0, 2.0 * math.pi, 1441)
+    shape = made.add_subplot(grid[0])
+    panels.drawing(shape, f"Profile through {len(design.residuals)} points, missed by {design.fit_max:.3g} mm at most")
+    pitch = design.cam.contact(t).center
+    radius = design.cam.series.at(t, 0)[0]
+    angle, measured = design.points
+    shape.plot(radius * np.cos(t), radius * np.sin(t), color=style.BLUE, linewidth=1.6, label="profile")
+    shape.plot(pitch.real, pitch.imag, color=style.GREY, linewidth=0.9, linestyle=style.CHAIN, label="pitch curve")
+    points = measured * np.exp(1j * angle)
+    shape.plot(points.real, points.imag, ".", color=style.ORANGE, markersize=3.0, label="points")
+    style.pivot(shape, 0j)
+    panels.legend_below(shape, 3)
+    table = design.table("law", samples=1440)
+    units = dict(zip(table.columns, table.units, strict=True))
+    named = (table.columns[1], "velocity", "acceleration")
+    rows = [made.add_subplot(grid[1 + k]) for k in range(3)]
+    for k, (axes, name, color) in enumerate(zip(rows, named, (style.BLUE, style.GREEN, style.ORANGE), strict=True)):
+        label = f"{name.replace('_', ' ')} [{units[name].replace('^2', '²')}]"
+        panels.turn_panel(axes, label, "cam angle [deg]" if k == 2 else "")
+        axes.plot(table["cam_angle"], table[name], color=color, linewidth=1.6)
+    _shade(rows, design)
+    return made
+
+
+def _shade(rows: list[Axes], design: MeasuredCamDesign) -> None:
+    """Shade the phases behind the motion, those that run over the end of the turn in two parts."""
+    found = []
+    for each in design.phases:
+        start, end = math.degrees(each.start), math.degrees(each.end)
+        name = each.motion
+        found += [panels.Phase(name, max(start + off, 0.0), min(end + off, 360.0)) for off in (-360.0, 0.0, 360.0)]
+    panels.shade(rows, [phase for phase in found if phase.end > phase.start])
