@@ -16,6 +16,7 @@ from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn,
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
 from gearlink.cli.commands.laws import laws
+from gearlink.cli.commands.picture_options import PageFormat, Show
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
 from gearlink.cli.commands.tolerance_options import register as register_tolerances
@@ -68,12 +69,22 @@ for _name, _words in COMMANDS.items():
 
 @app.command("report")
 @takes(*OF_REPORT)
-def _report(spec: Spec, options: Options) -> None:
-    """Write a design as one self-contained HTML page: input, results, findings, tables, pictures.
+def _report(
+    spec: Spec,
+    options: Options,
+    format: Annotated[PageFormat, typer.Option("--format", "-f", help="file format of the report")] = PageFormat.HTML,
+    against: Annotated[str, typer.Option(metavar="OLD", help="another file of the kind: say what has changed")] = "",
+    show: Show = "",
+) -> None:
+    """Write a design as one self-contained HTML page: results, findings, animation, figures, tables, input.
 
-    Example: gearlink report designs/ty460.yaml --out reports
+    Example: gearlink report designs/ty460.yaml --against old.yaml --out reports
     """
-    raise typer.Exit(run_line("report", spec, options))
+    if format is PageFormat.HTML and not against and not show:
+        raise typer.Exit(run_line("report", spec, options))
+    from gearlink.cli.commands.report import Asked, run_report
+
+    raise typer.Exit(run_report(spec, options, Asked(format.value, against, show)))
 
 
 @app.command("watch")

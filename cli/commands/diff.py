@@ -405,6 +405,16 @@ def parts_of(found: Difference, text: Callable[[object], str]) -> Iterator[tuple
             yield part, rows
 
 
+def lines_of(found: Difference) -> Iterator[str]:
+    """What changed, a line each, and in how many places."""
+    from gearlink.cli.render.numbers import number
+
+    yield _verdict(found)
+    for part, rows in parts_of(found, partial(number, digits=9)):
+        yield from ("", f"{part}: old, new")
+        yield from ("  " + "  ".join(filter(None, (name, f"{old} -> {new}", *more))) for name, old, new, *more in rows)
+
+
 def _verdict(found: Difference) -> str:
     old, new = visible(found.old), visible(found.new)
     if found.equal:

@@ -20,6 +20,13 @@ Show = Annotated[
 ]
 
 
+class PageFormat(StrEnum):
+    """How a report is written."""
+
+    HTML = "html"
+    PDF = "pdf"
+
+
 class MovingFormat(StrEnum):
     """How a moving picture is written."""
 

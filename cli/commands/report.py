@@ -25,6 +25,7 @@ from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.kind import FileDesigns
 
 if TYPE_CHECKING:
+    from gearlink.cli.commands.difference import Difference
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind
@@ -101,26 +102,91 @@ class Section(NamedTuple):
     results: str
 
 
-def run_report(source: str, options: Options) -> int:
-    """Write NAME.html into the folder of the options and give the worst exit status of the design's commands."""
-    from gearlink.cli.views.page.sections import whole_page
+class Asked(NamedTuple):
+    """What the command line asks of a report.
 
+    Fields
+        format : str - html or pdf
+        against : str - file of another design of the kind, whose differences are listed
+        show : str - what the film draws on the mechanism
+    """
+
+    format: str = "html"
+    against: str = ""
+    show: str = ""
+
+
+def run_report(source: str, options: Options, asked: Asked | None = None) -> int:
+    """Write NAME.html or NAME.pdf into the folder of the options; gives the worst exit status of the commands."""
+    asked = asked or Asked()
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with patience(f"computing and drawing {spec.name}", quiet=options.quiet):
-            made = _sections(loaded, kind, spec, options)
-        page = whole_page(spec.name, _body(loaded.text, spec, made))
-        path = options.out / f"{safe_stem(spec.name)}.html"
-        write_atomically(path, lambda stream: stream.write(page.encode()))
+            changes = _changes(loaded, kind, source, asked.against) if asked.against else None
+            if asked.format == "pdf":
+                made, data = _as_pdf(loaded, kind, spec, options, changes)
+            else:
+                made, data = _as_html(loaded, kind, spec, options, changes, asked.show)
+        path = options.out / f"{safe_stem(spec.name)}.{asked.format}"
+        write_atomically(path, lambda stream: stream.write(data))
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
         print(wrote(path), file=sys.stderr)
-    return max(exit_status(section.report, strict=options.strict) for section in made)
+    return max(exit_status(report, strict=options.strict) for report in made)
 
 
-def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> list[Section]:
+def _changes(loaded: LoadedFile, kind: Kind, source: str, against: str) -> Difference:
+    """What differs from another design.
+
+    Raises
+        DesignFileError - where that cannot be read, or is of another kind
+    """
+    from gearlink.cli.commands.diff import compared, side_of
+
+    before = side_of(*open_design(against, Options()))
+    return compared(before, side_of(loaded, kind), (against, source))
+
+
+def _as_html(
+    loaded: LoadedFile, kind: Kind, spec: Any, options: Options, changes: Difference | None, show: str
+) -> tuple[list[Report], bytes]:
+    from gearlink.cli.views.page.sections import whole_page
+
+    made = _sections(loaded, kind, spec, options, show)
+    page = whole_page(spec.name, _body(loaded.text, spec, made, changes))
+    return [section.report for section in made], page.encode()
+
+
+def _as_pdf(
+    loaded: LoadedFile, kind: Kind, spec: Any, options: Options, changes: Difference | None
+) -> tuple[list[Report], bytes]:
+    from gearlink.cli.commands.diff import lines_of
+    from gearlink.cli.views.page.pdf import document
+
+    designs = FileDesigns(kind, spec)
+    found = (_built(loaded, kind, spec, options, designs, command) for command in _commands(kind, spec))
+    parts = [part for part in found if part is not None]
+    return [report for _, report in parts], document(parts, loaded.text, lines_of(changes) if changes else ())
+
+
+def _commands(kind: Kind, spec: Any) -> tuple[str, ...]:
+    return (*spec.commands(), *_budgets(kind, spec))
+
+
+def _built(
+    loaded: LoadedFile, kind: Kind, spec: Any, options: Options, designs: FileDesigns, command: str
+) -> Part | None:
+    """Design and report of a command; None of a study of tolerances that takes long."""
+    study: Any = designs.of(command) if command == "tolerance" else None
+    if study is not None and not study.is_short:
+        return None
+    asked = options._replace(tables=_tables(kind, command, spec))
+    return build(loaded, kind, command, spec, asked, designs=designs)
+
+
+def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options, show: str = "") -> list[Section]:
     """Every command of the design, several at a time on a machine with several processors.
 
     Where one is refused they are made again one after another, so that the first to refuse in the file's order says so.
@@ -128,20 +194,20 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
 
     with without_notes("matplotlib"):
         import matplotlib.backends.backend_svg  # noqa: F401 - once, not in every process
-    commands = (*spec.commands(), *_budgets(kind, spec))
-    designs = FileDesigns(kind, spec)
+    commands, designs = _commands(kind, spec), FileDesigns(kind, spec)
 
     def built(command: str) -> Part | None:
-        study: Any = designs.of(command) if command == "tolerance" else None
-        if study is not None and not study.is_short:
-            return None
-        asked = options._replace(tables=_tables(kind, command, spec))
-        return build(loaded, kind, command, spec, asked, designs=designs)
+        return _built(loaded, kind, spec, options, designs, command)
 
-    made = side_by_side(lambda i: _section(built(commands[i]), filmed=i == 0), len(commands))
+    def filmed(i: int) -> str | None:
+        return show if i == 0 else None
+
+    if show:
+        _require_shown(designs.of(commands[0]), show)
+    made = side_by_side(lambda i: _section(built(commands[i]), filmed(i)), len(commands))
     if made is None:
         parts = [built(command) for command in commands]
-        made = [_section(part, filmed=i == 0) for i, part in enumerate(parts)]
+        made = [_section(part, filmed(i)) for i, part in enumerate(parts)]
     return [section for section in made if section is not None]
 
 
@@ -160,25 +226,48 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
     yield "tolerance"
 
 
-def _section(part: Part | None, *, filmed: bool) -> Section | None:
+def _require_shown(design: Design, show: str) -> None:
+    """Refuse what the film cannot show, before all else is made."""
+    import numpy as np
+
+    from gearlink.cli.commands.animate import wrong_show
+    from gearlink.cli.views.scenes import shown
+
+    try:
+        shown.build(design, np.array([0.0, 0.5]), shown.wishes(show))
+    except shown.WrongShow as error:
+        raise wrong_show(error) from None
+
+
+def _section(part: Part | None, show: str | None) -> Section | None:
+    """A command on the page; with the film where it is said what that shows."""
     from gearlink.cli.views.page import sections
     from gearlink.cli.views.page.sheets import sheet
 
     if part is None:
         return None
     design, report = part
-    film = sections.film(design) if filmed else ""
+    film = "" if show is None else sections.film(design, show=show, checks=report.checks)
     drawn = sheet(report.command, design, report.checks)
     return Section(replace(report, tables=()), film, drawn, sections.results(report))
 
 
-def _body(text: str, spec: Any, made: Sequence[Section]) -> Iterator[str]:
+def _body(text: str, spec: Any, made: Sequence[Section], changes: Difference | None = None) -> Iterator[str]:
+    """In the order of a review: verdict and results, what has changed, film, figures with their numbers, input."""
+    from gearlink.cli.render.numbers import number
     from gearlink.cli.views.page import sections
 
     yield sections.head(spec, [section.report for section in made])
+    yield sections.contents([section.report.command for section in made], changed=changes is not None)
+    if changes is not None:
+        from gearlink.cli.commands.diff import lines_of, parts_of
+
+        yield sections.changes(next(lines_of(changes)), parts_of(changes, lambda value: number(value, 9)))
     yield made[0].film
-    yield sections.given(text, spec)
     for section in made:
+        yield f'<section id="{sections.anchor(section.report.command)}">'
         yield f"<h2>{escape(section.report.command)}</h2>"
         yield section.sheet
         yield section.results
+        yield "</section>"
+    yield sections.given(text, spec)

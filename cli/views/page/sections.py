@@ -1,4 +1,4 @@
-"""The sections of a page as HTML: verdict, key results, film, input, and for each command sheet, results, tables."""
+"""The sections of a page as HTML: verdict, film, for each command its sheet, results, findings, tables; input."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
-    from gearlink.core.base.report import Report, Table
+    from gearlink.core.base.report import Check, Report, Table
 
 
 # The animation of a design inside a page: its positions as data for the player
@@ -27,28 +27,31 @@ _FPS, _MOST = 25, 150
 """A page takes no more pictures; faster teeth than these show are no loss beside the numbers."""
 
 
-def film_data(design: Design, pictures: int = 0) -> dict[str, Any] | None:
+def film_data(design: Design, pictures: int = 0, show: str = "", checks: Sequence[Check] = ()) -> dict[str, Any] | None:
     """What the player draws; None where the design has no animation, or cannot make its loop.
 
     Parameters
         pictures : int - how many; 0 leaves it to the teeth
+        show : str - what is drawn on the mechanism besides its links
+        checks : findings, of which those that fail are red
     """
     import numpy as np
 
     from gearlink.cli.views.films.page import player_data
-    from gearlink.cli.views.scenes import loops
+    from gearlink.cli.views.scenes import loops, shown
 
     if design.kind not in loops.moving_kinds():
         return None
     try:
         count = pictures or min(_MOST, loops.pictures_for(loops.build(design, np.arange(96) / 96), _FPS))
-        scene = loops.build(design, np.arange(count) / count)
+        scene = shown.build(design, np.arange(count) / count, shown.wishes(show), checks)
     except NoSolution:
         return None
     return player_data(scene, design.spec.name, _FPS)
 
 
-_MOST_ROWS = 37
+_MOST_ROWS, _WIDE = 37, 8
+"""Rows of a table on the page; of more columns it is printed in small letters."""
 
 
 def whole_page(title: str, body: Iterable[str], more: str = "") -> str:
@@ -100,18 +103,42 @@ def head(spec: Any, reports: Sequence[Report]) -> str:
     )
 
 
-def film(design: Design, pictures: int = 0) -> str:
-    """The animation of a design; empty where it has none."""
-    data = film_data(design, pictures)
-    return "" if data is None else f'<h2 class="first">Animation</h2>\n<div class="film">{as_data(data, "data")}</div>'
+def anchor(command: str) -> str:
+    """The place of a command on the page."""
+    return command.replace(" ", "-")
+
+
+def contents(commands: Sequence[str], *, changed: bool) -> str:
+    """Links to the parts of the page."""
+    places = [("changes", "changes")] * changed + [("animation", "animation")]
+    places += [(anchor(command), command) for command in commands] + [("input", "input")]
+    return '<nav class="contents">' + " ".join(f'<a href="#{at}">{escape(name)}</a>' for at, name in places) + "</nav>"
+
+
+def changes(verdict: str, parts: Iterable[tuple[str, Sequence[Sequence[str]]]]) -> str:
+    """What has changed since another design: in words, then inputs, results and checks, with the change in per cent."""
+    made = [f'<section id="changes"><h2 class="first">Changes</h2>\n<p>{escape(verdict)}</p>']
+    for part, rows in parts:
+        heads = (part, "old", "new", "unit", "change", "command")
+        made.append(f"<h3>{part}</h3>{table(heads, rows, numeric=(1, 2))}")
+    return "\n".join([*made, "</section>"])
+
+
+def film(design: Design, pictures: int = 0, *, show: str = "", checks: Sequence[Check] = ()) -> str:
+    """The animation of a design with what is asked for and what fails on it; empty where it has none."""
+    data = film_data(design, pictures, show, checks)
+    if data is None:
+        return ""
+    words = '<section id="animation"><h2 class="first">Animation</h2>'
+    return f'{words}\n<div class="film">{as_data(data, "data")}</div></section>'
 
 
 def given(text: str, spec: Any) -> str:
     """The text of the file, and the keys in force."""
     keys = table(("key", "value"), _keys(spec.model_dump(by_alias=True)), numeric=())
     return (
-        f'<h2 class="first">Input</h2>\n<pre>{escape(text.rstrip())}</pre>\n'
-        f'<h3>Keys in force, defaults included</h3>\n<div class="keys">{keys}</div>'
+        f'<section id="input"><h2 class="input">Input</h2>\n<pre>{escape(text.rstrip())}</pre>\n'
+        f'<h3>Keys in force, defaults included</h3>\n<div class="keys">{keys}</div></section>'
     )
 
 
@@ -236,7 +263,6 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Itera
         )
 
     lines = [f"<tr{f' class={row[0]}' if marked else ''}>{cells('td', row)}</tr>" for row in rows]
-    body = "\n".join(lines)
-    return (
-        f'<div class="scroll"><table><thead><tr>{cells("th", heads)}</tr></thead><tbody>\n{body}</tbody></table></div>'
-    )
+    body, many = "\n".join(lines), " class=many" if len(heads) > _WIDE else ""
+    head = f"<thead><tr>{cells('th', heads)}</tr></thead>"
+    return f'<div class="scroll"><table{many}>{head}<tbody>\n{body}</tbody></table></div>'

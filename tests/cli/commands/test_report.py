@@ -120,3 +120,39 @@ def test_keys_in_force_are_written_as_in_a_file() -> None:
     """Lists and truth values are not Python's: ['right', 'left'], False."""
     rows = dict(sections._keys({"hand": ["right", "left"], "sobol": False, "teeth": (23, 71), "own": {"width": 20.0}}))
     assert rows == {"hand": "[right, left]", "sobol": "false", "teeth": "[23, 71]", "own.width": "20.0"}
+
+
+@pytest.mark.usefixtures("pictures_are_blank")
+def test_a_report_is_in_the_order_of_a_review(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    """What has changed is said first, the file stands last; every link of the contents has its place."""
+    other = tmp_path / "old.yaml"
+    text = (designs / "crank_rocker_links.yaml").read_text(encoding="utf-8")
+    other.write_text(re.sub(r"crank: [\d.]+", "crank: 30.25", text, count=1), encoding="utf-8")
+    asked = ("report", designs / "crank_rocker_links.yaml", "--against", other, "--out", tmp_path)
+    assert gearlink(*asked).status == ExitCode.OK
+    page = (tmp_path / "crank-rocker-links.html").read_text(encoding="utf-8")
+    places = re.findall(r'<section id="([\w-]+)">', page)
+    assert places[:2] == ["changes", "animation"]
+    assert places[-1] == "input"
+    assert [f"#{place}" for place in places] == re.findall(r'<a href="(#[\w-]+)">', page)
+    rows = dict(re.findall(r"<tr><td>links.crank</td><td class=n>([\d.]+)</td><td class=n>([\d.]+)</td>", page))
+    assert rows == {"30.25": "40"}
+    assert "prefers-color-scheme: dark" in page
+    assert "@media print" in page
+    assert gearlink("report", other, "--against", designs / "lift_cam.yaml", "--out", tmp_path).status == 2
+
+
+def test_the_film_of_a_report_shows_what_is_asked_for(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    asked = ("report", crank, "--out", tmp_path / "out", "--show")
+    assert gearlink(*asked, "velocity:Q").status == ExitCode.WRONG_INPUT
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_a_report_as_pdf_is_the_same_every_time(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    for folder in ("a", "b"):
+        assert gearlink("report", crank, "--format", "pdf", "--out", tmp_path / folder, "-q").status == ExitCode.OK
+    one, other = (next((tmp_path / folder).iterdir()).read_bytes() for folder in ("a", "b"))
+    assert one.startswith(b"%PDF")
+    assert one == other
+    assert len(re.findall(rb"/Type /Page\b", one)) >= 3

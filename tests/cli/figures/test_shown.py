@@ -42,6 +42,7 @@ def scaled(scene: Any, what: str) -> float:
     return key.length / float(key.words.split()[1])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name", ["standing_feed", "planar_quick_return", "swing_gripper", "wide_swing_oscillating_cam"]
 )
@@ -67,6 +68,7 @@ def test_arrows_are_the_finite_differences_of_their_points(name: str) -> None:
         assert accelerated == pytest.approx(bend, abs=1e-4 * size * speed**2)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_gripper", "loaded_six_bar"])
 def test_force_arrows_are_those_of_the_table(name: str) -> None:
     loads = design(name, command="loads")
@@ -125,6 +127,7 @@ def test_ghosts_are_earlier_positions() -> None:
     assert set(np.round(chain.joints[1], 9).tolist()) <= set(np.round(shown_at, 9).tolist())
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("path", each_kind(MOVING), ids=lambda path: path.stem)
 def test_every_kind_shows_all_that_it_has(path: Path) -> None:
     """Places of the motion in the scene, or the diagram of the motion itself; and data for a page, without NaN."""
@@ -213,6 +216,7 @@ def test_default_instants_are_the_extremes_of_the_output() -> None:
         assert np.degrees(q[np.argmax(np.abs(rate))]) == pytest.approx(place, abs=0.4)
 
 
+@pytest.mark.slow
 def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     asked = ("sheet", designs / "ty460.yaml", "drawing-1", "-f", "svg", "--out", tmp_path)
     ended = gearlink(*asked, "--set", "cam.base_radius=35")
