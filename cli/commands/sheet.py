@@ -179,7 +179,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet
+    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet, workshop
 
     found: Makers = {}
     if motion_sheet.courses(design):
@@ -201,5 +201,5 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
             found[f"drawing-{i + 1}"] = lambda i=i: true_size.drawing(design, i, scale)  # type: ignore[misc]
         return found
     for i in range(len(cams)):
-        found[f"drawing-{i + 1}"] = lambda i=i: cam_sheets.drawing(design, i)  # type: ignore[misc]
+        found[f"drawing-{i + 1}"] = lambda i=i: workshop.drawing(design, i)  # type: ignore[misc]
     return found

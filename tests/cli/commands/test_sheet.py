@@ -13,7 +13,7 @@ from factory import design, worked
 
 from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
-from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, workshop
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),
@@ -177,7 +177,7 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"TY-460-{name}.svg" for name in names]
     text = (tmp_path / "TY-460-drawing-1.svg").read_text()
     assert "359" in text
-    assert "start mark" in text
+    assert "Start mark" in text
 
 
 @pytest.mark.parametrize(
@@ -241,3 +241,26 @@ def test_extremes_are_named_within_their_panels() -> None:
                 box = words.get_window_extent()
                 assert panel.x0 - 1.0 <= box.x0, words.get_text()
                 assert box.x1 <= panel.x1 + 1.0, words.get_text()
+
+
+@pytest.mark.parametrize(("name", "keys"), [("ty460", {}), ("swing_gripper", {"cam__shaft_radius": 40.0})])
+def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) -> None:
+    """Read back from the figure, in mm of paper: all within the frame, the outline as large as the cam times its scale."""
+    made = design(name, **keys)
+    (cam, *_) = cam_sheets.discs(made)
+    page, scale = workshop.fitted(cam)
+    figure = workshop.drawing(made, 0)
+    assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height))
+    lines = {line.get_gid(): line.get_xydata() for line in figure.axes[0].lines if line.get_gid()}
+    profile = lines["profile"] @ [1.0, 1j]
+    _, own = cam.points(np.linspace(0.0, 2.0 * math.pi, 7201))
+    assert np.ptp(profile.real) == pytest.approx(scale * np.ptp(own.real), rel=1e-12)
+    assert 20.0 <= profile.real.min() <= profile.real.max() <= page.width - 10.0
+    assert scale in workshop.SCALES
+    words = {text.get_text() for text in figure.axes[0].texts}
+    assert {f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}", page.name, "1 / 2"} <= words
+    assert {f"{value:.3f}" for value in cam_sheets.pitch_radii(cam).tolist()} <= words
+    if keys:
+        assert any(text.startswith("⌀80 H7") and "keyway 22 P9" in text for text in words)
+        hole = lines["bore"] @ [1.0, 1j]
+        assert np.ptp(hole.real) == pytest.approx(80.0 * scale, rel=0.1)

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _TURN = 2.0 * math.pi
-_COLUMNS = 6
 # DIN 6885-1: bore above, width of the keyway, depth in the hub [mm].
 _KEYWAYS = (
     (6, 2, 1.0), (8, 3, 1.4), (10, 4, 1.8), (12, 5, 2.3), (17, 6, 2.8), (22, 8, 3.3), (30, 10, 3.3), (38, 12, 3.3),
@@ -114,61 +113,6 @@ def _width(share: Any) -> Any:
     return 0.5 + 5.0 * share
 
 
-def drawing(design: Any, index: int) -> Figure:
-    """One cam for the workshop: outline with dimensions, start mark, bore and keyway, and a radius for each degree."""
-    cam = discs(design)[index]
-    made = panels.page(f"{design.spec.name}: {cam.name}, drawing")
-    grid: Any = made.add_gridspec(2, 1, height_ratios=(1.0, 1.35))
-    above: Any = grid[0].subgridspec(1, 2, width_ratios=(1.6, 1.0))
-    outline, notes = made.add_subplot(above[0]), made.add_subplot(above[1])
-    shaft = _shaft(design)
-    _workpiece(outline, cam, shaft)
-    panels.legend_beside(notes, outline)
-    for i, words in enumerate(reversed(_notes(cam, shaft))):
-        notes.text(0.0, 0.055 * i, words, transform=notes.transAxes, fontsize=7.5, va="bottom")
-    _radii(made.add_subplot(grid[1]), cam)
-    return made
-
-
-def _shaft(design: Any) -> float:
-    """Radius of the shaft [mm]; 0 where the file does not name it."""
-    return float(design.cams.section.shaft_radius)
-
-
-def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:
-    panels.drawing(axes, "To scale")
-    roller = panels.cam_outline(axes, cam, style.BLACK)
-    theta = np.linspace(0.0, _TURN, 361)
-    for radius, words in ((cam.min_radius, "minimum"), (cam.max_radius, "maximum")):
-        if _is_cut(cam) and words == "maximum":  # an undercut profile does not reach it
-            continue
-        circle = radius * np.exp(1j * theta)
-        axes.plot(circle.real, circle.imag, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED)
-        way = np.exp(1j * math.radians(235.0 if words == "minimum" else 305.0)) * radius
-        shape = {"arrowstyle": "-|>", "color": style.GREY, "linewidth": 0.9}
-        axes.annotate("", (way.real, way.imag), (0.0, 0.0), arrowprops=shape, zorder=6)
-        axes.annotate(f"R {radius:.5g}", (0.62 * way.real, 0.62 * way.imag), fontsize=8, ha="center",
-                      path_effects=style.outlined(), zorder=7)  # fmt: skip
-    _, profile = cam.points(np.linspace(0.0, _TURN, 7201))
-    way = roller / abs(roller)
-    edge = float(np.abs(profile[int(np.argmin(np.abs(np.angle(profile / way))))]))
-    mark = edge * np.array([0.82, 1.0]) * way
-    axes.plot(
-        mark.real, mark.imag, color=style.RED, linewidth=2.2, label="start mark: roller here at cam angle 0", zorder=6
-    )
-    if shaft > 0.0:
-        bore = _bore(shaft, roller / abs(roller))
-        style.area(axes, bore, facecolor="white", edgecolor=style.BLACK, linewidth=1.2, zorder=5)
-    panels.cam_axis(axes, 0j, (cam,), cam.sense, shaft)
-    reach = abs(roller) + 1.2 * cam.roller_radius
-    axes.plot([-cam.max_radius * 1.1, reach], [0.0, 0.0], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
-
-
-def _is_cut(cam: DiscCam) -> bool:
-    """Whether the roller cuts into the profile."""
-    return cam.min_curvature_radius.value <= cam.roller_radius
-
-
 def keyway(bore: float) -> tuple[float, float] | None:
     """Width and depth in the hub of the keyway of a bore [mm]; None outside the standard.
 
@@ -183,7 +127,7 @@ def keyway(bore: float) -> tuple[float, float] | None:
     return found[-1] if found and bore <= _LARGEST_BORE else None
 
 
-def _bore(radius: float, way: complex) -> Any:
+def bore(radius: float, way: complex) -> Any:
     """Outline of the bore with its keyway, where the standard has one, in the direction of the start mark."""
     slot = keyway(2.0 * radius)
     if slot is None:
@@ -194,26 +138,6 @@ def _bore(radius: float, way: complex) -> Any:
     floor = radius + depth
     points = np.concatenate([[complex(floor, half)], circle, [complex(floor, -half), complex(floor, half)]])
     return points * way
-
-
-def _notes(cam: DiscCam, shaft: float) -> list[str]:
-    slot = keyway(2.0 * shaft) if shaft > 0.0 else None
-    bore = f"bore ø {2.0 * shaft:g} mm" if shaft > 0.0 else "bore: the file names no shaft"
-    key = f", keyway {slot[0]:g} × {slot[1]:g} mm, DIN 6885-1, on the start mark" if slot else ""
-    least = cam.min_curvature_radius.value
-    return [
-        f"roller ø {2.0 * cam.roller_radius:g} mm",
-        f"cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
-        bore,
-        *([key.removeprefix(", ")] if key else []),
-        f"profile from R {cam.min_radius:.5g} " + ("mm, undercut" if _is_cut(cam) else f"to R {cam.max_radius:.5g} mm"),
-        f"minimum convex radius of the pitch curve {least:.5g} mm"
-        if math.isfinite(least)
-        else "pitch curve never convex",
-        "table: radius of the roller's centre [mm]",
-        "over the angle on the cam from the start mark,",
-        "counter-clockwise [deg]",
-    ]
 
 
 def pitch_radii(cam: DiscCam) -> Any:
@@ -228,18 +152,3 @@ def pitch_radii(cam: DiscCam) -> Any:
         angle, pitch = angle[::-1], pitch[::-1]
     turned = np.mod(np.radians(np.arange(360.0)) - angle[0], _TURN) + angle[0]
     return np.interp(turned, angle, np.abs(pitch))
-
-
-def _radii(axes: Axes, cam: DiscCam) -> None:
-    """Radii of the pitch curve, degree by degree."""
-    axes.set_axis_off()
-    axes.set_xlim(0.0, _COLUMNS)
-    rows = 360 // _COLUMNS
-    axes.set_ylim(rows + 0.5, -1.5)
-    radii = [f"{value:.3f}" for value in pitch_radii(cam).tolist()]
-    look: dict[str, Any] = {"fontsize": 5.4, "va": "center", "family": "monospace", "linespacing": 1.16}
-    for column in range(_COLUMNS):
-        first = column * rows
-        words = "\n".join(f"{degree:3d}   {radii[degree]:>9}" for degree in range(first, first + rows))
-        axes.text(column + 0.1, -0.5, "deg        mm", fontsize=5.8, fontweight="bold", va="bottom")
-        axes.text(column + 0.1, 0.0, words, **{**look, "va": "top"})
