@@ -138,7 +138,7 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
 
 
 _MOST_INPUTS = 4
-_ALIKE = ("motion", "vectors", "timing", "pressure", "drawing")
+_ALIKE = ("motion", "vectors", "forces", "timing", "pressure", "drawing")
 """Sheets that are drawn alike of what a kind gives for them; others a kind draws itself."""
 Makers = dict[str, Callable[[], "Figure"]]
 
@@ -179,13 +179,22 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet, workshop
+    from gearlink.cli.views.figures.sheets import (
+        cam_sheets,
+        force_sheet,
+        motion_sheet,
+        timing_sheet,
+        vector_sheet,
+        workshop,
+    )
 
     found: Makers = {}
     if motion_sheet.courses(design):
         found["motion"] = lambda: motion_sheet.draw(design)
     if "vectors" in KINDS[design.kind].all_sheets and vector_sheet.draws(design):
         found["vectors"] = lambda: vector_sheet.draw(design, at, show)
+    if "forces" in KINDS[design.kind].all_sheets and force_sheet.draws(design):
+        found["forces"] = lambda: force_sheet.draw(design)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     for name, place in KINDS[design.kind].sheets.items():

@@ -72,6 +72,8 @@ class Kind(NamedTuple):
         of_motion = {"motion": f"{sheets}.motion_sheet:of_motion", "vectors": f"{sheets}.vector_sheet:draw"}
         if not self.motion:
             of_motion = {}
+        if "loads" in self.commands and self.motion:
+            of_motion["forces"] = f"{sheets}.force_sheet:draw"
         return {name: place for name, place in {**of_motion, **self.sheets}.items() if place}
 
     def spec_model(self) -> Any:

@@ -8,7 +8,8 @@ from functools import partial
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.views.figures.drawing import failing, panels, style, time_axes
+from gearlink.cli.views.figures.drawing import panels, style, time_axes
+from gearlink.cli.views.figures.sheets import force_sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -232,13 +233,8 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
 Panel = Callable[["Axes", "LoadsDesign"], None]
 _LOCI = "Pins: force on the second link in the axes of the frame, a mark every 30° of the input; dotted: it jumps"
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK, style.GREY)
-_POLAR_COLUMNS = 3
-_MOST_CURVES = 5
-_XY = ("_x", "_y")
-_SAME = 1e-9
-"""Of a force: joints whose forces differ by less are drawn once."""
-_LEAST_JUMP, _STEEPER = 0.08, 6.0
-"""A jump of a locus: a share of its size, so many times what the steps beside it are."""
+_POLAR_COLUMNS, _MECHANISM = 3, 2.6
+"""Of the mechanism with its forces: the height of its panel, those of curves being 1."""
 _LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
 """Curves of one panel differ in their lines as well, for grey print."""
 
@@ -250,8 +246,12 @@ def draw(design: Any) -> Figure:
     curves, pins, cams = _panels_of(design)
     polar = math.ceil((len(pins) + len(cams) + 1) / _POLAR_COLUMNS)
     heights = [1.0 if i else 1.3 for i in range(len(curves))] + [1.55] * polar
-    made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * sum(heights)))
-    grid = made.add_gridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
+    shown = 0.0 if design.locked else _MECHANISM
+    made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * (sum(heights) + shown)))
+    whole = made.add_gridspec(2, 1, height_ratios=(max(shown, 1e-3), sum(heights)))
+    if shown:
+        force_sheet.mechanism(made.add_subplot(whole[0]), design)
+    grid: Any = whole[1].subgridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
     stacked = [made.add_subplot(grid[row, :]) for row in range(len(curves))]
     for axes, panel in zip(stacked, curves, strict=True):
         panel(axes, design)

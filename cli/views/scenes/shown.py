@@ -302,6 +302,12 @@ class Picture:
         low, high = complex(whole.real.min(), whole.imag.min()), complex(whole.real.max(), whole.imag.max())
         return 0.5 * (low + high), 0.5 * (high - low) + 1e-9 * self.size * (1 + 1j)
 
+    def _within(self, track: Points) -> bool:
+        """Whether a point is on the drawing, or near it."""
+        middle, half = self.box
+        off = self.frame.at(track) - middle
+        return bool((np.abs(off.real) <= _FAR * half.real).all() and (np.abs(off.imag) <= _FAR * half.imag).all())
+
     def _beside(self, track: Callable[[Mechanism], Points]) -> complex:
         """From a point that lies beyond the drawing to a body of the drawing that moves as it does; 0 within it."""
         at = self.frame.at(track(self._mechanism(0, np.linspace(0.0, 0.93, _PROBES))))
@@ -401,7 +407,8 @@ class Picture:
             raise WrongShow(f"--show force:{wish.point}: the connections are {', '.join(now)}")
         chosen = {name: each for name, each in now.items() if wish.point in ("", name)}
         most = max((float(np.nanmax(np.abs(whole[name].force))) for name in chosen), default=0.0)
-        return self._arrows("force", {name: (each.at, each.force) for name, each in chosen.items()}, most, "N")
+        drawn = {name: (each.at, each.force) for name, each in chosen.items() if self._within(each.at)}
+        return self._arrows("force", drawn, most, "N")
 
     def _loaded(self, machine: Any, fraction: Reals) -> Reals:
         """Inputs of the loads, which may run over another period than the motion."""

@@ -245,7 +245,7 @@ def test_extremes_are_named_within_their_panels() -> None:
 
 @pytest.mark.parametrize(("name", "keys"), [("ty460", {}), ("swing_gripper", {"cam__shaft_radius": 40.0})])
 def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) -> None:
-    """Read back from the figure, in mm of paper: all within the frame, the outline as large as the cam times its scale."""
+    """Read back in mm of paper: all within the frame, the outline as large as the cam times its scale."""
     made = design(name, **keys)
     (cam, *_) = cam_sheets.discs(made)
     page, scale = workshop.fitted(cam)

@@ -15,7 +15,7 @@ import pytest
 import yaml
 from factory import design, each_kind
 
-from gearlink.cli.views.figures.sheets import vector_sheet
+from gearlink.cli.views.figures.sheets import force_sheet, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
@@ -224,3 +224,21 @@ def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path
     assert "NOT FOR MANUFACTURE" in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")
     assert gearlink(*asked).status == 0
     assert "NOT FOR MANUFACTURE" not in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")
+
+
+def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
+    loads = design("loaded_feed", command="loads")
+    figure = force_sheet.draw(design("loaded_feed"))
+    drawn = {line.get_gid(): line.get_ydata() for axes in figure.axes for line in axes.lines if line.get_gid()}
+    joints, teeth = loads.table("joints", samples=360), loads.table("teeth", samples=360)
+    for name in ("A", "B", "C", "D"):
+        assert drawn[f"force {name}"][:-1] == pytest.approx(np.asarray(joints[name]), rel=1e-9)
+    mesh = np.hypot(teeth["mesh_13"], teeth["mesh_13_radial"])
+    assert drawn["force mesh 13"][:-1] == pytest.approx(mesh, rel=1e-9)
+    assert drawn["torque"][:-1] == pytest.approx(
+        np.asarray(loads.table("torque", samples=360)["input_torque"]), rel=1e-9
+    )
+    place = force_sheet.largest_torque(loads)
+    assert np.abs(drawn["torque"]).max() <= abs(float(loads.machine.torque(np.array([place]))[0])) * (1.0 + 1e-9)
+    arrows_ = [line for line in figure.axes[0].lines if str(line.get_gid()).startswith("force ")]
+    assert len(arrows_) >= 8, "an arrow at every joint and mesh"

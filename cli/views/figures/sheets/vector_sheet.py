@@ -78,7 +78,7 @@ def default_places(design: Any) -> list[float]:
     return [round(each, 4) for each in dict.fromkeys(shown_)]
 
 
-def _fraction(frame: shown.Frame, q: float) -> float:
+def fraction_at(frame: shown.Frame, q: float) -> float:
     """The fraction of the loop at which the scene stands at an input, within 1e-6 of it."""
     many = np.linspace(0.0, 1.0, 3601)
     inputs = frame.inputs(many)
@@ -89,15 +89,15 @@ def _fraction(frame: shown.Frame, q: float) -> float:
 
 
 def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
-    frame = _frame(design)
-    scene = shown.build(design, np.array([_fraction(frame, q)]), shown.wishes(wanted))
+    frame = frame_of(design)
+    scene = shown.build(design, np.array([fraction_at(frame, q)]), shown.wishes(wanted))
     panels.drawing(axes, f"At {_input(design, q)}")
     panels.few_ticks(axes.xaxis, 4)
     panels.few_ticks(axes.yaxis, 4)
     scene_axes.draw(axes, scene)
 
 
-def _frame(design: Any) -> shown.Frame:
+def frame_of(design: Any) -> shown.Frame:
     """Where the drawing stands: in the kind's own scene, or in that of the motion."""
     found = shown.frame_of(design, loops.builder(design.kind))
     return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each))
@@ -119,7 +119,7 @@ def rates(design: Any, q: Reals, order: int) -> tuple[dict[str, Any], dict[str, 
     motion, speed = design.moving, shown.speed_of(design)
     factor = 1.0 if speed is None else speed**order
     whole = motion.at(np.linspace(motion.input.start, motion.input.end, 25)[:24], 0)
-    mechanism, places, frame = motion.at(q, order), vectors.moving_points(whole), _frame(design)
+    mechanism, places, frame = motion.at(q, order), vectors.moving_points(whole), frame_of(design)
     found = {
         name: frame.along(factor * vectors.rates_of(mechanism, each).derivative(order)) for name, each in places.items()
     }
