@@ -99,9 +99,9 @@ def build_site() -> None:
     config.write_text(text, encoding="utf-8")
     shutil.rmtree(SITE, ignore_errors=True)
     command = [sys.executable, "-m", "zensical", "build", "--clean", "--strict", "--config-file", str(config)]
-    ended = subprocess.run(command, cwd=BUILT, text=True, capture_output=True, env=None)
+    ended = subprocess.run(command, cwd=BUILT, text=True, capture_output=True)
     if ended.returncode:
-        sys.exit(f"{ended.stdout[-6000:]}\n{ended.stderr[-3000:]}")
+        sys.exit(f"{ended.stdout}\n{ended.stderr[-1500:]}")
     for path in SITE.rglob("*.html"):
         up = "../" * (len(path.relative_to(SITE).parts) - 1) or "./"
         html = path.read_text(encoding="utf-8")

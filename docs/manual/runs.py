@@ -15,6 +15,7 @@ import multiprocessing
 import os
 import shlex
 import shutil
+import sys
 import tempfile
 import time
 from collections.abc import Iterable
@@ -25,6 +26,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / "build" / "manual" / "runs"
 _DPI = "90"
+_WITHOUT_DPI = ("animate", "chart", "explore", "report")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +98,7 @@ def run(command: str, picture: bool = False) -> Run:
         raise RuntimeError(f"only gearlink is run: {command}")
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(ROOT):
         extra = ["--out", folder] if picture else []
-        extra += ["--dpi", _DPI] if picture and words[1] not in ("animate", "report") else []
+        extra += ["--dpi", _DPI] if picture and words[1] not in _WITHOUT_DPI else []
         began = time.perf_counter()
         status, text = _printed([*words[1:], *extra])
         seconds = time.perf_counter() - began
@@ -118,6 +120,7 @@ def _printed(words: list[str]) -> tuple[int, str]:
     from gearlink.cli.main import run as gearlink
 
     out, err = io.StringIO(), io.StringIO()
+    sys.argv[:1] = ["gearlink"]  # which messages on the command line name
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         status = int(gearlink(words))
     lines = (out.getvalue() + err.getvalue()).rstrip().split("\n")

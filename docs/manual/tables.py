@@ -43,7 +43,7 @@ def _wanted(path: str, sections: list[str]) -> bool:
 def _row(key: SpecKey) -> str:
     name = f"`{key.path}`" + (f" (also `{'`, `'.join(key.also)}`)" if key.also else "")
     unit = "" if key.unit in ("", "1") else key.unit
-    default = "" if key.default is None or key.required else f"`{_value(key.default)}`"
+    default = "" if key.default is None or key.required or key.section else f"`{_value(key.default)}`"
     required = "required" if key.required else "optional"
     return f"| {name} | {cell(key.words)} | {cell(unit)} | {required} | {cell(default)} | {cell(key.range)} |"
 
