@@ -11,7 +11,7 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q
 # Long runs: tests of a module stay in one process, which keeps what they share.
 LONG := $(PYTEST) -n auto --maxprocesses 4 --dist loadfile
 
-.PHONY: demo test test-core test-rest test-least test-newest test-elsewhere check check-full format lint types lock docs
+.PHONY: demo test test-core test-rest test-least test-newest test-elsewhere check check-full format lint types lock docs site
 .PHONY: bench bench-guard stress clean
 
 # VERSIONS: other ones than those of the lock file, as pip takes them.
@@ -81,7 +81,7 @@ test-newest:
 test-elsewhere: $(READY)
 	$(BIN)/python tests/elsewhere.py
 
-check: lint types test
+check: lint types test site
 
 check-full: lint types $(READY)
 	GEARLINK_EXAMPLES=all $(LONG) -m 'not stress'
@@ -128,9 +128,16 @@ lock: .venv-lock/bin/uv
 	$(PYTHON) -m venv .venv-lock
 	.venv-lock/bin/python -m pip install --quiet --disable-pip-version-check uv
 
+# The generated files, the figures of the README, the output of commands in README and docs, and the manual in
+# build/manual/site, with every result of this state of the program.
 docs: $(READY)
 	$(BIN)/python docs/generate.py
 	$(BIN)/python docs/pictures.py
+	$(BIN)/python -m docs.manual --refresh
+
+# The manual, strictly: pages, links, equations; results that are there are taken, whatever state gave them.
+site: $(READY)
+	$(BIN)/python -m docs.manual --last
 
 clean:
 	rm -rf $(VENV) .venv-least .venv-newest .venv-lock bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,9 +1,5 @@
-"""README and documents say what the program does: their commands are run and their output compared.
-
-Numbers are compared at 1e-9 relative: a printed value may differ in the last digits between machines' libraries.
-Those that are printed whole (15 digits and more) are compared at 8 ulp: the pages show quantities so only where an ulp
-of an input moves them by no more than an ulp or two, and a library's functions are off by one or two themselves.
-Times in milliseconds are skipped.
+"""README and documents say what the program does: their commands are run and their output compared, as `blocks.same`
+and `blocks.unchanged` say. Output that `make docs` puts into the manual, tests/test_manual.py looks at.
 """
 
 from __future__ import annotations
@@ -21,51 +17,25 @@ import typer
 from factory import DESIGNS, each_kind
 from matplotlib.figure import Figure
 
+from docs.manual import blocks, reference
 from gearlink.cli.app import app
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.core.base.kinds import FILES
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-_BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
-_NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?$")
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def sessions() -> list[tuple[str, str, list[str]]]:
-    """Page, command and printed output of every `$ gearlink ...` in a console block."""
-    found: list[tuple[str, str, list[str]]] = []
-    for page in PAGES:
-        for block in _BLOCK.findall(page.read_text()):
-            for line in block.rstrip("\n").split("\n"):
-                if line.startswith("$ "):
-                    found.append((page.name, line[2:], []))
-                elif found:
-                    found[-1][2].append(line)
-    return found
-
-
-def same(got: str, want: str) -> bool:
-    """Equal but for the last digits of numbers."""
-    a, b = got.split(), want.split()
-    if set(got) == set(want) == {"─"}:
-        return True  # a rule under a column of times
-    if len(a) != len(b):
-        return False
-    for x, y in zip(a, b, strict=True):
-        if x != y and not (_NUMBER.match(x) and _NUMBER.match(y) and abs(float(x) - float(y)) <= _tolerance(y)):
-            return False
-    return True
-
-
-def _tolerance(printed: str) -> float:
-    digits = re.sub(r"e.*|\D", "", printed).lstrip("0")
-    return 8.0 * math.ulp(float(printed)) if len(digits) >= 15 else 1e-9 * abs(float(printed))
+    """Page, command and printed output of every command of a console block that has its output."""
+    texts = ((page.name, page.read_text(encoding="utf-8")) for page in PAGES)
+    return [(name, command, output) for name, text in texts for command, output in blocks.told(text)]
 
 
 def test_a_figure_that_has_drifted_is_seen() -> None:
-    assert same("18.058100927176056 mm", "18.058100927176052 mm")
-    assert not same("18.058100927176056 mm", "18.058100927176245 mm")
-    assert same("18.0581009 mm", "18.0581009001 mm")
+    assert blocks.same("18.058100927176056 mm", "18.058100927176052 mm")
+    assert not blocks.same("18.058100927176056 mm", "18.058100927176245 mm")
+    assert blocks.same("18.0581009 mm", "18.0581009001 mm")
 
 
 @pytest.mark.parametrize(("page", "command", "output"), sessions(), ids=lambda x: x if isinstance(x, str) else "")
@@ -79,11 +49,7 @@ def test_console_blocks(
     ended = gearlink(*words[1:])
     assert ended.status in (ExitCode.OK, ExitCode.FINDING, ExitCode.WRONG_INPUT)
     got = [line.rstrip() for line in (ended.out + ended.err).rstrip().split("\n")]
-    timed = re.compile(r"(pass|warn|fail|error) +(\d+|unchanged)$")
-    got, want = ([timed.sub(r"\1", line) for line in lines] for lines in (got, output))
-    assert len(got) == len(want), "\n".join(got)
-    for a, b in zip(got, want, strict=True):
-        assert same(a, b), f"{page}: `{command}` prints\n{a}\nthe page says\n{b}"
+    assert blocks.unchanged(got, output), f"{page}: stale, run `make docs`; `{command}` prints\n" + "\n".join(got)
 
 
 def test_readme_opens_with_a_real_result() -> None:
@@ -92,9 +58,12 @@ def test_readme_opens_with_a_real_result() -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()):
+    """To a file, or to a page that `make docs` makes of the program."""
+    made = {ROOT / "docs" / name for name in reference.targets()}
+    for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", re.sub(r"(?ms)^```.*?^```", "", page.read_text("utf-8"))):
         if not target.startswith("http"):
-            assert (page.parent / target).exists(), target
+            path = Path(os.path.normpath(page.parent / target))
+            assert path.exists() or path in made, target
 
 
 def test_figures_of_the_readme_are_those_of_the_script_and_small() -> None:

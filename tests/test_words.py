@@ -93,7 +93,7 @@ def _texts() -> dict[str, list[str]]:
     for path in sorted((ROOT / "cli" / "texts").glob("*.json")):
         strings = _strings(json.loads(path.read_text(encoding="utf-8")))
         found[str(path.relative_to(ROOT))] = [text for text in strings if " " in text]
-    for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+    for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
         if path.name not in GENERATED:
             text = re.sub(r"(?ms)^```.*?^```|^\* Also:.*?$", "", path.read_text(encoding="utf-8"))
             found[str(path.relative_to(ROOT))] = [KEYS.sub("", text)]

@@ -1,7 +1,8 @@
-"""Builds the manual into `build/manual/site`: `python -m docs.manual [--last] [--pages]`.
+"""Builds the manual into `build/manual/site`: `python -m docs.manual [--last] [--pages] [--refresh]`.
 
-    --last    results that are kept are taken although the program has changed since (`make site`)
-    --pages   write the pages alone, without the site
+--last     results that are kept are taken although the program has changed since (`make site`)
+--pages    write the pages alone, without the site
+--refresh  put what the program prints now into the console blocks of README and docs
 """
 
 from __future__ import annotations
@@ -43,8 +44,12 @@ def write_pages(stale: bool) -> None:
     shutil.rmtree(PAGES, ignore_errors=True)
     written = {path: path.read_text(encoding="utf-8") for path in sources()}
     wanted = [pair for text in written.values() for pair in blocks.commands(text)]
-    done = runs.compute([*wanted, *reference.commands()], stale)
+    wanted += reference.commands()
+    done = runs.compute(wanted, stale)
     print(f"{len(done)} commands run, {sum(ended.seconds for ended in done):.0f} s")
+    old = sum(runs.result(*pair).made_of != runs.program() for pair in dict.fromkeys(wanted))
+    if old:
+        print(f"{old} results are those of another state of the program: `make docs` renews them")
     for path, target in sources().items():
         _write(Page(path, target, written[path], stale))
     for target, text in reference.pages():
@@ -110,7 +115,19 @@ def build_site() -> None:
         sys.exit("\n".join(wrong[:40]))
 
 
+def refresh() -> None:
+    """What README and docs say that commands print, as they print it now."""
+    for path in sources():
+        before = path.read_text(encoding="utf-8")
+        after = blocks.refreshed(before)
+        if after != before:
+            path.write_text(after, encoding="utf-8")
+            print(f"{path.relative_to(ROOT)}: output of commands renewed")
+
+
 if __name__ == "__main__":
+    if "--refresh" in sys.argv:
+        refresh()
     write_pages("--last" in sys.argv)
     if "--pages" not in sys.argv:
         build_site()

@@ -1,18 +1,19 @@
 """Blocks of a page that the program fills, and what else turns a page of the repository into one of the manual.
 
-    ```console      commands without output get it from a run; with output they are left, and tests compare them
-    ```figure       the picture that a command draws, with the command and a caption (`caption: ...`)
-    ```session      commands of one page that follow each other in one folder
-    ```picture      a file that the page's session left: `name.png: caption`
-    ```drawing      a mechanism with its points, sizes, angles and frame (drawings.py)
-    ```keys         keys of a kind, or those of the sections that are named after it
-    ```checks       checks of a kind
-    ```design       a file of designs/
-    ```math         equations in TeX, one a line; `$...$` within text
+```console      commands without output get it from a run; with output they are left, and tests compare them
+```figure       the picture that a command draws, with the command and a caption (`caption: ...`)
+```session      commands of one page that follow each other in one folder
+```picture      a file that the page's session left: `name.png: caption`
+```drawing      a mechanism with its points, sizes, angles and frame (drawings.py)
+```keys         keys of a kind, or those of the sections that are named after it
+```checks       checks of a kind
+```design       a file of designs/
+```math         equations in TeX, one a line; `$...$` within text
 """
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from collections.abc import Callable, Iterator
@@ -23,7 +24,9 @@ from docs.manual import runs, tables, typeset
 from docs.manual.drawings import Drawing
 from docs.manual.runs import ROOT
 
-_FENCE = re.compile(r"^(?P<tick>`{3,})(?P<language>[\w-]*)[^\n]*\n(?P<body>.*?)^(?P=tick)[ ]*$\n?", re.DOTALL | re.MULTILINE)
+_FENCE = re.compile(
+    r"^(?P<tick>`{3,})(?P<language>[\w-]*)[^\n]*\n(?P<body>.*?)^(?P=tick)[ ]*$\n?", re.DOTALL | re.MULTILINE
+)
 _LINK = re.compile(r"(!?\[[^\]]*\])\(([^)\s]+)\)")
 _SOURCE = re.compile(r'(src|href)="([^"]+)"')
 _CODE = re.compile(r"(?<![\w/#.])`?(GL[1-6]\d\d)`?(?![\w.]|-\d)")
@@ -88,25 +91,71 @@ def parts(body: str) -> list[tuple[str, list[str]]]:
 def expanded(page: Page, map_link: Callable[[Page, str], str]) -> str:
     """The text of a page with its blocks filled, equations typeset, links led to pages of the manual."""
     made, at = [], 0
-    told = _told(page)
+    steps = _told(page)
     for found in _FENCE.finditer(page.text):
-        made += [_prose(page, page.text[at : found.start()], map_link), _filled(page, found, told)]
+        made += [_prose(page, page.text[at : found.start()], map_link), _filled(page, found, steps)]
         at = found.end()
     return "".join([*made, _prose(page, page.text[at:], map_link)])
 
 
+def told(text: str) -> Iterator[tuple[str, list[str]]]:
+    """The commands of a page whose output it holds, with that output."""
+    for found in _FENCE.finditer(text):
+        if found["language"] == "console":
+            yield from ((command, lines) for command, lines in parts(found["body"]) if lines)
+
+
 def refreshed(text: str) -> str:
-    """A page of the repository whose console blocks say what the program prints now; blocks without output stay."""
+    """A page of the repository whose console blocks say what the program prints now; blocks without output, and what
+    differs in the last digits or in times alone, stay."""
 
     def block(found: re.Match[str]) -> str:
         if found["language"] != "console" or not all(c.startswith("gearlink ") for c, _ in parts(found["body"])):
             return found[0]
         lines = []
         for command, output in parts(found["body"]):
-            lines += [f"$ {command}", *(runs.run(command).text.split("\n") if output else [])]
+            now = runs.run(command).text.split("\n") if output else []
+            lines += [f"$ {command}", *(output if unchanged(now, output) else now)]
         return f"{found['tick']}console\n" + "\n".join(lines) + f"\n{found['tick']}\n"
 
     return _FENCE.sub(block, text)
+
+
+_NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?$")
+_TIMED = re.compile(r"(pass|warn|fail|error) +(\d+|unchanged)$")
+
+
+def unchanged(now: list[str], told: list[str]) -> bool:
+    """Whether lines that a command prints are those of a page, but for last digits and times."""
+    a, b = ([_TIMED.sub(r"\1", line) for line in lines] for lines in (now, told))
+    return len(a) == len(b) and all(map(same, a, b))
+
+
+def same(got: str, want: str) -> bool:
+    """Whether two lines are equal but for the last digits of numbers.
+
+    A printed value may differ at 1e-9 of it between machines' libraries; those that are printed whole, with 15 digits
+    and more, by 8 ulp: the pages show quantities so only where an ulp of an input moves them by no more than an ulp or
+    two, and a library's functions are off by one or two themselves.
+
+    Example
+        >>> same("18.058100927176056 mm", "18.058100927176052 mm"), same("18.1 mm", "18.2 mm")
+        (True, False)
+    """
+    a, b = got.split(), want.split()
+    if set(got) == set(want) == {"─"}:
+        return True  # a rule under a column of times
+    if len(a) != len(b):
+        return False
+    for x, y in zip(a, b, strict=True):
+        if x != y and not (_NUMBER.match(x) and _NUMBER.match(y) and abs(float(x) - float(y)) <= _tolerance(y)):
+            return False
+    return True
+
+
+def _tolerance(printed: str) -> float:
+    digits = re.sub(r"e.*|\D", "", printed).lstrip("0")
+    return 8.0 * math.ulp(float(printed)) if len(digits) >= 15 else 1e-9 * abs(float(printed))
 
 
 def _filled(page: Page, found: re.Match[str], told: dict[str, str]) -> str:
@@ -161,7 +210,7 @@ def _drawing(page: Page, body: str) -> str:
 
 def _session(page: Page) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Commands of a page's session, and the files that its pictures show."""
-    blocks = [found for found in _FENCE.finditer(page.text)]
+    blocks = list(_FENCE.finditer(page.text))
     steps = tuple(c for found in blocks if found["language"] == "session" for c, _ in parts(found["body"]))
     files = tuple(found["body"].partition(":")[0].strip() for found in blocks if found["language"] == "picture")
     return steps, files
@@ -171,7 +220,9 @@ def _told(page: Page) -> dict[str, str]:
     steps, files = _session(page)
     if not steps:
         return {}
-    return {ended.command: f"$ {ended.command}\n{ended.text}".rstrip() for ended in runs.session(steps, files, page.stale)}
+    return {
+        ended.command: f"$ {ended.command}\n{ended.text}".rstrip() for ended in runs.session(steps, files, page.stale)
+    }
 
 
 def _picture(page: Page, body: str) -> str:
@@ -185,6 +236,9 @@ def _prose(page: Page, text: str, map_link: Callable[[Page, str], str]) -> str:
     lines = []
     for line in text.split("\n"):
         if not line.startswith("#") and "](" not in line:
-            line = _CODE.sub(lambda found: f"[{found[1]}]({page.up}checks/{found[1]}.md)" if tables.known(found[1]) else found[0], line)
+            line = _CODE.sub(
+                lambda found: f"[{found[1]}]({page.up}checks/{found[1]}.md)" if tables.known(found[1]) else found[0],
+                line,
+            )
         lines.append(typeset.inline(line))
     return "\n".join(lines)

@@ -15,7 +15,6 @@ from docs.manual import runs, tables
 from docs.manual.runs import ROOT
 from gearlink.cli.texts import known as stored
 from gearlink.cli.texts.codes import explanations
-from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.report import Rule
 
@@ -70,6 +69,12 @@ def drawn(path: Path) -> str:
     return f"gearlink {first} designs/{path.name}"
 
 
+def targets() -> set[str]:
+    """Names of the generated pages."""
+    fixed = {"gallery.md", "api.md", "checks/index.md", "reference/index.md", "reference/commands.md"}
+    return fixed | {f"checks/{code}.md" for code in explanations()} | {f"reference/{kind}.md" for kind in FILES}
+
+
 def pages() -> Iterator[tuple[str, str]]:
     """Name and text of every generated page; texts have the blocks of a page."""
     yield "gallery.md", _gallery()
@@ -83,7 +88,7 @@ def pages() -> Iterator[tuple[str, str]]:
 
 def _gallery() -> str:
     parts = [
-        "# Gallery\n\nEvery design of the folder [designs](which_kind.md), with its figure, its file and the command "
+        "# Gallery\n\nEvery design of the repository, with its figure, its file and the command "
         "that draws it. Installed, the files are in the package `gearlink.designs`; `gearlink new KIND` writes the "
         "first of a kind.\n"
     ]
@@ -109,14 +114,18 @@ def _check_list() -> str:
         for code, rule in explanations().items()
     ]
     head = (
-        "# Checks and errors\n\nGL1xx: design files, studies, tolerances. GL2xx: gears. GL3xx: linkages and drives. GL4xx: cams. "
-        "GL5xx: presses, grippers, wide swings, machines. GL6xx: loads.\n\n| code | check | finding |\n| --- | --- | --- |\n"
+        "# Checks and errors\n\nGL1xx: design files, studies, tolerances. GL2xx: gears. GL3xx: linkages and "
+        "drives. GL4xx: cams. GL5xx: presses, grippers, wide swings, machines. GL6xx: loads.\n\n"
+        "| code | check | finding |\n| --- | --- | --- |\n"
     )
     return head + "\n".join(rows) + "\n"
 
 
 def _check(rule: Rule) -> str:
-    lines = [f"# {rule.code} {rule.name if rule.checks else rule.title}\n", f"**{rule.title}**\n" if rule.checks else ""]
+    lines = [
+        f"# {rule.code} {rule.name if rule.checks else rule.title}\n",
+        f"**{rule.title}**\n" if rule.checks else "",
+    ]
     lines += [f"**What.** {rule.what}\n", f"**Why.** {rule.why}\n"]
     lines += [f"**Limit.** `{rule.formula}`\n"] if rule.formula else []
     lines += [f"**How to repair.** {rule.remedy}\n"]
@@ -127,7 +136,9 @@ def _check(rule: Rule) -> str:
     if rule.code in FAILING:
         change = FAILING[rule.code]
         stem = Path(change.split()[0]).stem
-        lines += [f"## Example\n\nThe design [{stem}](../gallery.md#{stem}), changed so that this check does not pass:\n"]
+        lines += [
+            f"## Example\n\nThe design [{stem}](../gallery.md#{stem}), changed so that this check does not pass:\n"
+        ]
         lines += [f"```console\n$ gearlink check {change}\n```\n"]
     return "\n".join(line for line in lines if line).replace("|l", "\\|l")
 
@@ -146,10 +157,15 @@ def _kind(kind: str) -> str:
     keys = tables.keys_of(kind)
     sections = dict.fromkeys(key.path.partition(".")[0] for key in keys)
     shared = [name for name in tables.SHARED if name in sections]
-    text = f"# Reference: {kind}\n\n{record.summary[:1].upper()}{record.summary[1:]}. [How it works](../kinds/{kind}.md)\n\n"
-    text += f"Commands: {', '.join(f'`{command}`' for command in record.commands)}.\n\n## Keys\n\n```keys\n{kind}\n```\n"
+    what = record.summary[:1].upper() + record.summary[1:]
+    text = f"# Reference: {kind}\n\n{what}. [How it works](../kinds/{kind}.md)\n\n"
+    text += (
+        f"Commands: {', '.join(f'`{command}`' for command in record.commands)}.\n\n## Keys\n\n```keys\n{kind}\n```\n"
+    )
     for name in shared:
-        text += f"\n### Section {name}\n\nDescribed in [{name}](../{tables.SHARED[name]}).\n\n```keys\n{kind} {name}\n```\n"
+        text += (
+            f"\n### Section {name}\n\nDescribed in [{name}](../{tables.SHARED[name]}).\n\n```keys\n{kind} {name}\n```\n"
+        )
     if tables.codes_of(kind):
         text += f"\n## Checks\n\n```checks\n{kind}\n```\n"
     if kind != "study" and (table := tables.quantities(kind)):
@@ -158,7 +174,10 @@ def _kind(kind: str) -> str:
 
 
 def _commands() -> str:
-    parts = ["# Options of every command\n\n[Commands](../commands.md) gives an overview. This page is what `--help` prints.\n"]
+    parts = [
+        "# Options of every command\n\n[Commands](../commands.md) gives an overview. "
+        "This page is what `--help` prints.\n"
+    ]
     for name in names_of_commands():
         text = runs.result(f"gearlink {name} --help").text
         parts.append(f"## gearlink {name}\n\n```text\n{text}\n```\n")
@@ -170,8 +189,8 @@ def _commands() -> str:
 
 def _api() -> str:
     parts = [
-        "# Python interface\n\nMade from the docstrings. [gearlink in Python](python.md) is the introduction. Lengths in "
-        "mm, angles in rad, unless a docstring says otherwise.\n"
+        "# Python interface\n\nMade from the docstrings. [gearlink in Python](python.md) is the introduction. Lengths "
+        "in mm, angles in rad, unless a docstring says otherwise.\n"
     ]
     for title, names in API.items():
         parts.append(f"## {title}\n")
@@ -190,7 +209,9 @@ def _documented(name: str, thing: Any, module: str) -> Iterator[str]:
             member = getattr(member, "func", None) or getattr(member, "fget", None) or member
             if own.startswith("_") or not inspect.isfunction(member) or not member.__doc__:
                 continue
-            shown = f"`{own}`" if not callable(value) and not isinstance(value, classmethod) else _signature(own, member)
+            shown = (
+                f"`{own}`" if not callable(value) and not isinstance(value, classmethod) else _signature(own, member)
+            )
             yield f"#### {name}.{own}\n\n{shown}\n\n{docstring(inspect.cleandoc(member.__doc__))}\n"
 
 
@@ -251,4 +272,3 @@ def _close(made: list[str], section: str) -> None:
 def _parameter(line: str) -> str:
     names, colon, told = line.partition(" : ")
     return f"`{names}`: {told}" if colon and re.fullmatch(r"[\w, *]+", names) else line
-

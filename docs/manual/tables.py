@@ -27,12 +27,33 @@ def keys_of(kind: str) -> list[SpecKey]:
 
 
 def keys(kind: str, sections: list[str]) -> str:
-    """Keys of a kind; those of sections, where some are named; else all but those of the shared sections."""
-    found = [key for key in keys_of(kind) if _wanted(key.path, sections)]
+    """Keys of a kind; those of sections, where some are named; else all but those of the shared sections; `own`: of
+    these the required ones and those that few kinds have."""
+    own = sections == ["own"]
+    found = [key for key in keys_of(kind) if _wanted(key.path, [] if own else sections)]
+    found = [
+        key
+        for key in found
+        if not own or key.required or len(_kinds_by_key()[key.path.rpartition(".")[2], key.words]) <= _FEW
+    ]
     if not found:
         raise ValueError(f"{kind} has no section {' '.join(sections)}")
     rows = ["| key | meaning | unit | required | default | range |", "| --- | --- | --- | --- | --- | --- |"]
     return "\n".join([*rows, *map(_row, found)]) + "\n"
+
+
+_FEW = 4
+"""Kinds that have an own key."""
+
+
+@cache
+def _kinds_by_key() -> dict[tuple[str, str], set[str]]:
+    """The kinds that have a key of a name, in the same words."""
+    found: dict[tuple[str, str], set[str]] = {}
+    for kind in FILES:
+        for key in keys_of(kind):
+            found.setdefault((key.path.rpartition(".")[2], key.words), set()).add(kind)
+    return found
 
 
 def _wanted(path: str, sections: list[str]) -> bool:
@@ -49,7 +70,9 @@ def _row(key: SpecKey) -> str:
 
 
 def _value(value: object) -> str:
-    return str(value).lower() if isinstance(value, bool) else f"{value:.10g}" if isinstance(value, float) else str(value)
+    return (
+        str(value).lower() if isinstance(value, bool) else f"{value:.10g}" if isinstance(value, float) else str(value)
+    )
 
 
 def cell(text: str) -> str:

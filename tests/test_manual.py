@@ -1,0 +1,125 @@
+"""The manual: its pages have one plan, its blocks can be filled, its links lead somewhere, its examples still fail."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from docs.manual import blocks, drawings, links, reference, tables, typeset
+from gearlink.core.base.kinds import FILES
+
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+WRITTEN = {path: path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))}
+PLAN = ["What it is for", "Drawing", "Keys", "Equations", "Example", "Checks that matter", "Typical mistakes"]
+
+
+def _blocks(language: str) -> Iterator[tuple[str, str]]:
+    for path, text in WRITTEN.items():
+        yield from ((path.stem, body) for body in re.findall(rf"(?ms)^```{language}\n(.*?)^```", text))
+
+
+def test_every_kind_has_a_page_of_one_plan() -> None:
+    assert {path.stem for path in (DOCS / "kinds").glob("*.md")} == set(FILES)
+    for kind in set(FILES) - {"study"}:
+        found = re.findall(r"^## (.*)$", WRITTEN[DOCS / "kinds" / f"{kind}.md"], re.MULTILINE)
+        assert found == [*PLAN, "References"], kind
+
+
+def test_every_kind_stands_on_the_page_that_leads_to_it() -> None:
+    assert set(re.findall(r"kinds/([\w-]+)\.md", WRITTEN[DOCS / "which_kind.md"])) == set(FILES)
+
+
+def test_every_page_is_in_the_navigation() -> None:
+    text = (DOCS / "manual" / "site.toml").read_text(encoding="utf-8")
+    nav = re.findall(r'"([\w/-]+\.md)"', text)
+    written = {str(path.relative_to(DOCS)) for path in WRITTEN} | {"index.md", "contributing.md", "changelog.md"}
+    listed = {name for name in reference.targets() if not re.search(r"GL\d|reference/(?!index|commands)", name)}
+    assert sorted(nav) == sorted(written | listed | {"security.md"})
+    theme = tomllib.loads(text)["project"]
+    assert theme["theme"]["font"] is False, "fonts of another host"
+    assert "offline" in theme["plugins"]
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(("page", "block"), list(_blocks("drawing")), ids=lambda x: x if "\n" not in x else "")
+def test_drawings_name_points_that_are_there(page: str, block: str) -> None:
+    drawing = drawings.Drawing.read(block)
+    letters = {letter for name, _ in drawing.sizes for letter in re.findall(r"[A-Z]\d*", name)}
+    assert letters <= set(drawings.places(drawings.scene_of(drawing.design, drawing.fraction))), page
+
+
+@pytest.mark.parametrize(("page", "block"), list(_blocks("math")), ids=lambda x: x if "\n" not in x else "")
+def test_equations_are_typeset(page: str, block: str) -> None:
+    made = typeset.display(block)
+    assert made.count("<math") == len(block.strip().split("\n")), page
+    left = re.sub(r"<[^>]*>", "", made)
+    assert not re.search(r"\\[a-z]", left), f"{page}: {left}"
+
+
+def test_keys_and_checks_that_pages_ask_for_exist() -> None:
+    for page, block in _blocks("keys"):
+        kind, *sections = block.split()
+        assert tables.keys(kind, sections).count("\n") > 2, page
+    told = {code for text in WRITTEN.values() for code in re.findall(r"\bGL\d{3}\b", text)}
+    assert [code for code in sorted(told) if not tables.known(code)] == []
+
+
+def _unprinted() -> list[str]:
+    texts = WRITTEN.values()
+    return sorted({command for text in texts for command, picture in blocks.commands(text) if not picture})
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("command", _unprinted())
+def test_commands_whose_output_the_manual_prints_run(
+    command: str, gearlink: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`make docs` stops at a fault of the program alone; a wrong key on a page is seen here."""
+    import shlex
+
+    monkeypatch.chdir(ROOT)
+    ended = gearlink(*shlex.split(command)[1:])
+    on_purpose = re.search(r"gears\.modul=|window=120", command)
+    assert ended.status == 2 if on_purpose else ended.status <= 1, ended.err
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(("code", "change"), list(reference.FAILING.items()))
+def test_example_of_a_check_still_fails(code: str, change: str, gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    import shlex
+
+    monkeypatch.chdir(ROOT)
+    ended = gearlink("check", *shlex.split(change))
+    assert re.search(rf"(fail|warn|error) {code}\b", ended.out + ended.err), ended.out + ended.err
+
+
+def test_links_of_a_site(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "index.html").write_text(
+        '<h1 id="top"></h1><a href="sub/a.html#x"></a><a href="https://example.org/"></a><a href="sub/none.html"></a>'
+    )
+    (tmp_path / "sub" / "a.html").write_text(
+        '<h1 id="x"></h1><a href="../index.html#bottom"></a><script src="https://example.org/x.js"></script>'
+    )
+    assert links.broken(tmp_path) == [
+        "index.html: sub/none.html is not there",
+        "sub/a.html loads https://example.org/x.js from another host",
+        "sub/a.html: ../index.html#bottom has no such anchor",
+    ]
+
+
+def test_a_command_that_changed_makes_its_page_stale() -> None:
+    page = "```console\n$ gearlink --version\ngearlink 0.0.1\n```\n"
+    assert "gearlink 0.0.1" not in blocks.refreshed(page)
+    assert blocks.refreshed("```console\n$ gearlink --version\n```\n") == "```console\n$ gearlink --version\n```\n"
+
+
+def test_examples_of_the_docstrings() -> None:
+    assert sum(doctest.testmod(module).failed for module in (blocks, drawings, typeset, reference)) == 0
