@@ -28,6 +28,7 @@ _DESCRIPTORS = "/proc/self/fd"
 _ENDING = (
     *("SIGHUP", "SIGQUIT", "SIGABRT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU"),
     *("SIGVTALRM", "SIGPROF", "SIGIO", "SIGPWR", "SIGSTKFLT"),
+    "SIGBREAK",  # Ctrl-Break of Windows
 )
 
 

@@ -15,6 +15,8 @@ _STANDARD_OUTPUT = 1
 _LEAST_MEMORY = 500 << 20
 """Below it some commands cannot load their libraries."""
 _COMPLETES = "_GEARLINK_COMPLETE"
+_NO_READER_OF_WINDOWS = 22
+"""EINVAL: what a pipe says there whose reader has gone; elsewhere that is a BrokenPipeError."""
 _MOST_DIGITS = 9
 """Of the size of a terminal."""
 
@@ -70,14 +72,16 @@ class _Output(io.FileIO):
             return super().write(data)
         except OSError as error:
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())  # for this and the interpreter's last flush
-            if isinstance(error, self.ignored):
+            if isinstance(error, self.ignored) or (sys.platform == "win32" and error.errno == _NO_READER_OF_WINDOWS):
                 process.output_is_read = process.output_is_read and self.fileno() != _STANDARD_OUTPUT
                 return len(data)
             raise OSError(error.errno, f"standard output cannot be written: {error.strerror}") from None
 
 
 def _output(stream: TextIO, ignored: type[OSError]) -> TextIO:
-    if stream is None:  # closed by the parent
+    if stream is None or (sys.platform == "win32" and stream.isatty()):
+        # Closed by the parent; or a console of Windows, whose stream alone shows every sign: bytes of a descriptor are
+        # taken there for those of an old code page.
         return stream
     raw = _Output(stream.fileno(), "w", closefd=False)
     raw.ignored = ignored

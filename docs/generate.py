@@ -143,6 +143,6 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 if __name__ == "__main__":
     known.SCHEMAS.write_text(indexing.schemas_text(), encoding="utf-8")  # the other pages read these two
     known.INDEX.write_text(indexing.index_text(), encoding="utf-8")
-    TARGET.write_text(text())
+    TARGET.write_text(text(), encoding="utf-8")
     GLOSSARY.write_text(glossary_text(), encoding="utf-8")
     VALIDATION.write_text(page.text(), encoding="utf-8")

@@ -1,0 +1,139 @@
+"""What Windows and macOS have otherwise, as far as it can be simulated here: the CI runs all tests on them.
+
+No signals of Unix, no fork, no files without a name, no module `resource`; texts in the code page of a console; a
+default encoding that is not UTF-8; a pipe whose end is another error.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from gearlink.cli import main as program
+from gearlink.cli.parallel import shares, workers
+
+ROOT = Path(__file__).resolve().parents[2]
+FEED = "designs/standing_feed.yaml"
+_WITHOUT_UNIX = """
+import os, signal, sys
+for name in ("register_at_fork", "nice", "O_TMPFILE", "O_NOFOLLOW", "O_NONBLOCK", "sched_getaffinity", "mkfifo"):
+    if hasattr(os, name):
+        delattr(os, name)
+for name in dir(signal):
+    if name.startswith("SIG") and name not in ("SIGABRT", "SIGINT", "SIGTERM", "SIGSEGV", "SIG_DFL", "SIG_IGN"):
+        delattr(signal, name)
+for name in ("resource", "fcntl", "termios", "grp"):
+    sys.modules[name] = None
+from types import SimpleNamespace
+import gearlink.cli.commands.report as report
+report.sys = SimpleNamespace(platform="win32")
+from gearlink.cli.main import main
+main()
+"""
+
+
+def _process(*words: object, code: str = "", flags: tuple[str, ...] = (), **changed: str) -> Any:
+    command = [sys.executable, *flags, *(("-c", code) if code else ("-m", "gearlink")), *map(str, words)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, env=os.environ | changed, check=False, timeout=120)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        pytest.param(("synth", "dwell", FEED, "--plot", "--out", "{}"), marks=pytest.mark.slow),
+        ("export", "designs/gear_pair.yaml", "--out", "{}"),
+        pytest.param(("batch", "designs/ty460.yaml", FEED, "--out", "{}", "-j", "1"), marks=pytest.mark.slow),
+        pytest.param(("report", FEED, "--out", "{}"), marks=pytest.mark.slow),
+    ],
+)
+def test_commands_need_nothing_that_windows_lacks(words: tuple[str, ...], tmp_path: Path) -> None:
+    ended = _process(*(word.format(tmp_path) for word in words), code=_WITHOUT_UNIX)
+    assert (ended.returncode, b"Traceback" in ended.stderr) == (0, False), ended.stderr
+    assert list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("synth", "dwell", FEED, "--plot", "--out", "{}", "--save", "{}/full.yaml"),
+        ("report", FEED, "--out", "{}"),
+        ("batch", FEED, "--format", "junit", "--out", "{}"),
+        ("export", FEED, "--out", "{}"),
+        ("explain", "传动角"),
+        ("new", "gear-pair", "--out", "{}/pair.yaml"),
+        ("schema", "--write", "{}"),
+        ("verify", "khurmi"),
+        ("explore", "designs/studies/gear_pair.yaml", "--jobs", "1", "--store", "{}/s.sqlite"),
+    ],
+)
+def test_no_file_is_read_or_written_in_the_encoding_of_the_system(words: tuple[str, ...], tmp_path: Path) -> None:
+    """Of Windows that is an old code page, in which a degree sign is another byte."""
+    flags = ("-X", "warn_default_encoding", "-W", "always::EncodingWarning")
+    ended = _process(*(word.format(tmp_path) for word in words), flags=flags)
+    assert ended.returncode in (0, 1), ended.stderr
+    ours = tuple(str(ROOT / top) for top in ("core", "cli", "designs"))
+    lines = ended.stderr.decode().splitlines()
+    assert [line for line in lines if "EncodingWarning" in line and line.startswith(ours)] == []
+
+
+@pytest.mark.parametrize(
+    ("encoding", "words"),
+    [
+        ("cp437", ("check", FEED, "--set", "gears.idler=36")),
+        pytest.param("cp1252", ("synth", "dwell", FEED, "--all"), marks=pytest.mark.slow),
+        pytest.param("cp932", ("explain", "dwell"), marks=pytest.mark.slow),
+    ],
+)
+def test_a_console_of_another_code_page_gets_signs_that_it_has(encoding: str, words: tuple[str, ...]) -> None:
+    ended = _process(*words, PYTHONIOENCODING=encoding, COLUMNS="80")
+    assert ended.returncode in (0, 1)
+    assert b"Traceback" not in ended.stderr
+    assert (ended.stdout + ended.stderr).decode(encoding)
+
+
+def test_a_console_of_windows_keeps_its_own_stream(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It writes UTF-16; bytes put past it would be shown in an old code page."""
+    stream: Any = SimpleNamespace(isatty=lambda: True)
+    monkeypatch.setattr(program, "sys", SimpleNamespace(platform="win32"))
+    assert program._output(stream, BrokenPipeError) is stream
+
+
+@pytest.mark.parametrize(("system", "ends"), [("win32", True), ("linux", False)])
+def test_a_pipe_without_reader_ends_no_command_on_windows(
+    system: str, ends: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It answers EINVAL there, which elsewhere is a fault of the output: here a descriptor that takes no bytes."""
+    read_only = os.open(os.devnull, os.O_RDONLY)
+    raw = program._Output(read_only, "w", closefd=False)
+    raw.ignored = BrokenPipeError
+    monkeypatch.setattr(program, "sys", SimpleNamespace(platform=system))
+    monkeypatch.setattr(program, "_NO_READER_OF_WINDOWS", 9)  # EBADF, what such a descriptor says
+    monkeypatch.setattr(program.os, "dup2", lambda *_: None)
+    try:
+        if ends:
+            assert raw.write(b"text") == 4
+        else:
+            with pytest.raises(OSError, match="cannot be written"):
+                raw.write(b"text")
+    finally:
+        os.close(read_only)
+
+
+@pytest.mark.slow
+def test_workers_that_are_started_anew_give_the_same(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on Windows and macOS, where nothing is forked."""
+    monkeypatch.chdir(ROOT)
+    arguments = ("explore", "designs/studies/gear_pair.yaml", "--format", "json")
+    forked = gearlink(*arguments, "--jobs", "2")
+    elsewhere = SimpleNamespace(platform="darwin", stderr=sys.stderr, modules=sys.modules)
+    monkeypatch.setattr(workers, "sys", elsewhere)
+    monkeypatch.setattr(shares, "sys", elsewhere)
+    started = gearlink(*arguments, "--jobs", "2")
+    assert (started.status, started.out) == (forked.status, forked.out), started.err
