@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FEED = "designs/standing_feed.yaml"
 _WITHOUT_UNIX = """
 import os, signal, sys
-for name in ("register_at_fork", "nice", "O_TMPFILE", "O_NOFOLLOW", "O_NONBLOCK", "sched_getaffinity", "mkfifo"):
+for name in ("register_at_fork", "nice", "O_TMPFILE", "O_NOFOLLOW", "O_NONBLOCK", "sched_getaffinity", "fork"):
     if hasattr(os, name):
         delattr(os, name)
 for name in dir(signal):
