@@ -77,23 +77,23 @@ def newton_roots(
     """
     result = np.array(start)
     live: Any = np.arange(result.size)
-    x, low, high = result, np.array(low), np.array(high)
+    x, low, high, moves = result, np.array(low), np.array(high), np.ones(result.shape, dtype=bool)
     for _ in range(_NEWTON_STEPS):
         value, slope = function(x, *given)
         low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
         with np.errstate(all="ignore"):
             new = x - value / slope
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-        new = np.where(value == 0.0, x, new)
-        moves = np.abs(new - x) > _RESTS * np.abs(new)
-        result[live] = new
-        if not moves.any():
+        new = np.where(moves & (value != 0.0), new, x)  # what rests stays
+        moves &= np.abs(new - x) > _RESTS * np.abs(new)
+        x, left = new, np.count_nonzero(moves)
+        if not left:
             break
-        if not moves.all():
-            live, x, low, high = live[moves], new[moves], low[moves], high[moves]
-            given = tuple(row[moves] for row in given)
-        else:
-            x = new
+        if 2 * left < x.size:  # to copy all that is given takes as long as a step
+            result[live] = x
+            live, x, low, high = live[moves], x[moves], low[moves], high[moves]
+            given, moves = tuple(row[moves] for row in given), moves[moves]
+    result[live] = x
     return result
 
 

@@ -232,7 +232,13 @@ class DriveSamples:
         """Start and end of the back-step [rad], against the line A-D; without one the minimum speed's place twice."""
         least, some = self._least[1], np.flatnonzero(self.turns_back)
         first, second = least.copy(), least.copy()
-        first[some], second[some] = sweep.around(least[some], self._greatest[1][some], self.drives.part(some))
+        if not some.size:
+            return first, second
+        drives = self.drives if some.size == self.count else self.drives.part(some)
+        # any place between the second standstill and the first of the next revolution ends the brackets
+        fast = np.full(some.size, self._extremes.greatest_angle)
+        self.unsettled[some] |= ~(sweep.speed(fast, drives, 1)[0] > 0.0)
+        first[some], second[some] = sweep.around(least[some], fast, drives)
         return first, second
 
     @cached_property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -224,12 +225,20 @@ class ThreeGearSamples:
 
     def _of_meshes(self, samples: DriveSamples, exists: Mask) -> Iterator[Findings]:
         """What is judged of the teeth at the centre distances as made; a mesh that cannot be takes its drive away."""
-        names = [name for name in self._checks if name in MESH_CHECKS]
         (_, b, c, _), made = self._lengths, samples.lengths[1:3]
         if all((length == nominal).all() for length, nominal in zip(made, (b, c), strict=True)):
-            yield from (_same(check, samples.count) for name in names for check in self.nominal.check(name))
+            checks = (check for name in self._mesh_checks for check in self.nominal.check(name))
+            yield from (_same(check, samples.count) for check in checks)
             return
-        yield from findings_of_meshes(self.nominal, self._lengths, names, made, exists)
+        yield from self._meshes.findings(made, exists)
+
+    @property
+    def _mesh_checks(self) -> list[str]:
+        return [name for name in self._checks if name in MESH_CHECKS]
+
+    @cached_property
+    def _meshes(self) -> MeshStates:
+        return MeshStates(self.nominal, self._lengths, self._mesh_checks)
 
     def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
         """GL302 of two bodies."""
@@ -248,32 +257,53 @@ def _same(check: Check, count: int) -> Findings:
     )
 
 
-def findings_of_meshes(
-    nominal: Any, lengths: Sequence[float], names: Sequence[str], made: Sequence[Reals], exists: Mask
-) -> Iterator[Findings]:
-    """The checks of both meshes.
+class MeshStates:
+    """What the checks of both meshes say at the centre distances of many drives.
 
     Parameters
         nominal : ThreeGearFourBar
         lengths : 4 float [mm] - crank, coupler, rocker, frame of it
         names : of the checks
-        made : two (N,) arrays [mm] - coupler and rocker as manufactured, the centre distances of the meshes
-        exists : (N,) array - becomes False where the teeth cannot mesh
-    Yields
-        findings : Findings - one of every code and mesh, without values
+    Notes
+        The stretches of distances whose state is known are kept, from one block of samples to the next.
     """
-    for place, (mesh, distances) in enumerate(zip(nominal.mesh_names, made, strict=True), 1):
 
-        def state(distance: float, place: int = place, mesh: str = mesh) -> State:
-            a, b, c, d = (distance if i == place else length for i, length in enumerate(lengths))
-            return _state(TolerancedDrive(nominal.spec, (a, b, c, d), cut=nominal), mesh, names)
+    def __init__(self, nominal: ThreeGearFourBar, lengths: Sequence[float], names: Sequence[str]) -> None:
+        self.nominal, self.lengths, self.names = nominal, lengths, names
+        self._known: dict[str, dict[State, tuple[float, float]]] = {mesh: {} for mesh in nominal.mesh_names}
+        self._codes = {
+            mesh: dict.fromkeys(check.code for name in names for check in nominal.check_mesh(name, mesh))
+            for mesh in nominal.mesh_names
+        }
 
-        states = over_sorted(state, distances)
-        exists &= ~_with(states, _NO_MESH, distances.size)
-        judged = (check.code for name in names for check in nominal.check_mesh(name, mesh))
-        for code in dict.fromkeys([*judged, *(code for found, _ in states for code in found - {_NO_MESH})]):
-            fails, nothing = _with(states, code, distances.size), np.full(distances.shape, np.nan)
-            yield Findings(code, nothing, nothing, fails, np.zeros_like(fails), "1")
+    def findings(self, made: Sequence[Reals], exists: Mask) -> Iterator[Findings]:
+        """The checks of both meshes.
+
+        Parameters
+            made : two (N,) arrays [mm] - coupler and rocker as manufactured, the centre distances of the meshes
+            exists : (N,) array - becomes False where the teeth cannot mesh
+        Yields
+            findings : Findings - one of every code and mesh, without values
+        """
+        for place, (mesh, distances) in enumerate(zip(self.nominal.mesh_names, made, strict=True), 1):
+            states = over_sorted(partial(self._at, mesh, place), distances)
+            exists &= ~_with(states, _NO_MESH, distances.size)
+            for code in dict.fromkeys(
+                [*self._codes[mesh], *(one for found, _ in states for one in found - {_NO_MESH})]
+            ):
+                fails, nothing = _with(states, code, distances.size), np.full(distances.shape, np.nan)
+                yield Findings(code, nothing, nothing, fails, np.zeros_like(fails), "1")
+
+    def _at(self, mesh: str, place: int, distance: float) -> State:
+        known = self._known[mesh]
+        for found, (low, high) in known.items():
+            if low <= distance <= high:
+                return found
+        a, b, c, d = (distance if i == place else length for i, length in enumerate(self.lengths))
+        state = _state(TolerancedDrive(self.nominal.spec, (a, b, c, d), cut=self.nominal), mesh, self.names)
+        low, high = known.get(state, (distance, distance))
+        known[state] = min(low, distance), max(high, distance)
+        return state
 
 
 def _state(made: TolerancedDrive, mesh: str, names: Sequence[str]) -> State:
@@ -296,6 +326,9 @@ def over_sorted(state: Callable[[float], State], values: Reals) -> list[tuple[St
         A mesh is judged at some numbers of each stretch alone: contact ratio, clearance at the root and what the tips
         leave of the flanks rise or fall with the centre distance, so that each code fails on one side of a number.
     """
+    least, greatest = state(float(values.min())), state(float(values.max()))
+    if least == greatest:
+        return [(least, np.arange(values.size))]
     order = np.argsort(values)
     found: list[tuple[State, Any]] = []
 
@@ -309,9 +342,8 @@ def over_sorted(state: Callable[[float], State], values: Reals) -> list[tuple[St
         between(first, middle, low, half)
         between(middle, last, half, high)
 
-    ends = state(float(values[order[0]])), state(float(values[order[-1]]))
-    found.append((ends[0], order[:1]))
-    between(0, len(order) - 1, *ends)
+    found.append((least, order[:1]))
+    between(0, len(order) - 1, least, greatest)
     return found
 
 

@@ -138,20 +138,24 @@ def extreme(links: Drives, start: Reals, sign: float) -> tuple[Reals, Reals, Mas
     phi = np.array(start)
     rests = np.zeros(phi.shape, dtype=bool)
     live = np.flatnonzero(np.isfinite(least_transmission_angle(*links[:4])))
+    some = links if live.size == phi.size else links.part(live)
     for _ in range(_MOST_STEPS):
-        _, slope, bend = speed(phi[live], links.part(live))
+        if not live.size:
+            break
+        _, slope, bend = speed(phi[live], some)
         step = slope / bend
         # Where the speed is bent the other way, the step leads uphill (or downhill) by the slope's sign.
         wrong = bend * sign >= 0.0
         step = np.where(wrong, -np.sign(slope) * sign * _LONGEST_STEP, step)
         step = np.clip(step, -_LONGEST_STEP, _LONGEST_STEP)  # a step of the search, no result
-        phi[live] -= step
-        done = ~wrong & (np.abs(step) <= _RESTS)
-        rests[live[done]] = True
-        live = live[~done]
-        if not live.size:
-            break
-    return speed(phi, links)[0], phi, rests
+        moves = ~rests[live]
+        phi[live] -= np.where(moves, step, 0.0)
+        moves &= wrong | ~(np.abs(step) <= _RESTS)
+        rests[live] = ~moves
+        left = np.count_nonzero(moves)
+        if 2 * left < live.size:  # to copy all links takes as long as a step
+            live, some = live[moves], some.part(moves)
+    return speed(phi, links, 1)[0], phi, rests
 
 
 def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals, Reals, Mask]:
