@@ -322,28 +322,31 @@ def _with_one_end(valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Rea
     """One end as far as it may be where the speeds at both cannot be equal; else a root inside brackets of how far the
     output rises to its place at phi(2). And where that was found.
     """
-    drives, second = valleys.drives, valleys.second
-    bottom, top = output_angle(second, drives), output_angle(valleys.first, drives)
-    spare = np.maximum(2.0 * valleys.tolerance - _drop(valleys), 0.0)
-    least = np.maximum(spare - (output_angle(high, drives) - top), 0.0)
-    most = np.minimum(spare, bottom - output_angle(low, drives))
-    one, other = _ends(least, valleys, low, high), _ends(most, valleys, low, high)
-    early, late = one[2] <= 0.0, other[2] >= 0.0
+    bounds = low, high, *(output_angle(place, valleys.drives) for place in (low, high, valleys.second))
+    least, most = np.zeros(low.shape), np.maximum(2.0 * valleys.tolerance - _drop(valleys), 0.0)
+    first, last = (_ends(rise, valleys, *bounds)[2] for rise in (least, most))
+    early, late = first <= 0.0, last >= 0.0
     rise = np.where(early, least, most)
     between = np.flatnonzero(~early & ~late)
     if between.size:
-        some = valleys.part(between), low[between], high[between]
-        rise[between] = bracketed_roots(lambda x: _ends(x, *some)[2], least[between], most[between])
-    left, right, _ = _ends(rise, valleys, low, high)
+        some = valleys.part(between), *(bound[between] for bound in bounds)
+        ends = first[between], last[between]
+        rise[between] = bracketed_roots(lambda x: _ends(x, *some)[2], least[between], most[between], ends=ends)
+    left, right, _ = _ends(rise, valleys, *bounds)
     return left, right, np.isfinite(rise)
 
 
-def _ends(rise: Reals, valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Reals, Reals]:
-    """Both ends of the interval that begins so far below the output's place at phi(2), and the gain of speed in it."""
+def _ends(
+    rise: Reals, valleys: Valleys, low: Reals, high: Reals, floor: Reals, ceiling: Reals, bottom: Reals
+) -> tuple[Reals, Reals, Reals]:
+    """Both ends of the interval that begins so far below the output's place at phi(2), and the gain of speed in it; an
+    end lies beyond the maximum speed's place `low` or `high` where the output has its level `floor` or `ceiling` there.
+    """
     drives, first, second = valleys.drives, valleys.first, valleys.second
-    start = output_angle(second, drives) - rise
-    left = _reach(drives, start, low, first)
-    right = _reach(drives, start + 2.0 * valleys.tolerance, second, high)
+    start, end = bottom - rise, bottom - rise + 2.0 * valleys.tolerance
+    early, late = start < floor, end > ceiling
+    left = _reach(drives, start, np.where(early, second - _TURN, low), np.where(early, low, first))
+    right = _reach(drives, end, np.where(late, high, second), np.where(late, first + _TURN, high))
     return left, right, speed(right, drives, 1)[0] - speed(left, drives, 1)[0]
 
 

@@ -10,10 +10,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from axes import agree, bits_stand_alone, by_path, sampled
 
+from gearlink.core.machines.three_gear import motion
 from gearlink.core.studies.explore.chunks import chunk_of, together
 from gearlink.core.studies.explore.front import Found
 from gearlink.core.studies.explore.preparing import problem
@@ -299,6 +301,27 @@ def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
     made = sampled({**BASE, **section}, command, variables, ["tolerance_dwell_start", "tolerance_dwell_angle"], 64)
     # "dwell, band": 0.72 of the designs have two starts
     agree(made, unsure=0.75 if name == "dwell, band" else 0.02, median=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("gears", "links", "tolerance"),
+    [((19, 76, 41), (7.7656, 204.2112), 23.937), ((8, 79, 24), (25.6855, 49.7373), 39.845)],
+)
+def test_a_band_may_end_beyond_the_maximum_speed(
+    gears: tuple[int, int, int], links: tuple[float, float], tolerance: float
+) -> None:
+    """With a back-step that nearly fills it. The second way: every window of a revolution in steps of 0.5 deg."""
+    base = BASE | {"gears": dict(zip(("module", "crank", "idler", "output"), (2, *gears), strict=True))}
+    base |= {"links": dict(zip(("crank", "frame"), links, strict=True)), "dwell_tolerance": tolerance}
+    made = sampled(base, "analyze", {"dwell_tolerance": {"values": [tolerance]}}, ["tolerance_dwell_angle"], 1)
+    agree(made, median=1e-11)
+    found = factory.design(base)
+    angle = [motion.output_angle(found.linkage, found.train, phi) for phi in np.radians(np.arange(0.0, 720.0, 0.5))]
+    for steps, fits in ((-1, True), (2, False)):
+        count = int(2.0 * found.quantity("tolerance_dwell_angle").value) + steps
+        windows = np.lib.stride_tricks.sliding_window_view(np.array(angle), count + 1)
+        ranges = windows.max(axis=1) - windows.min(axis=1)
+        assert (ranges.min() <= 2.0 * np.radians(tolerance)) is np.bool_(fits)
 
 
 def test_designs_next_to_a_limit_are_left_to_the_class() -> None:
