@@ -146,7 +146,7 @@ _RATED = {
     "parts.gears.keys.rating",
     "parts.gears.rating.materials",
 }
-_GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "machines.three_gear.as_made"}
+_GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "machines.three_gear.samples"}
 
 
 @pytest.mark.quick(1)

@@ -15,10 +15,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.roots import bracketed_root, roots_on
+from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+
+if TYPE_CHECKING:
+    from gearlink.core.mechanism.rates import Turn
+    from gearlink.core.numerics.arrays import Reals
 
 _STEPS_PER_ARC = 48
 _TURN = 2.0 * math.pi
@@ -315,3 +321,223 @@ def _advance(radius: float, cusps: int, t: float, ratio: float = 1.0) -> float:
     """x - x_0 without a difference of cosines."""
     k = cusps - 1
     return 2.0 * radius * (ratio * math.sin(0.5 * k * t) ** 2 - k * math.sin(0.5 * t) ** 2)
+
+
+# Rod lengths of a hypocycloid dwell that are best in some sense; each is judged on the slider's own motion
+
+_SCAN = 120
+
+
+def minimax(planet_radius: float, cusps: int, angle: float) -> float:
+    """Rod length with the smallest maximum deviation from the slider's place in mid-dwell.
+
+    max |s(t) - s(0)| over +- angle/2  ->  min
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        angle : float [rad] - carrier angle of the dwell, up to the whole arc
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - where no circle touches the arc over that angle
+    Notes
+        Between the tangent circle and the circle of curvature; place exact to about 1e-9 of the length.
+    Example
+        >>> round(minimax(1.0, 3, math.radians(120.0)), 6)
+        7.191266
+    """
+
+    def greatest(rod: float) -> float:
+        low, high = HypocycloidSlider(planet_radius, cusps, rod).deviation_range(angle)
+        return max(high, -low)
+
+    return _best(planet_radius, cusps, lambda rod: -greatest(rod), angle)
+
+
+def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
+    """Rod length with the smallest range of the slider's place over a carrier angle, the place itself free.
+
+    max s - min s over +- angle/2  ->  min
+
+    Parameters
+        planet_radius, cusps, angle : as of `minimax`
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - as `minimax`
+    Notes
+        The result is the tangent circle through the ends of the dwell, or lies close by it.
+    Example
+        >>> round(least_ripple(1.0, 3, math.radians(120.0)), 6)
+        7.0
+    """
+
+    def quality(rod: float) -> float:
+        return -HypocycloidSlider(planet_radius, cusps, rod).ripple(angle)
+
+    return _best(planet_radius, cusps, quality, angle)
+
+
+def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
+    """Rod length with the widest dwell within +- a tolerance.
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        tolerance : float [mm] - half the range that is allowed
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - for a tolerance that is not positive or not below half the stroke
+    Notes
+        The width jumps where a hump leaves the band, so that the best rod stands at such an edge: a scan over the
+        curvature, then golden section about the best.
+    Example
+        >>> rod = widest_dwell(1.0, 3, 0.0111)
+        >>> HypocycloidSlider(1.0, 3, rod).dwell_angle(0.0111) >= HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)
+        True
+    """
+
+    def quality(rod: float) -> float:
+        return HypocycloidSlider(planet_radius, cusps, rod).dwell_angle(tolerance)
+
+    return _best(planet_radius, cusps, quality)
+
+
+def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: float | None = None) -> float:
+    """Rod of the maximum quality, sought over its curvature 1/L from well below to well above the named circles."""
+    if angle is not None and not 0.0 < angle <= 2.0 * math.pi / cusps * (1.0 + 1e-12):
+        raise NoSolution(
+            f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
+            fix=(
+                f"ask for more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
+                "widest dwell of a tolerance"
+            ),
+        )
+    named = (tangent_circle(radius, cusps, angle), osculating(radius, cusps))
+    shortest = max(0.7 * min(named), 1.001 * widest_offset(radius, cusps))
+    low, high = 1.0 / (2.0 * max(named)), 1.0 / shortest
+    curvatures = [low + (high - low) * i / _SCAN for i in range(_SCAN + 1)]
+    values = [quality(1.0 / c) for c in curvatures]
+    top = max(range(len(values)), key=values.__getitem__)
+    step = (high - low) / _SCAN
+    best = maximum(lambda c: quality(1.0 / c), max(low, curvatures[top] - step), min(high, curvatures[top] + step))
+    return max((1.0 / best[0], *(rod for rod in named if rod > shortest)), key=quality)
+
+
+# A slotted arm about the ring's centre that a point of the planet turns: step motion of a hypocycloid train
+
+
+@dataclass(frozen=True)
+class SlottedArm:
+    """The output of a train.
+
+    Parameters
+        teeth : float - n, ring over planet, above 1
+        ratio : float - l, above 0 and below n - 1
+    Raises
+        NoSolution - for a point that turns the arm against the carrier
+    Example
+        >>> arm = SlottedArm(3.0, 1.0)
+        >>> arm.speed_max, arm.speed_min, round(math.degrees(arm.dwell(math.radians(0.5))[0]), 6)
+        (4.0, 0.0, 33.29542)
+
+    Source
+        thesis 2.2.2; formulas: own derivation
+    """
+
+    teeth: float
+    ratio: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.ratio < self.teeth - 1.0:
+            raise NoSolution(
+                (
+                    f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
+                    f"the planet's axis, not at {self.ratio:g}"
+                ),
+                fix="choose a place between them",
+            )
+
+    @property
+    def speed_max(self) -> float:
+        """Maximum speed of the arm over the carrier's, in the middle of an arc: (n - 1)(1 + l)/(n - 1 - l)."""
+        k = self.teeth - 1.0
+        return k * (1.0 + self.ratio) / (k - self.ratio)
+
+    @property
+    def speed_min(self) -> float:
+        """Minimum speed of the arm over the carrier's, in a cusp: (n - 1)(1 - l)/(n - 1 + l)."""
+        k = self.teeth - 1.0
+        return k * (1.0 - self.ratio) / (k + self.ratio)
+
+    def angle(self, x: float) -> float:
+        """Angle of the arm from the place that it has in a cusp, at a carrier angle from there [rad]."""
+        k, n = self.teeth - 1.0, self.teeth
+        return x - math.atan2(self.ratio * math.sin(n * x), k + self.ratio * math.cos(n * x))
+
+    @cached_property
+    def standstill(self) -> float:
+        """Carrier angle from a cusp to the standstill after it [rad]; 0 where the arm never turns back.
+
+        cos n x = ((n - 1) - l^2)/((n - 2) l)
+        """
+        if self.ratio <= 1.0:
+            return 0.0
+        n, far = self.teeth, self.ratio
+        return math.acos(((n - 1.0) - far * far) / ((n - 2.0) * far)) / n
+
+    @property
+    def back_step(self) -> float | None:
+        """How far the arm goes back in each step [rad]; None where it never does."""
+        return -2.0 * self.angle(self.standstill) if self.ratio > 1.0 else None
+
+    def dwell(self, tolerance: float) -> tuple[float, float]:
+        """Longest carrier angle in which the arm stays within +- a tolerance of a place, and where it starts [rad].
+
+        Parameters
+            tolerance : float [rad] - half of what the arm may cover, above 0
+        Returns
+            angle, start : float, float [rad] - of equal ones the first from carrier angle 0 on
+        Raises
+            NoSolution - for a tolerance that takes in a whole step
+        Notes
+            About a cusp the angle is odd: where the way back fits in, the window is symmetrical; else it lies about a
+            standstill, with both ends on the edge of the band.
+        """
+        half = math.pi / self.teeth
+        if not 0.0 < tolerance < half:
+            raise NoSolution(
+                f"tolerance is {math.degrees(tolerance):g} deg; it must be positive and below half a step, "
+                f"{math.degrees(half):.6g} deg"
+            )
+        top = -self.angle(self.standstill)  # before the cusp
+        if top <= tolerance:
+            end = bracketed_root(lambda x: self.angle(x) - tolerance, self.standstill, half)
+            return 2.0 * end, half - end
+        edge = top - 2.0 * tolerance
+        before = bracketed_root(lambda x: self.angle(x) - edge, -half, -self.standstill)
+        after = bracketed_root(lambda x: self.angle(x) - edge, -self.standstill, self.standstill)
+        return after - before, half + before
+
+    def turn(self, t: Reals, order: int) -> Turn:
+        """Angle of the arm [rad] and its derivatives by the carrier angle, over an array.
+
+        beta' = 1 + Im u,  u = z_1/z,  u' = z_2/z - u^2,  u'' = z_3/z - u^3 - 3 u u';  z_k the derivatives of z
+        """
+        import numpy as np
+
+        from gearlink.core.mechanism.rates import Turn
+
+        n = self.teeth
+        around: Any = self.ratio * np.exp(-1j * n * t)
+        z = (n - 1.0) - around
+        u = 1j * n * around / z
+        found = [t + np.angle(z), 1.0 + u.imag]
+        if order > 1:
+            first = n * n * around / z - u * u
+            found.append(first.imag)
+            if order > 2:
+                found.append((-1j * n**3 * around / z - u**3 - 3.0 * u * first).imag)
+        return Turn(*(np.asarray(each) for each in found[: order + 1]))

@@ -14,11 +14,10 @@ from gearlink.core.base.report import Check, Remedy, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
-from gearlink.core.machines.dwell_gears import hypocycloid, hypocycloid_rod
+from gearlink.core.machines.dwell_gears import hypocycloid
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
-from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider
-from gearlink.core.machines.dwell_gears.hypocycloid_arm import SlottedArm
+from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, SlottedArm
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed
@@ -251,15 +250,15 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if rule == "tangent-circle":
             return self._tangent_circle
         with at_key("dwell.angle"):
-            return hypocycloid_rod.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return hypocycloid.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def _rod_for_target(self, quality: str) -> float:
         tolerance = self.spec.dwell.tolerance
         if quality == "widest-dwell" and tolerance is not None:
             with at_key("dwell.tolerance"):
-                return hypocycloid_rod.widest_dwell(self.point_radius, self.cusps, tolerance)
+                return hypocycloid.widest_dwell(self.point_radius, self.cusps, tolerance)
         with at_key("dwell.angle"):
-            return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return hypocycloid.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def completion(self) -> Iterator[Found]:
         """The rod instead of the target or the rule."""

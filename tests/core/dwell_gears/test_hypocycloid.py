@@ -19,8 +19,15 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, osculating, tangent_circle, widest_offset
-from gearlink.core.machines.dwell_gears.hypocycloid_rod import least_ripple, minimax, widest_dwell
+from gearlink.core.machines.dwell_gears.hypocycloid import (
+    HypocycloidSlider,
+    least_ripple,
+    minimax,
+    osculating,
+    tangent_circle,
+    widest_dwell,
+    widest_offset,
+)
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

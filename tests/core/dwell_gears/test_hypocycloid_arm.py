@@ -15,8 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider
-from gearlink.core.machines.dwell_gears.hypocycloid_arm import SlottedArm
+from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, SlottedArm
 
 GIVEN: dict[str, Any] = {
     "kind": "hypocycloid-dwell",
