@@ -24,7 +24,13 @@ REDUCER = {
     "pressure_angle_max": Term("", "deg", "maximum pressure angle at the pins that push, eccentric at 0"),
     "pin_force_max": Term("F_P,max", "N", "maximum force of a ring pin, pins of equal stiffness", "own derivation"),
     "output_pin_force_max": Term("Q_max", "N", "maximum force of an output pin", "own derivation"),
-    "efficiency": Term("eta", "1", "estimate from forces without loss; no churning, no seals", "own derivation"),
+    "efficiency": Term(
+        "eta",
+        "1",
+        "estimate from forces without loss; no churning, no seals; the force on the eccentric's bearing "
+        "is taken as ring pins plus output pins pushing the same way, more than it is",
+        "own derivation",
+    ),
     "backlash": Term("", "deg", "turn of the disc between both flanks of the pins", "own derivation"),
     "output_hole_radius": Term("r_w + e", "mm", "radius of the holes for the output pins"),
 }

@@ -102,7 +102,8 @@ QUANTITIES = (
     *FEED_QUANTITIES,
 )
 OF_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "tolerance_dwell_time")
-CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash")
+CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash",
+          "lay-speed")  # fmt: skip
 
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
 
@@ -285,6 +286,13 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
     def speed_turnings(self) -> list[Turning]:
         """Extremes of the speed ratio."""
         return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
+
+    @property
+    def running(self) -> Any:
+        """As `FeedResults.running`."""
+        way = math.copysign(1.0, self.mean_ratio)
+        turnings = [Turning(each.place, way * each.value) for each in self.speed_turnings]
+        return lambda phi: way * self.drive.speed(phi), lambda phi: way * self.drive.angle(phi), turnings
 
     @property
     def coupler_ratio_max(self) -> float:

@@ -135,6 +135,13 @@ class TwoGearFourBarSpec(DrivenSpec):
             )
         return self
 
+    @model_validator(mode="after")
+    def _lay_has_a_speed(self) -> TwoGearFourBarSpec:
+        if self.feed is not None and self.feed.lay is not None and self.input_speed is None:
+            message = "the speed at the lay needs the input's: give input_speed"
+            raise PydanticCustomError("GL106", message, {"key": "input_speed"})
+        return self
+
     def _syntheses(self) -> tuple[str, ...]:
         """The syntheses that the file asks for."""
         momentary = self.target is not None and self.target.motion == "momentary-dwell" and self.links.frame is None

@@ -71,17 +71,3 @@ def ratio_judged(value: Any, asked: Any) -> Judged:
 def target_judged(value: Any, asked: Any) -> Judged:
     """GL304 of back-steps [deg]."""
     return Judged(ACHIEVED, value, asked, False, abs(value - asked) > _MISSED, "deg")
-
-
-LAY_SPEED = Rule(
-    "GL341",
-    "sheet too fast before the front lay",
-    "Over the last way before the front lay the sheet is faster than feed.lay.speed.",
-    "It strikes the lay and springs back: the register is lost.",
-    "Run slower, take a smaller feed radius, or let the sheet arrive where the output is slow (feed.lay.angle).",
-    "maximum speed over the last feed.lay.distance <= feed.lay.speed",
-    "thesis 3.3.2; own derivation",
-    ("lay-speed",),
-    ("feed.lay.speed", "feed.lay", "input_speed", "feed"),
-    side="<=",
-)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Found, Outline, placed
-from gearlink.core.base.errors import MissingSection, NoSolution, at_key
+from gearlink.core.base.errors import MissingSection, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
@@ -15,7 +15,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.three_gear import dwell as dwells
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.machines.three_gear.codes import LAY_SPEED, ratio_judged, tolerance_judged
+from gearlink.core.machines.three_gear.codes import ratio_judged, tolerance_judged
 from gearlink.core.machines.three_gear.dwell import ByRoots, Output
 from gearlink.core.machines.three_gear.momentary import crank_with_room
 from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_for_ratio, tip_radius
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.families import Room
     from gearlink.core.machines.three_gear.spec import Gears, ThreeGearSpec
     from gearlink.core.machines.three_gear.synthesis import Task
-    from gearlink.core.machines.three_gear.uniform import Lay, Uniform
+    from gearlink.core.machines.three_gear.uniform import Uniform
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
@@ -84,10 +84,6 @@ QUANTITIES = (
     "uniform_angle",
     "uniform_start",
     "uniform_ratio",
-    "lay_speed",
-    "lay_angle",
-    "lay_time",
-    "arrival_speed",
 )
 CHECKS = (
     "gear-collision",
@@ -184,19 +180,6 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         yield Found("gears.i3", None)
         yield Found("links", {"crank": self.crank_length, "frame": self.frame_length}, by)
         yield from (Found(section, None) for section in ("dwell", "back_step", "speed", "momentary"))
-
-    @classmethod
-    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
-        """The speed before a front lay is judged where the file has one."""
-        found, feed = super().judged(command, spec), getattr(spec, "feed", None)
-        return found if feed is not None and feed.lay is not None else tuple(x for x in found if x != "lay-speed")
-
-    def outline(self, command: str) -> Outline:
-        """The speed before a front lay is judged where the file has one."""
-        found, feed = super().outline(command), self.spec.feed
-        if feed is not None and feed.lay is not None:
-            return found
-        return found._replace(checks=tuple(name for name in found.checks if name != "lay-speed"))
 
     # Gears and links
 
@@ -421,7 +404,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         pole = Course("mm", lambda mechanism: [_pole(self, mechanism)])
         return motion_table("links", self, [*shown, Shown("pole_x", pole)], samples)
 
-    # Poles, even speed, the front lay
+    # Poles, even speed
 
     def pole_places(self, phi: Reals) -> Reals:
         """Place of P15 on AD from A by the speeds [mm]; NaN where no digit of it is known."""
@@ -461,6 +444,11 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
         return turnings(self._forwards, bend)
 
+    @property
+    def running(self) -> Any:
+        """As `FeedResults.running`."""
+        return self._forwards, self._turned, self._speed_turnings
+
     @cached_property
     def even_stretch(self) -> Uniform | None:
         """The longest stretch at a nearly even speed, where the file gives a tolerance."""
@@ -479,62 +467,6 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     uniform_angle: float | None = placed("even_stretch.angle")
     uniform_start: float | None = placed("even_stretch.start")
     uniform_ratio: float | None = placed("even_stretch.level")
-
-    @cached_property
-    def lay(self) -> Lay | None:
-        """The last way before the front lay, where the file asks for one."""
-        feed = self.spec.feed
-        if feed is None or feed.lay is None or self.travel_radius is None:
-            return None
-        from gearlink.core.machines.three_gear.uniform import gentlest, way_before
-
-        given, turned = feed.lay, feed.lay.distance / self.travel_radius
-        with at_key("feed.lay.distance"):
-            if turned >= 2.0 * math.pi * abs(self.mean_ratio):
-                step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
-                raise NoSolution(f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more: give less")
-            if given.angle is None:
-                return gentlest(self._forwards, self._turned, self._speed_turnings, turned)
-            at = math.radians(given.angle)
-            return way_before(self._forwards, self._turned, self._speed_turnings, turned, at)
-
-    @property
-    def lay_speed(self) -> float | None:
-        """Maximum speed of the sheet on the last way before the lay [mm/s]."""
-        return None if self.lay is None else self._of_sheet(self.lay.greatest)
-
-    def _of_sheet(self, ratio: float) -> float | None:
-        return None if self.angular_speed is None else ratio * self.angular_speed * (self.travel_radius or 0.0)
-
-    @property
-    def lay_angle(self) -> float | None:
-        """Crank angle of the arrival [rad]."""
-        return None if self.lay is None else self.lay.end % (2.0 * math.pi)
-
-    @property
-    def _lay_way(self) -> float | None:
-        return None if self.lay is None else self.lay.end - self.lay.start
-
-    lay_time: float | None = per_time("_lay_way", -1)
-
-    @property
-    def arrival_speed(self) -> float | None:
-        """Speed of the sheet at the arrival that the file gives [mm/s]."""
-        feed = self.spec.feed
-        if self.lay is None or feed is None or feed.lay.angle is None:
-            return None
-        return self._of_sheet(self.lay.arrival)
-
-    def check_lay_speed(self) -> Iterator[Check]:
-        """GL341."""
-        found, feed = self.lay_speed, self.spec.feed
-        if found is None or feed is None:
-            return
-        limit = feed.lay.speed
-        over = found > limit * (1.0 + 1e-12)
-        what, aside = "maximum speed of the sheet before the lay", f"over the last {short(feed.lay.distance)} mm"
-        fix = "run slower, or choose a drive that is slower there"
-        yield LAY_SPEED.check("fail" if over else "pass", what, found, limit, "mm/s", side="<=", aside=aside, fix=fix)
 
     # Checks
 

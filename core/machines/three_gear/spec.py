@@ -112,7 +112,7 @@ class ThreeGearSpec(DrivenSpec):
     uniform_tolerance: UniformTolerance | None = Field(
         None, description="share by which the output's speed may differ from a level: the longest such stretch is given"
     )
-    feed: Annotated[Any, Deferred("machines.three_gear.task_spec:LayFeed")] | None = Field(
+    feed: Annotated[Any, Deferred("parts.linkages.spec_sections:Feed")] | None = Field(
         None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
     )
     limits: LinkageLimits = LinkageLimits.model_construct()

@@ -9,7 +9,6 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Length, SignedLength, Spec
 from gearlink.core.machines.three_gear.dwell_spec import Placing
-from gearlink.core.parts.linkages.spec_sections import Feed
 
 
 class BackStep(Placing):
@@ -57,24 +56,6 @@ class Speed(Placing):
         if missing:
             raise PydanticCustomError("GL106", "{key} is missing", {"key": missing[0]})
         return self
-
-
-class FrontLay(Spec):
-    """The front lay that a sheet arrives at."""
-
-    distance: Length = Field(description="last way before the lay")
-    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] = Field(
-        description="maximum speed of the sheet on that way"
-    )
-    angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle of the arrival; default: where the sheet arrives most gently"
-    )
-
-
-class LayFeed(Feed):
-    """A feed that may bring sheets to a front lay."""
-
-    lay: FrontLay | None = Field(None, description="the front lay, where the sheet must be slow; needs input_speed")
 
 
 class Momentary(Spec):

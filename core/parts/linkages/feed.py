@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.real_speed import RealSpeed
+from gearlink.core.base.design import Design, Outline
+from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.real_speed import RealSpeed, per_time
+from gearlink.core.base.report import Check
+from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
+from gearlink.core.parts.linkages.codes import LAY_SPEED
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Column
+    from gearlink.core.parts.linkages.front_lay import Lay
     from gearlink.core.parts.linkages.spec_sections import Feed
 
 FEED_QUANTITIES = (
@@ -24,6 +31,10 @@ FEED_QUANTITIES = (
     "feed_velocity_mean",
     "feed_acceleration_max",
     "feed_acceleration_min",
+    "lay_speed",
+    "lay_angle",
+    "lay_time",
+    "arrival_speed",
 )
 
 
@@ -56,7 +67,7 @@ def _fed_per_time(name: str, order: int) -> Any:
     return property(value, doc=f"`{name}` of what is fed, in real time.")
 
 
-class FeedResults(RealSpeed):
+class FeedResults(RealSpeed, Design):
     """Results of a design whose file may have a section `feed`; None of them without it."""
 
     mean_ratio: Any
@@ -127,6 +138,82 @@ class FeedResults(RealSpeed):
 
     def _fed(self, angle: float | None) -> float | None:
         return None if angle is None or self.travel_radius is None else angle * self.travel_radius
+
+    # The front lay
+
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """The speed before a front lay is judged where the file has one."""
+        found, feed = super().judged(command, spec), getattr(spec, "feed", None)
+        return found if feed is not None and feed.lay is not None else tuple(x for x in found if x != "lay-speed")
+
+    def outline(self, command: str) -> Outline:
+        """The speed before a front lay is judged where the file has one."""
+        found, feed = super().outline(command), self.spec.feed
+        if feed is not None and feed.lay is not None:
+            return found
+        return found._replace(checks=tuple(name for name in found.checks if name != "lay-speed"))
+
+    @property
+    def running(self) -> Any:
+        """Speed ratio and angle of the output in the sense of its mean motion, as functions of the crank angle [rad],
+        and all turnings of the speed ratio over a revolution."""
+        raise NotImplementedError
+
+    @cached_property
+    def lay(self) -> Lay | None:
+        """The last way before the front lay, where the file asks for one."""
+        feed = self.spec.feed
+        if feed is None or feed.lay is None or self.travel_radius is None:
+            return None
+        from gearlink.core.parts.linkages.front_lay import gentlest, way_before
+
+        given, turned = feed.lay, feed.lay.distance / self.travel_radius
+        with at_key("feed.lay.distance"):
+            if turned >= 2.0 * math.pi * abs(self.mean_ratio):
+                step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
+                raise NoSolution(f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more: give less")
+            if given.angle is None:
+                return gentlest(*self.running, turned)
+            return way_before(*self.running, turned, math.radians(given.angle))
+
+    @property
+    def lay_speed(self) -> float | None:
+        """Maximum speed of the sheet on the last way before the lay [mm/s]."""
+        return None if self.lay is None else self._of_sheet(self.lay.greatest)
+
+    def _of_sheet(self, ratio: float) -> float | None:
+        return None if self.angular_speed is None else ratio * self.angular_speed * (self.travel_radius or 0.0)
+
+    @property
+    def lay_angle(self) -> float | None:
+        """Crank angle of the arrival [rad]."""
+        return None if self.lay is None else self.lay.end % (2.0 * math.pi)
+
+    @property
+    def _lay_way(self) -> float | None:
+        return None if self.lay is None else self.lay.end - self.lay.start
+
+    lay_time: float | None = per_time("_lay_way", -1)
+
+    @property
+    def arrival_speed(self) -> float | None:
+        """Speed of the sheet at the arrival that the file gives [mm/s]."""
+        feed = self.spec.feed
+        if self.lay is None or feed is None or feed.lay.angle is None:
+            return None
+        return self._of_sheet(self.lay.arrival)
+
+    def check_lay_speed(self) -> Iterator[Check]:
+        """GL341."""
+        found, feed = self.lay_speed, self.spec.feed
+        if found is None or feed is None:
+            return
+        limit = feed.lay.speed
+        over = found > limit * (1.0 + 1e-12)
+        what, aside = "maximum speed of the sheet before the lay", f"over the last {short(feed.lay.distance)} mm"
+        fix = "run slower, or choose a drive that is slower there"
+        yield LAY_SPEED.check("fail" if over else "pass", what, found, limit, "mm/s", side="<=", aside=aside, fix=fix)
 
     def timed(
         self, columns: Mapping[str, tuple[Column, str]], angle: str, rates: Mapping[str, tuple[str, int]]

@@ -25,6 +25,18 @@ class PivotShafts(Spec):
     D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
 
 
+class FrontLay(Spec):
+    """The front lay that a sheet arrives at."""
+
+    distance: Length = Field(description="last way before the lay")
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm/s"})] = Field(
+        description="maximum speed of the sheet on that way"
+    )
+    angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle of the arrival; left out: where the sheet arrives most gently"
+    )
+
+
 class Feed(Spec):
     """What the output carries on: a roller or belt by its radius, or a chain by its pitch and the sprocket's teeth."""
 
@@ -40,6 +52,7 @@ class Feed(Spec):
     step: Length | None = Field(
         None, description="travel per revolution of the input: radius, or of a chain ratio or teeth, are found for it"
     )
+    lay: FrontLay | None = Field(None, description="the front lay, where the sheet must be slow; needs input_speed")
 
     @model_validator(mode="after")
     def _one_form(self) -> Feed:

@@ -69,17 +69,25 @@ def test_window_of_equal_gears_in_closed_form() -> None:
     assert shorter < made.uniform_angle
 
 
-@pytest.mark.parametrize("distance", [5.0, 20.0, 60.0])
-def test_gentlest_arrival_is_the_least_of_all(distance: float) -> None:
-    keys = {"input_speed": 200.0, "feed": {"radius": 40.0, "lay": {"distance": distance, "speed": 470.0}}}
-    found = design(FEED, **keys)
+TWO_GEARS: dict[str, Any] = {
+    "kind": "two-gear-four-bar",
+    "gears": {"module": 2.0, "planet": 16, "sun": 12},
+    "links": {"coupler": 60.0, "rocker": 80.0, "frame": 90.0},
+}
+
+
+@pytest.mark.parametrize(("given", "distance"), [(FEED, 5.0), (FEED, 20.0), (FEED, 60.0), (TWO_GEARS, 20.0)])
+def test_gentlest_arrival_is_the_least_of_all(given: Any, distance: float) -> None:
+    keys: dict[str, Any] = {"input_speed": 200.0}
+    keys |= {"feed": {"radius": 40.0, "lay": {"distance": distance, "speed": 470.0}}}
+    found = design(given, **keys)
     each = []
     for angle in np.arange(0.0, 360.0, 3.0):
-        keys["feed"]["lay"]["angle"] = float(angle)  # type: ignore[index]
-        one = design(FEED, **keys)
+        keys["feed"]["lay"]["angle"] = float(angle)
+        one = design(given, **keys)
         each.append(one.lay_speed)
         phi = np.linspace(one.lay.start, one.lay.end, 181)
-        ratio = np.array([one._forwards(x) for x in phi])
+        ratio = np.array([one.running[0](x) for x in phi])
         assert one.lay_speed == pytest.approx(ratio.max() * 40.0 * one.angular_speed, rel=1e-4)
         assert 40.0 * float(np.trapezoid(ratio, phi)) == pytest.approx(distance, rel=1e-4)
         assert one.arrival_speed == pytest.approx(ratio[-1] * 40.0 * one.angular_speed, rel=1e-12)
