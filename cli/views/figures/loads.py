@@ -8,7 +8,7 @@ from functools import partial
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.views.figures.drawing import panels, style, time_axes
+from gearlink.cli.views.figures.drawing import failing, panels, style, time_axes
 from gearlink.cli.views.figures.sheets import force_sheet
 
 if TYPE_CHECKING:
@@ -233,6 +233,12 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, in_re
 Panel = Callable[["Axes", "LoadsDesign"], None]
 _LOCI = "Pins: force on the second link in the axes of the frame, a mark every 30° of the input; dotted: it jumps"
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK, style.GREY)
+_MOST_CURVES = 5
+_XY = ("_x", "_y")
+_SAME = 1e-9
+"""Of a force: joints whose forces differ by less are drawn once."""
+_LEAST_JUMP, _STEEPER = 0.08, 6.0
+"""A jump of a locus: a share of its size, so many times what the steps next to it are."""
 _POLAR_COLUMNS, _MECHANISM = 3, 2.6
 """Of the mechanism with its forces: the height of its panel, those of curves being 1."""
 _LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
