@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from bench.timing import Family, Method, measure, mpmath
-from gearlink.core.machines.wide_swing.law.device import Pneumatic
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
-from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+from gearlink.core.machines.wide_swing.device import Pneumatic
+from gearlink.core.machines.wide_swing.law import ElasticLaw, legacy_law
 
 RATIO, SWING = 2.5, math.radians(120.0)
 DEVICE = Pneumatic(RATIO)

@@ -14,8 +14,7 @@ from factory import DESIGNS, design
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import TERMS
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
-from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, legacy_law
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "wide_swing.md"
 NODES = (2, 4, 8, 16, 32, 64)

@@ -27,7 +27,7 @@ from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
 
 
@@ -601,7 +601,7 @@ def swing_cam(name: str, design: Any) -> Part:
     Raises
         NoSolution - where the profile does not exist
     """
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.strokes import middle_of
 
     cam, mirror = _served(name, design)
     contact = design.contact_of(cam)
@@ -801,7 +801,7 @@ def closed_cam(name: str, design: Any) -> Part:
 
 
 def _of_sector(closed: Any, frame: Any, sector: int, low: float, high: float) -> Stretch:
-    from gearlink.core.machines.wide_swing.cams.closed_cam import SECTORS
+    from gearlink.core.machines.wide_swing.cycle import SECTORS
 
     def points(t: Reals) -> Points:
         return np.stack([frame(closed.contour_of(sector, t)), frame(closed.pitch_of(sector, t))])
@@ -829,6 +829,6 @@ def _closed_notes(closed: Any, cycle: Any, late: bool) -> tuple[str, ...]:
 
 def is_external(cam: AnyCam) -> bool:
     """Whether the cam's body lies inside its profile."""
-    from gearlink.core.machines.wide_swing.cams import outline
+    from gearlink.core.machines.wide_swing import strokes as outline
 
     return outline.is_external(cam)

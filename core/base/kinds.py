@@ -172,7 +172,7 @@ KINDS: dict[str, Kind] = {
                 "swing": "design:WideSwingDesign",
                 "cam": "design:WideSwingDesign",
                 "analyze": "design:WideSwingDesign",
-                "loads": "loads.design:WideSwingLoads",
+                "loads": "loads:WideSwingLoads",
                 "register": "",
                 "tolerance": "",
             },

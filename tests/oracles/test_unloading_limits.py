@@ -20,7 +20,7 @@ from oracles.unloading_limits import (
 )
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
 
 ROUNDING = 1e-15
 

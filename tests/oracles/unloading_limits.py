@@ -1,7 +1,7 @@
 """Closed forms of the unloading laws: the pendulum, the device whose pins meet, and the small swing.
 
 A general device leads to hyperelliptic integrals; these limits are elliptic or elementary, and hold the
-quadrature of `gearlink.core.machines.wide_swing.law.elastic_law` to account.
+quadrature of `gearlink.core.machines.wide_swing.law` to account.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.law.device import Device, Pneumatic, require_swing
+from gearlink.core.machines.wide_swing.device import Device, Pneumatic, require_swing
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 
@@ -131,7 +131,7 @@ def small_swing_peaks(device: Device) -> tuple[float, float]:
     Notes
         K is the complete elliptic integral of parameter mu = k^2.
     Example
-        >>> from gearlink.core.machines.wide_swing.law.device import Spring
+        >>> from gearlink.core.machines.wide_swing.device import Spring
         >>> [round(x, 12) for x in small_swing_peaks(Spring(3.0, 0.5))]
         [1.415737208426, 6.012935529965]
 

@@ -11,9 +11,9 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell import dwell_positions
 from gearlink.core.machines.three_gear.momentary import momentary_frame_length, momentary_linkage
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
-from gearlink.core.machines.wide_swing.law.device import Pneumatic
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.wide_swing.cam import WideSwingCam
+from gearlink.core.machines.wide_swing.device import Pneumatic
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.parts.cams.profile import profile, translating
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute

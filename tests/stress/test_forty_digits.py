@@ -35,8 +35,8 @@ from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.machines.three_gear.momentary import eccentricity_range, momentary_frame_length
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
-from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.parts.cams.laws import law
 from gearlink.core.parts.cams.profile import oscillating, profile, translating
 from gearlink.core.parts.gears.mesh.pair import GearPair

@@ -33,8 +33,8 @@ from gearlink.core.machines.three_gear.momentary import least_eccentricity
 from gearlink.core.machines.three_gear.motion import GearTrain
 from gearlink.core.machines.three_gear.sweep import momentary_dwells
 from gearlink.core.machines.three_gear.symmetric import dwell_angle
-from gearlink.core.machines.wide_swing.law.device import Spring
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.wide_swing.device import Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.parts.cams.profile import oscillating, profile, translating
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.linkages.fourbar import position as fourbar

@@ -36,8 +36,8 @@ from gearlink.cli.views.scenes.scene import (
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Cycle:
         """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
         motion = self.design.motion
         if self.design.spec.slider is not None:
-            from gearlink.core.machines.wide_swing.cams.outline import middle_of
+            from gearlink.core.machines.wide_swing.strokes import middle_of
 
             share = middle_of(self.design.cam)
             late, share = (0.5 * self.turned, 1.0 - share) if back else (0.0, share)
@@ -180,7 +180,7 @@ def _cam(
     turn = turn + cmath.phase(seat)
     if cycle.whole:
         return [_closed(cycle, turn, color, late=mirrored, seat=seat)]
-    from gearlink.core.machines.wide_swing.cams.outline import contour
+    from gearlink.core.machines.wide_swing.strokes import contour
 
     run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
     outline = np.concatenate([run_up, slot[1:], run_out[1:]])

@@ -22,7 +22,7 @@ from gearlink.core.studies.clearance.links import beside_line, beside_turning_ar
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
-    from gearlink.core.machines.wide_swing.loads.design import WideSwingLoads
+    from gearlink.core.machines.wide_swing.loads import WideSwingLoads
     from gearlink.core.machines.wide_swing.slider import SliderDrive
     from gearlink.core.machines.wide_swing.spec import SwingCam
     from gearlink.core.numerics.arrays import Reals

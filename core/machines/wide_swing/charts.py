@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
-from gearlink.core.machines.wide_swing.cams.contact import middle_radius_estimate
-from gearlink.core.machines.wide_swing.law.device import Pneumatic, Spring, least_pivot_ratio_pneumatic
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.machines.wide_swing.cam import WideSwingCam, middle_radius_estimate
+from gearlink.core.machines.wide_swing.device import Pneumatic, Spring, least_pivot_ratio_pneumatic
+from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.numerics.arrays import Reals
 
 Name = Literal["velocity_peak", "acceleration_peak", "energy_parameter"]

@@ -1,21 +1,302 @@
-"""The whole cycle of a wide-swing mechanism: working stroke, far dwell, return stroke, near dwell, and its cams."""
+"""The whole cycle of a wide swing, whose cams are closed contours.
+
+In its own stroke the cam guides the rocker; in the other stroke the rocker comes back, guided by the other cam, and
+this one only has to keep clear of the roller. During the rests the contour is an arc about the cam axis.
+"""
 
 from __future__ import annotations
 
 import cmath
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.errors import at_key
+import numpy as np
+
+from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.machines.wide_swing.cams.closed_cam import ClosedCam
+from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.parts.cams.undercut import Undercut, undercut
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
-    from gearlink.core.numerics.arrays import Points, Reals
+
+
+SECTORS = ("stroke", "rest", "free", "rest before")
+_TURN = 2.0 * math.pi
+_RAMP = 0.1
+"""Share of the free sector over which the clearance grows from the arc's, and falls to it again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """Where two sectors of a contour meet; radii and angles are those of the pitch curve.
+
+    Fields
+        cam_angle : float [rad] - from the start of the cam's own stroke
+        radius : float [mm] - from the cam axis to the roller centre
+        tangent_step : float [rad] - between the tangents of the two sectors
+        before, after : float [mm] - curvature radius on either side, positive with the centre towards the cam axis
+    """
+
+    cam_angle: float
+    radius: float
+    tangent_step: float
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class ClosedCam:
+    """Contour of a cam over one revolution, in lengths of mm and the frame of `PitchCurve`: mid-stroke on the -x axis.
+
+    z = e^{i theta}(-1 + lambda e^{i psi}) a, psi(theta): the law, +gamma/2, the law backwards, -gamma/2
+
+    Parameters
+        cam : WideSwingCam - of its own stroke
+        after : float [rad] - cam angle of the rest that follows its own stroke
+        other : float [rad] - cam angle of the stroke that the other cam guides
+        clearance : float [mm] - room between the roller and the free sector
+    Raises
+        NoSolution - for angles that do not leave room in a revolution, and a profile that does not exist
+    Notes
+        The clearance grows from nothing at both ends of the free sector, so that the contour has no corner there.
+    Example
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.6), math.radians(120))
+        >>> cam = WideSwingCam("twin-cam", law, math.radians(100), 200.0, 8.0)
+        >>> closed = ClosedCam(cam, math.radians(60), math.radians(120))
+        >>> [round(math.degrees(x), 9) for x in closed.sectors]
+        [62.058733486, 60.0, 157.941266514, 80.0]
+    """
+
+    cam: WideSwingCam
+    after: float
+    other: float
+    clearance: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.cam.require_profile()
+        if self.other <= 0.0 or min(self.after, self.before) < 0.0:
+            raise NoSolution(
+                "the sectors of a closed cam must be 0 or more, its strokes above 0, and fill one revolution"
+            )
+
+    @property
+    def own(self) -> float:
+        """Cam angle of its own stroke [rad]."""
+        return self.cam.cycle_angle
+
+    @property
+    def before(self) -> float:
+        """Cam angle of the rest that comes before its own stroke [rad]; rounding of the sum is taken off."""
+        rest = _TURN - self.own - self.after - self.other
+        return 0.0 if abs(rest) < 1e-12 else rest
+
+    @cached_property
+    def starts(self) -> tuple[float, float, float, float, float]:
+        """Cam angles at which the four sectors start, and a whole revolution [rad]."""
+        second = self.own + self.after
+        return 0.0, self.own, second, second + self.other, _TURN
+
+    @cached_property
+    def sectors(self) -> tuple[float, float, float, float]:
+        """Polar angles of driven profile, arc, free sector, arc on the cam [rad]; their sum is one revolution.
+
+        own - 2 xi, after, other + 2 xi, before; xi the profile correction at the ends of the stroke
+        """
+        turned = 2.0 * self.cam.profile_correction
+        return self.own - turned, self.after, self.other + turned, self.before
+
+    @property
+    def rest_radius(self) -> float:
+        """Pitch radius during both rests [mm]; the maximum of an external, the minimum of an internal profile."""
+        return self.cam.end_radius
+
+    # Points
+
+    def sector_at(self, t: Reals) -> Reals:
+        """Number of the sector in which a cam angle from 0 to a turn lies; a joint belongs to the one that follows."""
+        return np.asarray(np.searchsorted(self.starts[1:4], t, side="right"))
+
+    def swing_share(self, t: Reals) -> Reals:
+        """k, fraction of its own stroke at which the rocker stands so."""
+        return np.asarray(np.interp(t, self.starts, (0.0, 1.0, 1.0, 0.0, 0.0)))
+
+    def state(self, sector: int, t: Reals) -> CurveState:
+        """The state of the pitch curve at cam angles of one sector, by that sector's own formula to its ends."""
+        cam = self.cam
+        start, end = self.starts[sector], self.starts[sector + 1]
+        if sector % 2:
+            return self._resting(t, 1.0 if sector == 1 else 0.0)
+        share = np.clip((t - start) / (end - start), 0.0, 1.0)
+        driven = cam.curve.state(share if sector == 0 else 1.0 - share)
+        if sector == 0:
+            return driven
+        # the law backwards: velocity against, acceleration as in the law, over the other stroke's angle
+        pace = cam.law.swing / self.other
+        view = cam.law.middle_view(driven.k)
+        a = 1.0 - cam.sense * pace * view.velocity
+        return replace(
+            driven,
+            theta=t - 0.5 * self.own,
+            a=a,
+            e=1.0 - cam.ratio * a,
+            second=cam.sense * cam.law.swing / self.other**2 * view.acceleration,
+        )
+
+    def _resting(self, t: Reals, end: float) -> CurveState:
+        cam, ones = self.cam, np.ones_like(t)
+        still = cam.curve.state(end * ones)
+        return replace(still, theta=t - 0.5 * self.own, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
+
+    def pitch(self, t: Reals) -> Points:
+        """Roller centres in the cam's frame at cam angles from 0 to a revolution [mm]."""
+        return self._by_sector(t, self.pitch_of)
+
+    def pitch_of(self, sector: int, t: Reals) -> Points:
+        """Roller centres at cam angles of one sector [mm]."""
+        points: Points = self.cam.center_distance * self.cam.curve.pitch(self.state(sector, t))
+        return points
+
+    def contour(self, t: Reals) -> Points:
+        """Points of the contour at cam angles from 0 to a turn [mm]; about mid-stroke those of the roller's slot."""
+        return self._by_sector(t, self.contour_of)
+
+    def contour_of(self, sector: int, t: Reals) -> Points:
+        """Points of the contour at cam angles of one sector [mm]."""
+        cam, state = self.cam, self.state(sector, t)
+        size = cam.roller_radius + (self._room(t) if sector == 2 else 0.0)
+        found = cam.center_distance * cam.curve.pitch(state) + cam.sense * size * cam.curve.normal(state)
+        if sector:
+            return np.asarray(found)
+        start, end = self.slot
+        inside = (state.k > start) & (state.k < end)
+        found[inside] = self._slot((state.k[inside] - start) / (end - start))
+        return np.asarray(found)
+
+    @cached_property
+    def slot(self) -> tuple[float, float]:
+        """Fractions of its own stroke between which the roller at mid-swing has cut the profile away."""
+        (_, start), (end, _) = self.cam.contact
+        return start, end
+
+    @cached_property
+    def _slot_ends(self) -> tuple[complex, float, float]:
+        """Roller centre at mid-swing, and the directions from it to the ends of its slot, by way of the body [rad]."""
+        cam = self.cam
+        state = cam.curve.state(np.array([*self.slot, 0.5]))
+        pitch = cam.center_distance * cam.curve.pitch(state)
+        ends = pitch[:2] + cam.sense * cam.roller_radius * cam.curve.normal(state)[:2]
+        middle = complex(pitch[2])
+        into = -cam.sense * middle / abs(middle)
+        first, last = (float(np.angle((end - middle) / into)) for end in ends)
+        return middle, first, last
+
+    def _slot(self, share: Reals) -> Points:
+        middle, first, last = self._slot_ends
+        into = -self.cam.sense * middle / abs(middle)
+        arc: Points = middle + self.cam.roller_radius * into * np.exp(1j * (first + (last - first) * share))
+        return arc
+
+    def _room(self, t: Reals) -> Reals:
+        return self.clearance * self._share(t)
+
+    def _share(self, t: Reals) -> Reals:
+        """Share of the clearance over the free sector: none at its ends, all after a tenth of it, without a corner."""
+        _, _, start, end, _ = self.starts
+        way = (t - start) / (end - start)
+        u = np.minimum(1.0, np.minimum(way, 1.0 - way) / _RAMP)
+        grown: Reals = u - np.sin(_TURN * u) / _TURN
+        return grown
+
+    def _by_sector(self, t: Reals, curve: Callable[[int, Reals], Points]) -> Points:
+        found = np.empty(t.shape, dtype=np.complex128)
+        number = self.sector_at(t)
+        for sector in range(4):
+            here = number == sector
+            if here.any():
+                found[here] = curve(sector, t[here])
+        return found
+
+    def outline(self, count: int = 160) -> tuple[tuple[str, Points], ...]:
+        """The contour in pieces, each beginning where the one before it ends.
+
+        Parameters
+            count : int - points of the longest pieces
+        Returns
+            pieces : (name, points) pairs - "profile", "slot", "profile", "arc", "free", "arc"
+        """
+        start, end = self.slot
+        parts = [(0, "profile", 0.0, start * self.own), (0, "slot", start * self.own, end * self.own)]
+        parts.append((0, "profile", end * self.own, self.own))
+        parts += [(i, ("arc", "free")[i == 2], self.starts[i], self.starts[i + 1]) for i in (1, 2, 3)]
+        steps = np.linspace(0.0, 1.0, count)
+        return tuple((name, self.contour_of(i, low + (high - low) * steps)) for i, name, low, high in parts)
+
+    # What is judged
+
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joints at the start and end of its own stroke and of the other stroke, in the order of the turn."""
+        places = ((0.0, _TURN, 3, 0), *((self.starts[i], self.starts[i], i - 1, i) for i in (1, 2, 3)))
+        return tuple(self._joint(*place) for place in places)
+
+    def _joint(self, t: float, t_before: float, before: int, after: int) -> Joint:
+        curve, size = self.cam.curve, self.cam.center_distance
+        states = [self.state(number, np.array([at])) for number, at in ((before, t_before), (after, t))]
+        along = [complex(curve.normal(state)[0]) for state in states]
+        bends = [float(curve.curvature(state)[0]) / size for state in states]
+        radii = [1.0 / bend if bend else math.inf for bend in bends]
+        radius = abs(complex(curve.pitch(states[1])[0])) * size
+        return Joint(t, radius, float(np.angle(along[1] / along[0])), *radii)
+
+    @cached_property
+    def cut(self) -> Undercut:
+        """Deepest cut of the roller, on its way round the turn, into the contour."""
+
+        def points(t: Reals) -> tuple[Points, Points]:
+            return self.pitch(t), self.contour(t)
+
+        return undercut(points, self.cam.roller_radius)
+
+    @cached_property
+    def largest_clearance(self) -> float:
+        """Clearance from which on the free sector's contour crosses itself [mm]; 0 where the roller alone is too large.
+
+        minimum (R - r_p)/share of the clearance there, R the curvature radius where the roller's path bulges
+        """
+        roller = self.cam.roller_radius
+
+        def bend(t: Reals) -> Reals:
+            curvature = self.cam.curve.curvature(self.state(2, t))
+            return np.asarray(np.maximum(0.0, self.cam.sense / self.cam.center_distance * curvature))
+
+        place = self.starts[2], self.starts[3]
+        if roller * maximum_over(bend, *place, samples=128).value >= 1.0:
+            return 0.0
+        worst = maximum_over(lambda t: self._share(t) * bend(t) / (1.0 - roller * bend(t)), *place, samples=128).value
+        return 1.0 / worst if worst > 0.0 else math.inf
+
+    @cached_property
+    def least_radius(self) -> float:
+        """Minimum distance of the contour from the cam axis [mm]."""
+        slot = self.cam.middle_radius - self.cam.sense * self.cam.roller_radius
+
+        def nearness(t: Reals) -> Reals:
+            return np.abs(self.contour_of(2, t))
+
+        free = minimum_over(nearness, self.starts[2], self.starts[3], samples=128).value
+        return min(free, slot, self.rest_radius - self.cam.sense * self.cam.roller_radius)
+
+
+# The whole cycle of a wide-swing mechanism: working stroke, far dwell, return stroke, near dwell, and its cams
+
 
 PHASES = ("working", "far-dwell", "return", "near-dwell")
 

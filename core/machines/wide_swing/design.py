@@ -14,22 +14,22 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.machines.wide_swing import bodies, checks, cycle_checks, remedies
+from gearlink.core.machines.wide_swing import bodies, checks, remedies
 from gearlink.core.machines.wide_swing.motion import Motion
 from gearlink.core.machines.wide_swing.sizing import QUANTITIES, DeviceSize, device_table, names
 from gearlink.core.numerics.motion_extremes import names as extreme_names
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Quantity
-    from gearlink.core.machines.wide_swing.cams.cam import Layout, WideSwingCam
-    from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
-    from gearlink.core.machines.wide_swing.cams.slider_cam import SliderCam
+    from gearlink.core.machines.wide_swing.cam import Layout, WideSwingCam
     from gearlink.core.machines.wide_swing.cycle import WholeCycle
-    from gearlink.core.machines.wide_swing.impact import FlankImpact
-    from gearlink.core.machines.wide_swing.law.iteration import LegacyLaw, MarchedLaw
+    from gearlink.core.machines.wide_swing.law import LegacyLaw, MarchedLaw
+    from gearlink.core.machines.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.machines.wide_swing.parallel import ParallelShafts
+    from gearlink.core.machines.wide_swing.slider import SliderCam
     from gearlink.core.machines.wide_swing.spec import SwingCam, SwingShaft, WideSwingSpec
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
+    from gearlink.core.machines.wide_swing.torques import FlankImpact
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.numerics.periodic import CosineSeries
@@ -232,7 +232,7 @@ def contact_table(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.strokes import middle_of
 
     touching = design.touches(cam, k) & (k != middle_of(cam))
     force = np.full_like(k, np.nan)
@@ -244,7 +244,7 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
     """Torque on the rocker axis with and without the device, over the speed."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.law.balancing import drive_balancing_ratio
+    from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio, speed_sweep
 
     share, spec = _speed_shares(), design.spec
     losses = spec.unloader.residual, design.unloading.size.reserve
@@ -274,7 +274,7 @@ def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
 
 def iteration_table(design: WideSwingDesign, _samples: int | None = None) -> Table:
     """Steps of the source's iteration against its error; with a slider its passes, whose two marches add up to 1."""
-    from gearlink.core.machines.wide_swing.law.iteration import MarchedLaw, legacy_law
+    from gearlink.core.machines.wide_swing.law import MarchedLaw, legacy_law
 
     marched = design.unloading.iteration
     if isinstance(marched, MarchedLaw):
@@ -372,7 +372,7 @@ class Unloading:
     @cached_property
     def iteration(self) -> LegacyLaw | MarchedLaw:
         """The source's own iteration, for comparison; with a slider over the whole stroke."""
-        from gearlink.core.machines.wide_swing.law.iteration import legacy_law, slider_law
+        from gearlink.core.machines.wide_swing.law import legacy_law, slider_law
 
         motion, steps = self.motion, self.spec.iteration_steps
         if self.spec.slider is not None:
@@ -389,7 +389,7 @@ class Unloading:
     @cached_property
     def power_peak(self) -> float:
         """max(b c); with a slider max |m b|, m the torque over J_ref gamma/T^2."""
-        from gearlink.core.machines.wide_swing.law.balancing import power_peak
+        from gearlink.core.machines.wide_swing.torques import power_peak
 
         motion = self.motion
         return power_peak(lambda k: motion.law.invariants(k, 1)[1] * motion.torque(k))
@@ -413,7 +413,7 @@ class Unloading:
 
     @cached_property
     def _torque_series(self) -> CosineSeries:
-        from gearlink.core.machines.wide_swing.torsion import acceleration_series
+        from gearlink.core.machines.wide_swing.torques import acceleration_series
 
         with at_key("shaft"):
             return acceleration_series(self.motion.torque)
@@ -429,7 +429,7 @@ class Unloading:
         Raises
             NoSolution - at the design speed, where the drive is rigid to it
         """
-        from gearlink.core.machines.wide_swing.torsion import STIFFEST, dynamic_coefficient
+        from gearlink.core.machines.wide_swing.torques import STIFFEST, dynamic_coefficient
 
         shaft, found = self._shaft, []
         for ratio in speed_ratios:
@@ -462,7 +462,7 @@ class Unloading:
         """
         import numpy as np
 
-        from gearlink.core.machines.wide_swing.torsion import TorsionResponse
+        from gearlink.core.machines.wide_swing.torques import TorsionResponse
 
         motion, shaft, time = self.motion, self._shaft, self.motion.working_time
         stroke = math.degrees(motion.cycle_angle)
@@ -551,7 +551,7 @@ class Unloading:
         """
         import numpy as np
 
-        from gearlink.core.machines.wide_swing.cams.outline import middle_of
+        from gearlink.core.machines.wide_swing.strokes import middle_of
 
         motion = self.motion
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
@@ -660,9 +660,9 @@ class WideSwingDesign(Design):
         return Unloading(self.spec, self.motion, None if self.spec.drive is None else self._way_back)
 
     def _way_back(self) -> Extreme:
-        from gearlink.core.machines.wide_swing.way_back import need
+        from gearlink.core.machines.wide_swing.oscillating_cam import greatest_need
 
-        return need(self.oscillating_cam)
+        return greatest_need(self.oscillating_cam)
 
     @property
     def phases(self) -> Places:
@@ -708,7 +708,7 @@ class WideSwingDesign(Design):
         return self._even("twin-cam", self.motion.return_angle, None, "return")
 
     def _even(self, layout: Layout, angle: float, rocker_radius: float | None, phase: str) -> WideSwingCam:
-        from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
+        from gearlink.core.machines.wide_swing.cam import WideSwingCam
 
         section, law = self.section, self.motion.plain_law
         lengths = section.center_distance, section.roller_radius, rocker_radius
@@ -728,7 +728,7 @@ class WideSwingDesign(Design):
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
-        from gearlink.core.machines.wide_swing.cams.oscillating_cam import AimedLaw, OscillatingCam
+        from gearlink.core.machines.wide_swing.oscillating_cam import AimedLaw, OscillatingCam
 
         section, motion, drive = self.section, self.motion, self.motion.drive
         law = motion.plain_law if self.spec.slider is None else AimedLaw(motion.slider, drive)
@@ -738,7 +738,7 @@ class WideSwingDesign(Design):
     @cached_property
     def slider_cam(self) -> SliderCam:
         """The cam of a rocker that drives a slider."""
-        from gearlink.core.machines.wide_swing.cams.slider_cam import SliderCam
+        from gearlink.core.machines.wide_swing.slider import SliderCam
 
         section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
         with at_key("cycle_angle"):
@@ -808,7 +808,7 @@ class WideSwingDesign(Design):
     @cached_property
     def start_radius_estimate(self) -> float:
         """R of (23) [mm]."""
-        from gearlink.core.machines.wide_swing.cams.contact import start_radius_estimate
+        from gearlink.core.machines.wide_swing.cam import start_radius_estimate
 
         with self._profile_key:
             return start_radius_estimate(self.even_cam)
@@ -816,7 +816,7 @@ class WideSwingDesign(Design):
     @cached_property
     def middle_radius_estimate(self) -> float:
         """R of (27) [mm]."""
-        from gearlink.core.machines.wide_swing.cams.contact import middle_radius_estimate
+        from gearlink.core.machines.wide_swing.cam import middle_radius_estimate
 
         with self._profile_key:
             return middle_radius_estimate(self.even_cam)
@@ -860,28 +860,28 @@ class WideSwingDesign(Design):
 
     def _force_home(self, k: Reals) -> Reals:
         """The same on the way home, where an oscillating cam stands as at k."""
-        from gearlink.core.machines.wide_swing.way_back import ratio
+        from gearlink.core.machines.wide_swing.oscillating_cam import need_home
 
         cam = self.oscillating_cam
-        return self.unloading.contact_force(cam, k, need=ratio(cam, k))
+        return self.unloading.contact_force(cam, k, need=need_home(cam, k))
 
     @cached_property
     def impact(self) -> FlankImpact:
         """The blow where the roller changes flanks."""
-        from gearlink.core.machines.wide_swing.impact import FlankImpact
+        from gearlink.core.machines.wide_swing.torques import FlankImpact
 
         return FlankImpact(self)
 
     @property
     def end_position_gain(self) -> float:
         """Way at `output_radius` over an error of the profile, in the rests."""
-        from gearlink.core.machines.wide_swing.impact import end_position_gain
+        from gearlink.core.machines.wide_swing.torques import end_position_gain
 
         return end_position_gain(self)
 
     def check_flank_impact(self) -> Iterator[Check]:
         """GL542."""
-        from gearlink.core.machines.wide_swing.impact import flank_impact
+        from gearlink.core.machines.wide_swing.torques import flank_impact
 
         return flank_impact(self)
 
@@ -952,8 +952,8 @@ class WideSwingDesign(Design):
     check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
     check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
     check_side_change, check_transmission_angle = checks.side_change, checks.transmission_angle
-    check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
-    check_profile_planes, check_body_clearance = cycle_checks.profile_planes, bodies.body_clearance
+    check_acceleration_step, check_closed_contour = checks.acceleration_step, checks.closed_contour
+    check_profile_planes, check_body_clearance = checks.profile_planes, bodies.body_clearance
 
     ways = remedies.WAYS
     requirements = Design.requirements | {"swing", "operating_speed_min"}

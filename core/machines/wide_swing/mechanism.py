@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing.cams.outline import middle_of
-from gearlink.core.machines.wide_swing.strokes import strokes_of
+from gearlink.core.machines.wide_swing.strokes import middle_of, strokes_of
 from gearlink.core.mechanism.closures import dyad, slider
 from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.joints import Connection, Coupling, Guide, Mesh, Pin, SharedContact
@@ -26,8 +25,8 @@ from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, standing,
 from gearlink.core.numerics.extremes import share_of
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
     from gearlink.core.machines.wide_swing.slider import SliderDrive
     from gearlink.core.machines.wide_swing.strokes import Stroke
     from gearlink.core.numerics.arrays import Points, Reals

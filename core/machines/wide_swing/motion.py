@@ -11,9 +11,9 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.wide_swing.remedies import drive_repair, slider_repair, with_number
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
-    from gearlink.core.machines.wide_swing.law.device import Device
-    from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+    from gearlink.core.machines.wide_swing.device import Device
+    from gearlink.core.machines.wide_swing.law import ElasticLaw
+    from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
     from gearlink.core.machines.wide_swing.slider import SliderLaw
     from gearlink.core.machines.wide_swing.spec import GravityDevice, SwingSlider, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
@@ -39,7 +39,7 @@ class Motion:
     @cached_property
     def device(self) -> Device:
         """The unloading device, without dimension."""
-        from gearlink.core.machines.wide_swing.law.device import Gravity, Pneumatic, Spring
+        from gearlink.core.machines.wide_swing.device import Gravity, Pneumatic, Spring
 
         unloader = self.spec.unloader
         if unloader.type == "gravity":
@@ -60,7 +60,7 @@ class Motion:
     @cached_property
     def stretch_ratio(self) -> float:
         """eps of a spring, mounting stretch over stroke: as given, or from its free length."""
-        from gearlink.core.machines.wide_swing.law.device import DeviceGeometry, Pneumatic
+        from gearlink.core.machines.wide_swing.device import DeviceGeometry, Pneumatic
         from gearlink.core.machines.wide_swing.sizing import free_stretch
 
         unloader = self.spec.unloader
@@ -74,14 +74,14 @@ class Motion:
     @property
     def usual_pivot_ratio(self) -> float:
         """Minimum pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
-        from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_pneumatic
+        from gearlink.core.machines.wide_swing.device import least_pivot_ratio_pneumatic
 
         return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
 
     @cached_property
     def min_pivot_ratio(self) -> float | None:
         """Minimum pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
-        from gearlink.core.machines.wide_swing.law import device
+        from gearlink.core.machines.wide_swing import device
 
         unloader = self.spec.unloader
         if unloader.type == "gravity":
@@ -100,7 +100,7 @@ class Motion:
     @property
     def least_ratio_of_steel(self) -> float:
         """Minimum pivot ratio between whose pins a spring of steel finds room, whatever its length."""
-        from gearlink.core.machines.wide_swing.law.device import least_pivot_ratio_spring_material
+        from gearlink.core.machines.wide_swing.device import least_pivot_ratio_spring_material
 
         unloader = self.spec.unloader
         assert unloader.type == "spring", "a cylinder has a length"
@@ -113,7 +113,7 @@ class Motion:
     @cached_property
     def plain_law(self) -> ElasticLaw:
         """The law of motion that the device gives a rocker alone."""
-        from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
+        from gearlink.core.machines.wide_swing.law import ElasticLaw
 
         device = self.device
         with at_key("swing"):
@@ -241,7 +241,7 @@ class Motion:
     @cached_property
     def drive(self) -> CrankRockerDrive:
         """The crank-rocker that carries the cam; its refusal names the length to change."""
-        from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
+        from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
         from gearlink.core.parts.linkages.fourbar.position import FourBar
 
         section = self.spec.drive
@@ -302,6 +302,6 @@ class Motion:
         return self._time_of(self.cycle_angle)
 
     def _time_of(self, angle: float) -> float:
-        from gearlink.core.machines.wide_swing.law.balancing import stroke_time
+        from gearlink.core.machines.wide_swing.torques import stroke_time
 
         return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)

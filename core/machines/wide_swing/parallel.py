@@ -20,8 +20,8 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
-    from gearlink.core.machines.wide_swing.cams.closed_cam import ClosedCam
+    from gearlink.core.machines.wide_swing.cam import WideSwingCam
+    from gearlink.core.machines.wide_swing.cycle import ClosedCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.spec import SecondShaft
     from gearlink.core.numerics.arrays import Points, Reals

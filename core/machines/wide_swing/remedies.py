@@ -12,9 +12,9 @@ from gearlink.core.base.spec_paths import changed, number_at
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.spec import SwingDrive, SwingSlider
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 Change: TypeAlias = tuple[str, float | None]
 """A key of the design file and the value that repairs a finding; None: leave the key out."""

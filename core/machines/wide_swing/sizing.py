@@ -12,7 +12,7 @@ from gearlink.core.base.rows import row_numbers
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
-    from gearlink.core.machines.wide_swing.law.device import DeviceGeometry
+    from gearlink.core.machines.wide_swing.device import DeviceGeometry
     from gearlink.core.machines.wide_swing.motion import Motion
     from gearlink.core.machines.wide_swing.spec import GravityDevice, Pneumatic, WideSwingSpec
     from gearlink.core.numerics.arrays import Reals
@@ -71,7 +71,7 @@ class DeviceSize:
 
         P = N J gamma^2/(2 r_d T^2), c = P/r_d; m = kappa J_0/(g s - kappa s^2), kappa = N gamma^2/(2 T^2)
         """
-        from gearlink.core.machines.wide_swing.law import device
+        from gearlink.core.machines.wide_swing import device
 
         motion, unloader = self.motion, self.spec.unloader
         if unloader.type == "gravity":

@@ -369,7 +369,7 @@ class WideSwingSpec(TolerancedSpec):
     slider: SwingSlider | None = None
     shaft: SwingShaft | None = None
     limits: SwingLimits = SwingLimits.model_construct()
-    loads: Annotated[Any, Deferred("machines.wide_swing.loads.spec:SwingLoads")] | None = Field(
+    loads: Annotated[Any, Deferred("machines.wide_swing.loads_spec:SwingLoads")] | None = Field(
         None, description="roller, material and vibration, for the command loads"
     )
 

@@ -1,4 +1,7 @@
-"""A stroke of a wide-swing mechanism: how the rocker turns in it, and where its roller stands on the cam.
+"""The strokes of a wide swing: contour of any of its cams, the roller on it, how the rocker turns.
+
+In the frame of the line of centres, the cam axis at 0 and the rocker's axis at -1 centre distance, with the rocker
+turning counter-clockwise in the stroke.
 
 The world has the cam axis O at 0 and the rocker's axis D on the line of centres; the rocker turns counter-clockwise
 in the working stroke. k is the fraction of the stroke in time; where the roller then stands on the profile is a
@@ -9,21 +12,176 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gearlink.core.machines.wide_swing import way_back
-from gearlink.core.machines.wide_swing.roller import path
+from gearlink.core.machines.wide_swing.cam import CamPoints, WideSwingCam
+from gearlink.core.machines.wide_swing.oscillating_cam import Home, OscillatingCam, crank_angle, way_home
+from gearlink.core.machines.wide_swing.slider import SliderCam
 from gearlink.core.mechanism.rates import Turn
+from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
+    from gearlink.core.machines.wide_swing.cam import CurveState
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
-    from gearlink.core.numerics.arrays import Points, Reals
+
+
+AnyCam = WideSwingCam | OscillatingCam | SliderCam
+
+
+def is_external(cam: AnyCam) -> bool:
+    """Whether the cam's body lies inside its profile."""
+    return isinstance(cam, OscillatingCam) or cam.sense > 0
+
+
+def middle_of(cam: AnyCam) -> float:
+    """Fraction of the stroke at which the roller passes the line of centres."""
+    return 0.5 if isinstance(cam, WideSwingCam) else cam.middle
+
+
+def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
+    """Places of the rocker's pivot in the cam's frame, the cam held still.
+
+    -a e^{i theta} external, a e^{-i theta} internal
+
+    Parameters
+        cam : WideSwingCam or OscillatingCam
+        points : CamPoints - of that cam
+    Returns
+        pivots : (N,) complex array [mm]
+    Example
+        >>> import math
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> cam = WideSwingCam("twin-rocker", law, math.radians(80), 200.0, 4.0)
+        >>> points = cam.points(np.array([0.0, 0.5]))
+        >>> np.abs(points.pitch - rocker_pivots(cam, points)).round(9).tolist()
+        [130.609218127, 130.609218127]
+
+    Source
+        wide-swing dissertation, figures of chapters 3 and 4
+    """
+    sense = 1.0 if is_external(cam) else -1.0
+    pivots: Points = -sense * cam.center_distance * np.exp(1j * sense * points.cam_angle)
+    return pivots
+
+
+def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[Points, Points, Points]:
+    """The cam's contour over the stroke: run-up, slot of the roller at mid-swing, run-out.
+
+    Parameters
+        cam : WideSwingCam or OscillatingCam
+        slot : (float, float) - fractions of the stroke between which the profile is cut away
+        count : int - points of each profile branch
+    Returns
+        run_up, slot, run_out : complex arrays [mm] - each begins where the one before it ends
+    Raises
+        NoSolution - for a profile that does not exist
+    """
+    run_up = cam.points(np.linspace(cam.contact[0][0], slot[0], count)).profile
+    run_out = cam.points(np.linspace(slot[1], cam.contact[1][1], count)).profile
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
+
+
+def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> Points:
+    """Arc of the roller at mid-swing from one contact point to the other, by way of the body."""
+    into_body = -middle / abs(middle) if is_external(cam) else middle / abs(middle)
+    first, last = (float(np.angle((point - middle) / into_body)) for point in (start, end))
+    angles = np.linspace(first, last, 81)
+    result: Points = middle + cam.roller_radius * into_body * np.exp(1j * angles)
+    return result
+
+
+def dwell_arc(cam: AnyCam) -> Points:
+    """The rest of the turn, from the end of the stroke back to its start, about the cam axis.
+
+    Parameters
+        cam : WideSwingCam or OscillatingCam
+    Returns
+        arc : (181,) complex array [mm] - a circle's where the cam turns evenly and the rocker dwells
+    Raises
+        NoSolution - for a profile that does not exist
+    """
+    (begin, _), (_, end) = cam.contact
+    last, first = (complex(z) for z in cam.points(np.array([end, begin])).profile)
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    start, stop = (float(np.angle(z / -middle)) for z in (last, first))
+    share: Reals = np.linspace(0.0, 1.0, 181)
+    radius = abs(last) ** (1.0 - share) * abs(first) ** share
+    result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (stop - start) * share))
+    return result
+
+
+# Where the roller of a wide-swing mechanism stands on its cam, which way that pushes it, and how it goes on
+
+
+class Path(NamedTuple):
+    """The roller at fractions of the stroke.
+
+    Fields
+        arm : (N,) complex array - its centre from the cam axis, in centre distances
+        outward : (N,) complex array - unit vector along which the profile pushes it
+        way : (N,) array - of its centre over the cam, in centre distances per input angle
+        turning : (N,) array - speed of the cam, per input angle
+    """
+
+    arm: Points
+    outward: Points
+    way: Reals
+    turning: Reals
+
+
+def outward(cam: WideSwingCam, state: CurveState) -> Points:
+    """Direction in which the profile pushes the roller, in the frame of the line of centres.
+
+    Notes
+        The body lies on the side of the inward normal of an external profile; at the cusp the limit of the run-up.
+    """
+    gradient = cam.curve.gradient(state)
+    size = np.abs(gradient)
+    cusp = size == 0.0
+    unit = gradient / np.where(cusp, 1.0, size) + np.where(cusp, 1j * cam.sense, 0.0)
+    return np.asarray(-cam.sense * unit)
+
+
+def path(cam: AnyCam, k: Reals, *, resting: bool = False) -> Path:
+    """The roller on any cam of a stroke; `resting`: on the arc beside the stroke of a cam that turns evenly."""
+    if isinstance(cam, OscillatingCam):
+        return _on_rocker(cam, k)
+    return _with_slider(cam, k) if isinstance(cam, SliderCam) else _even(cam, k, resting=resting)
+
+
+def _even(cam: WideSwingCam, k: Reals, *, resting: bool = False) -> Path:
+    state = cam.curve.state(k)
+    if resting:
+        ones = np.ones_like(k)
+        state = replace(state, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
+    arm = -((1.0 - cam.ratio) + cam.ratio * state.s) + 1j * cam.ratio * np.sin(state.psi)
+    return Path(arm, outward(cam, state), np.abs(cam.curve.gradient(state)), np.ones_like(k))
+
+
+def _with_slider(cam: SliderCam, k: Reals) -> Path:
+    """Each half on the symmetric cam that it is half of; the run-out, taken backwards in time, is its mirror image."""
+    found = Path(*np.empty((2, *k.shape), dtype=np.complex128), *np.empty((2, *k.shape)))
+    for number, (half, rows, own) in enumerate(cam.split(k)):
+        at = _even(half, own[rows])
+        for whole, part in zip(found, at, strict=True):
+            whole[rows] = part.conj() if number else part
+    return found
+
+
+def _on_rocker(cam: OscillatingCam, k: Reals) -> Path:
+    """The body lies left of the roller's way over it."""
+    step, span = cam.step(k), cam.cycle_angle
+    return Path(step.arm, -1j * step.along, np.abs(step.first) / span, step.chi[1] / span)
+
+
+# A stroke of a wide-swing mechanism: how the rocker turns in it, and where its roller stands on the cam
+
 
 Parts: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
@@ -126,9 +284,9 @@ class WayHome(Stroke):
         """It is the same cam that goes back."""
         return False
 
-    def _home(self, k: Reals, order: int = 2) -> way_back.Home:
+    def _home(self, k: Reals, order: int = 2) -> Home:
         """The cam there; at both ends, where the profile bends without bound, it stands at the stop itself."""
-        at = way_back.home(self.cam, self.start + k * self.width, order)
+        at = way_home(self.cam, self.start + k * self.width, order)
         return at._replace(k=np.where(k == 0.0, 1.0, np.where(k == 1.0, 0.0, at.k)))
 
     def profile(self, k: Reals) -> tuple[Reals, Reals]:
@@ -138,7 +296,7 @@ class WayHome(Stroke):
 
     def at_profile(self, place: float) -> float:
         """Fraction k of the way home at which the cam stands at a place of the stroke."""
-        turned = float(way_back.crank_angle(self.cam, np.array([place]))[0])
+        turned = float(crank_angle(self.cam, np.array([place]))[0])
         return (turned - self.start) / self.width
 
     def turn(self, k: Reals, order: int) -> Turn:

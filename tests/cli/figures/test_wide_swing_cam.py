@@ -112,7 +112,7 @@ def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: st
 
 
 def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
-    from gearlink.core.machines.wide_swing.cams.outline import contour, dwell_arc
+    from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc
 
     for name in ("twin_cam", "twin_rocker"):
         made = design(f"wide_swing_{name}", command="cam")

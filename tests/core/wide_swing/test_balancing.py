@@ -17,14 +17,14 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.balancing import (
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, force
+from gearlink.core.machines.wide_swing.torques import (
     drive_balancing_ratio,
     inertia_torque_peak,
     power_peak,
     speed_sweep,
     stroke_time,
 )
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, force
 
 ROUNDING = 1e-14
 CASES = {

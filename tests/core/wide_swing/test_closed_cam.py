@@ -18,7 +18,7 @@ import pytest
 from factory import changed, design, worked
 from pydantic import ValidationError
 
-from gearlink.core.machines.wide_swing.cams.closed_cam import ClosedCam
+from gearlink.core.machines.wide_swing.cycle import ClosedCam
 
 TURN = 2.0 * math.pi
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())

@@ -15,9 +15,14 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.cams.cam import Layout, WideSwingCam
-from gearlink.core.machines.wide_swing.cams.contact import contact_end, middle_radius_estimate, start_radius_estimate
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.cam import (
+    Layout,
+    WideSwingCam,
+    contact_end,
+    middle_radius_estimate,
+    start_radius_estimate,
+)
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
 
 CASES = {
     case["id"]: case["outputs_float"]

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import (
+from gearlink.core.machines.wide_swing.device import (
     DeviceGeometry,
     Pneumatic,
     Spring,

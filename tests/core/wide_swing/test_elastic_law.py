@@ -29,8 +29,8 @@ from oracles.unloading_limits import (
 from sweeps import examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import Device
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring, least_pivot_ratio_pneumatic
+from gearlink.core.machines.wide_swing.device import Device
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring, least_pivot_ratio_pneumatic
 from gearlink.core.numerics.extremes import maximum_over
 
 LAW, PEAK, NEAR_ONE = 1e-14, 1e-15, 1e-12

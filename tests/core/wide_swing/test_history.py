@@ -17,8 +17,8 @@ from scipy.integrate import solve_ivp
 from sweeps import examples
 
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
-from gearlink.core.machines.wide_swing.impact import crossing_time
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
+from gearlink.core.machines.wide_swing.torques import crossing_time
 
 CYLINDER = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0, "reserve": 0.24, "residual": 0.02}
 CAM = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}

@@ -12,9 +12,8 @@ import pytest
 from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.device import Device, Pneumatic, Spring
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
-from gearlink.core.machines.wide_swing.law.iteration import legacy_law
+from gearlink.core.machines.wide_swing.device import Device, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw, legacy_law
 
 DEVICES = [(Pneumatic(2.5), 120.0), (Spring(4.0, 0.5), 180.0), (Pneumatic(5.3), 300.0), (Spring(2.0, 0.0), 60.0)]
 

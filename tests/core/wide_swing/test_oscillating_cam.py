@@ -18,9 +18,8 @@ import pytest
 from oracles.unloading_limits import pendulum_stretch_ratio
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.cams.oscillating_cam import OscillatingCam
-from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive, OscillatingCam
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 EXPECTED = next(

@@ -19,9 +19,8 @@ from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
-from gearlink.core.machines.wide_swing.law.device import Gravity, Pneumatic, Spring
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw
-from gearlink.core.machines.wide_swing.law.iteration import legacy_law, slider_law
+from gearlink.core.machines.wide_swing.device import Gravity, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.law import ElasticLaw, legacy_law, slider_law
 from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
 

@@ -15,14 +15,13 @@ import pytest
 from factory import design
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.cams.cam import WideSwingCam
-from gearlink.core.machines.wide_swing.cams.slider_cam import HalfLaw, SliderCam
+from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
-from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+from gearlink.core.machines.wide_swing.oscillating_cam import crank_angle, way_home
+from gearlink.core.machines.wide_swing.oscillating_cam import need_home as way_home_ratio
+from gearlink.core.machines.wide_swing.slider import HalfLaw, SliderCam, SliderDrive, SliderLaw
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
-from gearlink.core.machines.wide_swing.way_back import crank_angle, home
-from gearlink.core.machines.wide_swing.way_back import ratio as way_home_ratio
 
 GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
 DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))
@@ -239,11 +238,11 @@ def test_way_home_of_rocker_and_slider() -> None:
     turned = crank_angle(cam, k)
 
     def energy(angle: Any) -> Any:
-        at = home(cam, angle)
+        at = way_home(cam, angle)
         return 0.5 * motion.kinetic(at.k) * at.first**2
 
     def share(angle: Any) -> Any:
-        return motion.law.invariants(home(cam, angle).k, 0)[0]
+        return motion.law.invariants(way_home(cam, angle).k, 0)[0]
 
     # torque is the slope of the energy of motion over the rocker's angle
     work = (energy(turned + step) - energy(turned - step)) / (share(turned + step) - share(turned - step))

@@ -16,8 +16,8 @@ import pytest
 from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
-from gearlink.core.machines.wide_swing.torsion import TorsionResponse, acceleration_series, dynamic_coefficient
+from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.machines.wide_swing.torques import TorsionResponse, acceleration_series, dynamic_coefficient
 
 EXPECTED = next(
     case["outputs_float"]

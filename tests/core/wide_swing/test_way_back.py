@@ -11,8 +11,8 @@ import pytest
 
 from gearlink.core.base.spec_paths import replaced
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.oscillating_cam import greatest_need, need_home
 from gearlink.core.machines.wide_swing.remedies import candidates
-from gearlink.core.machines.wide_swing.way_back import need, ratio
 
 SHORT = {"drive__crank": 60.0, "drive__coupler": 180.0, "drive__frame": 192.0, "unloader__reserve": 0.25}
 
@@ -59,16 +59,17 @@ def test_acceleration_on_the_way_back(assembly: int, way: str) -> None:
         angles = [rocker(crank + step) for step in (-h, 0.0, h)]
         home = (angles[0] - 2.0 * angles[1] + angles[2]) / h**2
         forth = cam.law.swing * float(cam.law.middle_view(np.array([k])).acceleration[0]) / span**2
-        assert float(ratio(cam, np.array([k]))[0]) == pytest.approx(home / forth, abs=2e-4)
+        assert float(need_home(cam, np.array([k]))[0]) == pytest.approx(home / forth, abs=2e-4)
 
 
 def test_the_way_back_is_judged() -> None:
     """With a quarter in reserve the roller left its cam on the way home above 34 rev/min; the design of 60 passed."""
     design = made()
     (check,) = design.check("force-reserve")
-    most = float(ratio(design.oscillating_cam, np.linspace(0.001, design.oscillating_cam.contact[0][1], 1001)).max())
+    early = np.linspace(0.001, design.oscillating_cam.contact[0][1], 1001)
+    most = float(need_home(design.oscillating_cam, early).max())
     late = np.linspace(design.oscillating_cam.contact[1][0], 0.999, 1001)
-    most = max(most, float(ratio(design.oscillating_cam, late).max()))
+    most = max(most, float(need_home(design.oscillating_cam, late).max()))
     assert (check.status, check.code) == ("fail", "GL511")
     assert check.value == pytest.approx(60.0 * math.sqrt(1.25 / most), rel=1e-4)
     assert check.value == pytest.approx(34.157, abs=1e-3)
@@ -79,7 +80,7 @@ def test_the_way_back_is_judged() -> None:
 
 def test_long_links_make_both_ways_alike() -> None:
     design = made(drive__crank=20.0, drive__coupler=2000.0, drive__frame=2001.0, cam__roller_radius=2.0)
-    assert need(design.oscillating_cam).value == pytest.approx(1.0, abs=0.05)
+    assert greatest_need(design.oscillating_cam).value == pytest.approx(1.0, abs=0.05)
     assert factory.design("wide_swing_oscillating_cam").check("force-reserve")[0].status == "pass"
 
 
@@ -90,6 +91,6 @@ def test_greatest_force_is_that_of_both_ways() -> None:
     grids = [np.linspace(low, high, 801)[1:-1] for low, high in cam.contact]
     forth = max(float(design.unloading.contact_force(cam, k).max()) for k in grids)
     inertia = [design.unloading.contact_force(cam, k, 0.0) / 1.7 for k in grids]  # device alone, less its reserve
-    home = max(float((part * (1.7 - ratio(cam, k))).max()) for part, k in zip(inertia, grids, strict=True))
+    home = max(float((part * (1.7 - need_home(cam, k))).max()) for part, k in zip(inertia, grids, strict=True))
     assert home > 1.08 * forth
     assert design.contact_force == pytest.approx(home, rel=1e-4)

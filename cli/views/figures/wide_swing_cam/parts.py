@@ -11,8 +11,8 @@ from gearlink.core.base.errors import NoSolution
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 _DASHED: Any = (0, (5, 3))
 _DOTTED: Any = (0, (1, 2))
@@ -77,7 +77,7 @@ def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
 def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import contour, dwell_arc, is_external
+    from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc, is_external
 
     run_up, bottom, run_out = contour(cam, design.slot_of(cam))
     edge = np.concatenate((run_up, bottom, run_out))
@@ -104,7 +104,7 @@ def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
     """Arcs and free sector of a closed contour, in the frame of the cam's own stroke."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import is_external
+    from gearlink.core.machines.wide_swing.strokes import is_external
 
     closed = design.cycle.back if cam is design.return_cam or mirror < 0.0 else design.cycle.main
     rest = np.concatenate([points for _, points in closed.outline()[3:]])
@@ -142,7 +142,7 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
     axes.plot(
         *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
     )
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.strokes import middle_of
 
     middle = middle_of(cam)
     zone = min(cam.transition_zone, middle, 1.0 - middle)
@@ -154,7 +154,7 @@ def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     """The rocker at start, mid-swing and end as the cam sees it."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of, rocker_pivots
+    from gearlink.core.machines.wide_swing.strokes import middle_of, rocker_pivots
 
     points = cam.points(np.array([0.0, middle_of(cam), 1.0]))
     pivots = rocker_pivots(cam, points)
@@ -200,7 +200,7 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
 
 
 def _zone(axes: Axes, design: WideSwingDesign) -> None:
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.strokes import middle_of
 
     zone, middle = min(0.5, max(cam.transition_zone for cam in design.cams.values())), middle_of(design.cam)
     axes.axvspan(middle - zone, middle + zone, color=ZONE, linewidth=0, zorder=0)
@@ -211,7 +211,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     import numpy as np
 
     from gearlink.cli.views.figures.drawing.ticks import powers_of_ten
-    from gearlink.core.machines.wide_swing.cams.outline import is_external
+    from gearlink.core.machines.wide_swing.strokes import is_external
 
     stroke_axis(axes, design, "radius [mm]")
     axes.set_yscale("log")

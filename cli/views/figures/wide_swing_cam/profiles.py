@@ -20,10 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.machines.wide_swing.cams.closed_cam import ClosedCam
-    from gearlink.core.machines.wide_swing.cams.outline import AnyCam
-    from gearlink.core.machines.wide_swing.cycle import WholeCycle
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
+    from gearlink.core.machines.wide_swing.strokes import AnyCam
 
 _SHADES = (style.BLUE, style.LIGHT, style.GREEN, style.LIGHT)
 _PARTS: dict[str, tuple[str, float]] = {
@@ -69,7 +67,7 @@ def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float)
     """The slot that the roller needs at mid-swing, enlarged."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import middle_of
+    from gearlink.core.machines.wide_swing.strokes import middle_of
 
     start, end = design.slot_of(cam)
     cam_panel(axes, design, "Slot at mid-swing", cam, mirror)

@@ -1,4 +1,4 @@
-"""Unloading devices of a wide-swing rocker: geometry, energy, sizing, and the minimum pivot ratio that can be built.
+"""The unloading device of a wide swing without dimension: cylinder, spring, pendulum; energy, least pivot ratio.
 
 A tension device (pneumatic cylinder of constant force, or spring) joins a pin on the rocker at radius r_d to a
 base pin at a_d from the pivot; pins and pivot are collinear at mid-swing, where the device is shortest.

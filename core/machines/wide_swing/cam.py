@@ -1,10 +1,20 @@
-"""Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile."""
+"""The cam of a wide swing that turns evenly: pitch curve, contact with the roller, profile.
+
+With sigma = +1 for the twin-cam (cam and rocker turn against each other) and -1 for the twin-rocker (they turn
+together), the signed radius ratio lambda = sigma r/a and rocker angle psi = sigma phi give the pitch curve
+w = e^{i theta} (-1 + lambda e^{i psi}); the twin-rocker's is -conj(w).
+
+About mid-swing the pitch curve is a cusp, and all that vanishes there is formed from the products
+e = 1 - lambda A with A = 1 + dpsi/dtheta, and s = 1 - cos psi, never from differences.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
+from functools import partial
+from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 
@@ -12,15 +22,327 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
-from gearlink.core.machines.wide_swing.cams.contact import (
-    contact_end,
-    fitting_roller,
-    middle_step,
-    roller_before_middle,
-)
-from gearlink.core.machines.wide_swing.cams.curve import PitchCurve, StrokeLaw
+from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.roots import bracketed_root
+
+
+class StrokeLaw(Protocol):
+    """What a cam needs of the rocker's law of motion; `ElasticLaw` has it."""
+
+    @property
+    def swing(self) -> float: ...
+    @property
+    def velocity_peak(self) -> float: ...
+    @property
+    def middle_jerk(self) -> float: ...
+    def middle_view(self, k: Reals) -> MiddleView: ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CurveState:
+    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made."""
+
+    k: Reals
+    theta: Reals
+    psi: Reals
+    a: Reals  # A = 1 + dpsi/dtheta
+    e: Reals
+    s: Reals
+    second: Reals  # d2 psi/dtheta2
+
+
+@dataclass(frozen=True, slots=True)
+class PitchCurve:
+    """Pitch curve, normal, curvature and pressure angle over the stroke, in centre distances.
+
+    Parameters
+        law : StrokeLaw - law of motion of the rocker
+        cycle_angle : float [rad] - phi_ud, cam angle of the stroke
+        sense : int - sigma, +1 twin-cam, -1 twin-rocker
+        ratio : float - signed lambda = sigma r/a
+        middle_gap : float - e at mid-swing, 0 with the rocker radius of (18), (24)
+    Source
+        wide-swing dissertation, chapter 3 and (26); curvature and product forms: own derivation
+    """
+
+    law: StrokeLaw
+    cycle_angle: float
+    sense: int
+    ratio: float
+    middle_gap: float
+
+    def state(self, k: Reals) -> CurveState:
+        """The state at fractions k of the stroke."""
+        view = self.law.middle_view(k)
+        speed_ratio = self.law.swing / self.cycle_angle
+        turn = self.sense * speed_ratio
+        return CurveState(
+            k=k,
+            theta=(k - 0.5) * self.cycle_angle,
+            psi=self.sense * view.angle,
+            a=1.0 + turn * view.velocity,
+            e=self.middle_gap + abs(self.ratio) * speed_ratio * view.deficit,
+            s=2.0 * np.sin(0.5 * view.angle) ** 2,
+            second=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
+        )
+
+    def correction(self, state: CurveState) -> Reals:
+        """beta, polar angle of the roller centre against the centre line."""
+        ratio = self.ratio
+        return np.arctan2(ratio * np.sin(state.psi), (1.0 - ratio) + ratio * state.s)
+
+    def pitch(self, state: CurveState) -> Points:
+        """w, the roller centre in the cam's frame."""
+        ratio = self.ratio
+        arm = -((1.0 - ratio) + ratio * state.s) + 1j * ratio * np.sin(state.psi)
+        result: Points = np.exp(1j * state.theta) * arm
+        return result
+
+    def gradient(self, state: CurveState) -> Points:
+        """g = 1 - lambda A e^{i psi}, along the inward normal in the centre line's frame."""
+        pull = self.ratio * state.a
+        result: Points = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
+        return result
+
+    def normal(self, state: CurveState) -> Points:
+        """Unit normal with an inward radial part; at the cusp the limit of the run-up."""
+        g = self.gradient(state)
+        size = np.abs(g)
+        cusp = size == 0.0
+        unit = g / np.where(cusp, 1.0, size) + np.where(cusp, 1j * self.sense, 0.0)
+        result: Points = np.exp(1j * state.theta) * unit
+        return result
+
+    def curvature(self, state: CurveState) -> Reals:
+        """Curvature times centre distance, positive with the centre towards the cam axis, infinite at the cusp."""
+        ratio, a = self.ratio, state.a
+        turn = state.e * (1.0 - ratio * a * a) + state.s * ratio * a * (1.0 + a)
+        turn = turn - ratio * state.second * np.sin(state.psi)
+        size = np.abs(self.gradient(state)) ** 3
+        cusp = size == 0.0
+        return np.where(cusp, self.sense * math.inf, turn / np.where(cusp, 1.0, size))
+
+    def pressure_angle(self, state: CurveState) -> Reals:
+        """delta from tan delta = (lambda A - cos phi)/sin phi."""
+        sine = np.sin(self.sense * state.psi)
+        return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
+
+    def loop_measure(self, state: CurveState) -> Reals:
+        """(dTheta/dtheta) rho^2/(1 - cos phi) = (1 - lambda) e/s + lambda (1 + A), away from mid-swing."""
+        result: Reals = (1.0 - self.ratio) * state.e / state.s + self.ratio * (1.0 + state.a)
+        return result
+
+
+# Contact of a wide-swing roller about mid-swing: its exact end, and the dissertation's estimates of curvature
+
+
+Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
+
+_SMALLEST = 1e-4
+"""Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
+_SHRINK = 0.7
+_SETTLED = 1e-13
+_BESIDE = 0.01
+"""Share of the way to mid-swing below which a step is too short to tell the bend between its ends."""
+_KNOWN = 1e-16
+"""Fractions of the stroke are known no better."""
+
+
+def covered(step: Step, roller_radius: float, far: float, estimate: float | None, noise: float = 0.0) -> float:
+    """Part of the stroke beside a stop of the pitch curve over which the roller, standing there, covers the profile.
+
+    |z + r_p n - z(stop)| = r_p
+
+    Parameters
+        step : function of parts t of the stroke from the stop, an array - lengths of the pitch point's way from the
+            stop, and their components against the profile's normal [mm]
+        roller_radius : float [mm]
+        far : float - t at which the profile must be free
+        estimate : float or None - leading order at a cusp; None where the pitch curve runs smoothly
+        noise : float - rounding of t times t, where steps are differences of places
+    Returns
+        t : float - 0 where nothing is covered
+    Raises
+        NoSolution - where the profile is covered as far as `far`
+    Notes
+        At a cusp t has a relative error of at most 1e-7, at t = 1e-4.
+    """
+    if estimate is not None and estimate < _SMALLEST:
+        return estimate
+
+    def clearance(t: Reals) -> Reals:
+        length, depth = step(t)
+        room: Reals = length * length - 2.0 * roller_radius * depth
+        return room
+
+    nearest = min(_SHRINK * far, 0.01 * (_SMALLEST if estimate is None else estimate))
+    t: Reals = np.float64(far) * np.power(_SHRINK, np.arange(math.ceil(math.log(nearest / far, _SHRINK)) + 1))
+    room = clearance(t)
+    if room[0] <= 0.0:
+        most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
+        raise NoSolution(
+            (f"roller radius {roller_radius:.6g} mm: where the roller stands still it covers the whole profile"),
+            fix=f"make it less than {safely_below(most)} mm, or the centre distance larger",
+        )
+    within = np.flatnonzero(room < 0.0)
+    if not within.size:
+        return 0.0
+    (low, high), ends = (rows[[within[0], within[0] - 1]].tolist() for rows in (t, room))
+    known = _KNOWN + noise / low
+    return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known, ends=ends)
+
+
+def fitting_roller(length: float, depth: float) -> float:
+    """Radius of the roller that is just free of the profile after a step from its stop [mm]; infinite where all are.
+
+    r_p = |d|^2/(-2 d n)
+
+    Parameters
+        length, depth : float [mm] - |d| and -d n of the step
+    """
+    return length * length / (2.0 * depth) if depth > 0.0 else math.inf
+
+
+def contact_end(cam: WideSwingCam) -> float:
+    """Fraction of the stroke where the roller leaves the profile, whose rest its slot at mid-swing has cut away.
+
+    Parameters
+        cam : WideSwingCam
+    Returns
+        k : float - at most 1/2; the mirror image 1 - k is where contact begins again
+    Raises
+        NoSolution - where the roller at mid-swing covers the start of the profile, or the pitch curve has a loop
+    Notes
+        With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
+        roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing.
+    Example
+        >>> from gearlink.core.machines.wide_swing.cam import WideSwingCam
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(contact_end(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
+        0.462338155
+    """
+    smooth = cam.rocker_radius < cam.nominal_rocker_radius
+    estimate = None if smooth else cam.transition_zone_estimate
+    end = 0.5 - covered(partial(middle_step, cam), cam.roller_radius, 0.5, estimate)
+    return _cut_on_the_way(cam, end) if smooth and end < 0.5 else end
+
+
+def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
+    """Where the profile of a smooth bend ends, which the roller on its way to mid-swing cuts deeper than at rest."""
+
+    def room(k: float) -> float:
+        return roller_before_middle(cam, k) - cam.roller_radius
+
+    high, low = end, _SHRINK * end
+    while room(low) <= 0.0 and low > _SMALLEST:
+        high, low = low, _SHRINK * low
+    return bracketed_root(room, low, high, tolerance=_SETTLED) if room(high) < 0.0 < room(low) else high
+
+
+def roller_before_middle(cam: WideSwingCam, k: float) -> float:
+    """Largest roller that leaves the profile at k free on the rest of its way to mid-swing [mm].
+
+    r_p = min over t of |d|^2/(-2 d n), d = z(k) - z(t), k < t <= 1/2
+
+    Parameters
+        cam : WideSwingCam
+        k : float - below 1/2
+    Returns
+        r_p : float [mm] - infinite where every roller does
+    """
+    here = cam.curve.state(np.array([k]))
+    place, normal = cam.curve.pitch(here)[0], cam.sense * np.conj(cam.curve.normal(here)[0])
+
+    def needed(part: Reals) -> Reals:
+        step = place - cam.curve.pitch(cam.curve.state(k + (0.5 - k) * part))
+        found: Reals = -2.0 * (step * normal).real / np.abs(step) ** 2
+        return found
+
+    bend = maximum_over(needed, _BESIDE, 1.0, samples=256).value
+    return cam.center_distance / bend if bend > 0.0 else math.inf
+
+
+def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:
+    """Lengths of the pitch point's steps to mid-swing from t before it, and their parts along the profile's normal
+    [mm]."""
+    state = cam.curve.state(0.5 - t)
+    # z(k) - z(1/2) in terms that vanish at mid-swing, each of them exact
+    half = np.exp(0.5j * state.theta)
+    turned = -2j * np.sin(0.5 * state.theta) * half * (1.0 - cam.ratio)
+    step = turned + cam.ratio * half * half * (1j * np.sin(state.psi) - state.s)
+    size = cam.center_distance
+    return size * np.abs(step), -size * cam.sense * (step * np.conj(cam.curve.normal(state))).real
+
+
+def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:
+    """The dissertation's estimate of the curvature radius at the start of the stroke.
+
+    R = (rho0^2 + rho1^2 - 2 rho0 rho1 cos M)/(2 (rho0 - rho1 cos M)), M = Theta(k) - Theta(0)
+
+    Parameters
+        cam : WideSwingCam
+        k : float - the second point of the circle, the dissertation's is 0.1
+    Returns
+        R : float [mm] - negative with the centre away from the cam axis
+    Raises
+        NoSolution - for a profile that does not exist
+    Notes
+        A circle centred on the first radius; 3 % above to 11 % below `start_curvature_radius` for a twin-cam,
+        no use for a twin-rocker.
+    Example
+        >>> from gearlink.core.machines.wide_swing.cam import WideSwingCam
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(start_radius_estimate(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
+        91.984628813
+
+    Source
+        wide-swing dissertation (23)
+    """
+    points = cam.points(np.array([0.0, k]))
+    start, other = (float(x) for x in np.abs(points.pitch))
+    versed = 2.0 * math.sin(0.5 * float(points.polar_angle[1] - points.polar_angle[0])) ** 2
+    drop = start - other
+    return (drop * drop + 2.0 * start * other * versed) / (2.0 * (drop + other * versed))
+
+
+def middle_radius_estimate(cam: WideSwingCam, k: float = 0.45) -> float:
+    """The dissertation's estimate of the curvature radius at mid-swing.
+
+    R = (rho_k^2 + rho_m^2 - 2 rho_k rho_m cos M)/(2 rho_k sin M), M = |Theta(k)|
+
+    Parameters
+        cam : WideSwingCam
+        k : float - the second point of the circle, the dissertation's is 0.45
+    Returns
+        R : float [mm]
+    Raises
+        NoSolution - for a profile that does not exist
+    Notes
+        The circle tangent to the radial line at mid-swing. The true radius falls to zero there; this is 3/8 of the
+        true one at k, and equal to it near k = 0.481.
+    Example
+        >>> from gearlink.core.machines.wide_swing.cam import WideSwingCam
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(middle_radius_estimate(WideSwingCam("twin-rocker", law, math.radians(80), 200.0, 4.0)), 9)
+        4.696585663
+
+    Source
+        wide-swing dissertation (27)
+    """
+    points = cam.points(np.array([k]))
+    rho, angle = abs(complex(points.pitch[0])), abs(float(points.polar_angle[0]))
+    drop, middle = rho - cam.middle_radius, cam.middle_radius
+    square = drop * drop + 4.0 * rho * middle * math.sin(0.5 * angle) ** 2
+    return square / (2.0 * rho * math.sin(angle))
+
+
+# Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile
+
 
 LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
 
@@ -70,7 +392,7 @@ class WideSwingCam:
         With the r of (18), (24) the roller centre passes the velocity pole at mid-swing: the pressure angle is
         zero there and the pitch curve has a cusp, rho - rho_mid = p t^2, tangential q t^3.
     Example
-        >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> cam = WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)
         >>> round(cam.rocker_radius, 9), round(math.degrees(cam.phase_angle), 9)
@@ -350,7 +672,7 @@ class WideSwingCam:
             run-up. The profile points between the two parts of `contact` are cut away by the slot that the
             roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13 up to the cusp itself.
         Example
-            >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+            >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
             >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
             >>> points = WideSwingCam("twin-cam", law, math.radians(120), 1.0, 0.04).points(np.array([0.25]))
             >>> points.profile.round(9).tolist()

@@ -1,4 +1,4 @@
-"""Oscillating cam of a wide-swing mechanism: the cam rides on the rocker of a crank-rocker.
+"""A cam on the rocker of a crank-rocker: the drive, the profile, and the way home over it.
 
 The cam does not turn evenly but swings by chi(k) between the dead centres of the crank-rocker while its crank
 turns evenly; the wide-swing rocker follows its law of motion over the same stroke.
@@ -9,20 +9,118 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.wide_swing.cams.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
-from gearlink.core.machines.wide_swing.cams.contact import covered, fitting_roller
-from gearlink.core.machines.wide_swing.cams.curve import StrokeLaw
-from gearlink.core.machines.wide_swing.crank_rocker import CrankRockerDrive
-from gearlink.core.machines.wide_swing.law.elastic_law import MiddleView
+from gearlink.core.base.wording import short
+from gearlink.core.machines.wide_swing.cam import (
+    LEAST_SPEED_RATIO,
+    CamPoints,
+    StrokeLaw,
+    covered,
+    fitting_roller,
+    too_small_swing,
+)
+from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.machines.wide_swing.slider import SliderLaw
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.extremes import Extreme, maximum_over
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.sweep import solve
+
+
+@dataclass(frozen=True)
+class CrankRockerDrive:
+    """Swing of a cam on the rocker of a crank-rocker, from one dead centre to the other.
+
+    Parameters
+        linkage : FourBar - a crank-rocker
+        outward : bool - True from the extended to the folded dead centre, False back
+    Raises
+        NoSolution - for a linkage that is no crank-rocker
+    Example
+        >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
+        >>> [round(math.degrees(x), 6) for x in (*drive.crank_angles, drive.swing)]
+        [36.419914, 210.75352, 47.643195]
+
+    Source
+        wide-swing dissertation, chapter 4, combined cam mechanisms; own derivation
+    """
+
+    linkage: FourBar
+    outward: bool = True
+
+    def __post_init__(self) -> None:
+        kind = self.linkage.kind()
+        if kind != "crank-rocker":
+            bar = self.linkage
+            shortest, p, q, longest = sorted((bar.crank, bar.coupler, bar.rocker, bar.frame))
+            found = "the four links cannot be assembled" if kind == "impossible" else f"the drive is a {kind}"
+            wrong = f"crank {short(bar.crank)} mm is not the shortest link"
+            if shortest + longest >= p + q:
+                wrong = f"Grashof: {short(shortest)} + {short(longest)} mm against {short(p)} + {short(q)} mm"
+            raise NoSolution(f"{found}, not a crank-rocker ({wrong})", fix="change the link lengths")
+
+    @cached_property
+    def crank_angles(self) -> tuple[float, float]:
+        """Crank angles at the start and the end of the stroke [rad]."""
+        bar = self.linkage
+        side = float(bar.assembly)
+        extended = side * self._base_angle(bar.coupler + bar.crank)
+        folded = side * self._base_angle(bar.coupler - bar.crank) + math.pi
+        first, last = (extended, folded) if self.outward else (folded, extended)
+        return first, first + math.fmod(last - first + 4.0 * math.pi, 2.0 * math.pi)
+
+    def _base_angle(self, reach: float) -> float:
+        """Angle at the crank pivot of the triangle reach, frame, rocker."""
+        bar = self.linkage
+        over = (bar.rocker - bar.frame + reach) * (bar.rocker + bar.frame - reach)
+        under = (bar.frame + reach - bar.rocker) * (bar.frame + reach + bar.rocker)
+        return 2.0 * math.atan(math.sqrt(over / under))
+
+    @property
+    def crank_span(self) -> float:
+        """Crank angle of the stroke [rad]; not a half turn in general."""
+        return self.crank_angles[1] - self.crank_angles[0]
+
+    @cached_property
+    def _middle(self) -> tuple[float, float]:
+        """Rocker angle at k = 1/2, and the sign of its velocity."""
+        middle = solve(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
+        return float(middle.rocker_angle[0]), math.copysign(1.0, float(middle.rocker_velocity[0]))
+
+    @property
+    def rising(self) -> float:
+        """+1 where the rocker turns counter-clockwise in the stroke, else -1."""
+        return self._middle[1]
+
+    def motion(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
+        """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives with respect to k.
+
+        Parameters
+            k : (N,) array - fraction of the stroke
+            order : int - 0 to 3
+        Returns
+            rates : tuple of order + 1 (N,) arrays [rad] - chi and its derivatives
+        """
+        sweep = solve(self.linkage, self.crank_angles[0] + k * self.crank_span, order, velocity=self.crank_span)
+        place, sign = self._middle
+        rates = (sweep.rocker_velocity, sweep.rocker_acceleration, sweep.rocker_jerk)[:order]
+        return (sign * (sweep.rocker_angle - place), *(sign * rate for rate in rates))
+
+    @property
+    def swing(self) -> float:
+        """Swing of the cam [rad]."""
+        ends = self.motion(np.array([0.0, 1.0]))[0]
+        return float(ends[1] - ends[0])
+
+
+# Oscillating cam of a wide-swing mechanism: the cam rides on the rocker of a crank-rocker
+
 
 _STOP = 1e-4
 """Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
@@ -147,7 +245,7 @@ class OscillatingCam:
         third derivative of the cam's motion leaves its curvature without bound.
     Example
         >>> from gearlink.core.parts.linkages.fourbar.position import FourBar
-        >>> from gearlink.core.machines.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+        >>> from gearlink.core.machines.wide_swing.law import ElasticLaw, Pneumatic
         >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
         >>> cam = OscillatingCam(drive, ElasticLaw(Pneumatic(2.5), math.radians(120)), 1.0, 0.02)
         >>> round(cam.rocker_radius, 12), round(math.degrees(cam.middle_pressure_angle), 9)
@@ -459,3 +557,118 @@ class OscillatingCam:
         across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
         side = np.where(along < 0.0, -1.0, 1.0)
         return np.where(k == self.middle, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))
+
+
+# The way home of an oscillating cam: its crank goes on evenly, and the profile leads the rocker back
+
+
+_TURN = 2.0 * np.pi
+
+
+class Home(NamedTuple):
+    """Where the cam stands on its way home, and how it goes on.
+
+    Fields
+        k : (N,) array - fraction of the stroke at which it stood there, from 1 to 0
+        first, second, third : (N,) arrays - derivatives of k by the crank angle; the third empty unless asked for
+    """
+
+    k: Reals
+    first: Reals
+    second: Reals
+    third: Reals
+
+
+def way_home(cam: OscillatingCam, turned: Reals, order: int = 2) -> Home:
+    """The cam at crank angles of its way home.
+
+    psi(k) = 2 arg C - psi,  psi'(k) = 2 Im(C'/C) - 1,  psi''(k) = 2 Im(C''/C - (C'/C)^2)
+    psi'''(k) = 2 Im(C'''/C - 3 C'' C'/C^2 + 2 (C'/C)^3)
+
+    Parameters
+        cam : OscillatingCam
+        turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole revolution
+        order : 2 or 3 - of the derivatives
+    Notes
+        C is the end of the rocker that carries the cam, seen from the crank's pivot: the crank pins of both ways are
+        mirror images on that line. At both ends, where cam and rocker stand still, nothing is 0/0.
+    """
+    bar, span = cam.drive.linkage, cam.drive.crank_span
+    found = solve(bar, cam.drive.crank_angles[0] + turned, order)
+    arm = bar.rocker * np.exp(1j * found.rocker_angle)
+    end = bar.frame + arm
+    speed = found.rocker_velocity
+    rate = 1j * speed * arm / end
+    curve = (1j * found.rocker_acceleration - speed**2) * arm / end
+    bend = curve - rate * rate
+    third = np.empty(0)
+    if order > 2:
+        jerk = (1j * (found.rocker_jerk - speed**3) - 3.0 * speed * found.rocker_acceleration) * arm / end
+        third = 2.0 * (jerk - 3.0 * curve * rate + 2.0 * rate**3).imag / span
+    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end) - 2.0 * cam.drive.crank_angles[0] - turned)
+    return Home(_within(forth, 0.0, span) / span, (2.0 * rate.imag - 1.0) / span, 2.0 * bend.imag / span, third)
+
+
+def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
+    """Crank angle from the start of the stroke at which the cam, on its way home, stands as at k [rad].
+
+    Parameters
+        cam : OscillatingCam
+        k : (N,) array - fractions of the stroke
+    Returns
+        turned : (N,) array [rad] - from a whole revolution at k = 0 down to the stroke's at k = 1
+    """
+    bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
+    forth = k * span
+    end = bar.frame + bar.rocker * np.exp(1j * solve(bar, start + forth, 0).rocker_angle)
+    return _within(_from(0.5 * span, 2.0 * np.angle(end) - 2.0 * start - forth), span, _TURN)
+
+
+def _from(low: float, angle: Reals) -> Reals:
+    """The angle in the turn that begins at `low`, far from every angle of the stroke or of the way home."""
+    return np.asarray(low + np.mod(angle - low, _TURN))
+
+
+def _within(angle: Reals, low: float, high: float) -> Reals:
+    """Rounding beyond an end is the end."""
+    return np.asarray(np.minimum(np.maximum(angle, low), high))
+
+
+def greatest_need(cam: OscillatingCam) -> Extreme:
+    """Maximum acceleration of the rocker on the way home over that of the stroke at the same place, and the place k.
+
+    Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way home
+    only with a force above that ratio of it.
+
+    Parameters
+        cam : OscillatingCam
+    Returns
+        need : Extreme - at least 1, for at both ends the crank is the same; among places where the roller touches
+    Raises
+        NoSolution - for a loop, or where the roller touches nothing
+    """
+    found = [maximum_over(lambda k: need_home(cam, k), *part, samples=128) for part in cam.contact]
+    return max(*found, Extreme(1.0, 0.0), key=lambda extreme: extreme.value)
+
+
+def need_home(cam: OscillatingCam, k: Reals) -> Reals:
+    """Torque of inertia on the way home over that of the stroke, where the cam stands as at k.
+
+    (m k'^2 + j phi_k k'')/(m/span^2), m that of the stroke; of a rocker alone j = 1 and m its acceleration
+
+    Parameters
+        cam : OscillatingCam
+        k : (N,) array - fractions of the stroke, without 1/2, where the rocker has no acceleration in it
+    """
+    back = way_home(cam, crank_angle(cam, k))
+    span = cam.drive.crank_span
+    if isinstance(cam.law, AimedLaw):
+        law = cam.law.law
+        a, b = law.invariants(k, 1)
+        inertia = np.array([law.inertia_at(share) for share in a.ravel().tolist()]).reshape(a.shape)
+        pace = inertia * b / law.device_torque(k)
+    else:
+        view = cam.law.middle_view(k)
+        pace = view.velocity / view.acceleration
+    found: Reals = span**2 * (back.first**2 + back.second * pace)
+    return found

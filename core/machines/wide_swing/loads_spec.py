@@ -1,4 +1,4 @@
-"""The section `loads` of a wide-swing mechanism: inertia and device stand in its own sections."""
+"""The section `loads` of a wide swing: inertia and device stand in its own sections."""
 
 from __future__ import annotations
 
