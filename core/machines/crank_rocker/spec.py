@@ -22,6 +22,7 @@ from gearlink.core.base.spec import (
 from gearlink.core.parts.linkages.spec_parts import TurnAngle
 from gearlink.core.parts.linkages.spec_sections import FourLinks
 
+Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 _SIZES = ("crank", "coupler", "rocker", "frame")
 
 
@@ -69,12 +70,52 @@ _Pair = Annotated[list[Angle], Field(min_length=2, max_length=2), Entries("[cran
 
 
 class Function(Spec):
-    """Three pairs of crank and rocker angle that the linkage goes through."""
+    """Three pairs of crank and rocker angle that the linkage goes through, given or of a function."""
 
-    pairs: Annotated[
-        list[_Pair], Field(min_length=3, max_length=3), Entries("three pairs", "[[40, 50], [90, 80], [160, 110]]")
-    ] = Field(description="crank angle and rocker angle, three times")
+    pairs: (
+        Annotated[
+            list[_Pair], Field(min_length=3, max_length=3), Entries("three pairs", "[[40, 50], [90, 80], [160, 110]]")
+        ]
+        | None
+    ) = Field(None, description="crank angle and rocker angle, three times; or name, x and both swings in their place")
     frame: Length = Field(description="frame AD")
+    name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] | None = Field(
+        None, description="function y of x: the crank's swing stands for x, the rocker's for y"
+    )
+    exponent: SignedLength | None = Field(None, description="of a power", json_schema_extra={"unit": "1"})
+    x: Annotated[list[Plain], Field(min_length=2, max_length=2), Entries("[start, end]", "[1, 2]")] | None = Field(
+        None, description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
+    )
+    input_swing: Annotated[float, Field(gt=0, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="turn of the crank from the first x to the last"
+    )
+    output_swing: Annotated[float, Field(ge=-180, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="turn of the rocker from the first y to the last, negative clockwise"
+    )
+    input_start: Angle | None = Field(None, description="crank angle at the first x; left out: that of least error")
+    output_start: Angle | None = Field(None, description="rocker angle at the first y; left out: that of least error")
+
+    @model_validator(mode="after")
+    def _given_or_named(self) -> Function:
+        needed, more = ("name", "x", "input_swing", "output_swing"), ("exponent", "input_start", "output_start")
+        if self.pairs is not None:
+            if wrong := next((key for key in (*needed, *more) if getattr(self, key) is not None), ""):
+                message = "pairs are the function: leave out {wrong}"
+                raise PydanticCustomError("GL111", message, {"key": wrong, "wrong": wrong})
+            return self
+        if missing := next((key for key in needed if getattr(self, key) is None), ""):
+            if missing == "name":
+                raise PydanticCustomError(
+                    "GL106", "give pairs, or name, x, input_swing, output_swing", {"key": "pairs"}
+                )
+            raise PydanticCustomError("GL106", "a function needs {missing}", {"key": missing, "missing": missing})
+        if (self.name == "power") != (self.exponent is not None):
+            raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
+        if self.x is not None and self.x[0] == self.x[1]:
+            raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
+        if self.output_swing == 0.0:
+            raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
+        return self
 
 
 class CrankRockerSpec(DrivenSpec):

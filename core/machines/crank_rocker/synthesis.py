@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key, section_of
@@ -20,6 +20,10 @@ from gearlink.core.machines.crank_rocker.codes import FULL_TURN
 from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.parts.linkages.functions import Wanted
 
 _FIT = 1e-7
 """Of swing and time ratio, relative: what the dead centres of a linkage give back; rounding leaves far less."""
@@ -238,10 +242,111 @@ def _cosine_step(start: float, end: float) -> float:
     return -2.0 * math.sin(0.5 * (start + end)) * math.sin(0.5 * (end - start))
 
 
+# A function
+
+
+class Generated(NamedTuple):
+    """A linkage that goes through a function at three places.
+
+    start, zero : float [rad] - crank and rocker angle at the first x, without offsets
+    pairs : three of (phi, psi) [rad]
+    error : float [rad] - maximum structural error; inf where the linkage opens
+    place : float - share of the crank's swing at which it is
+    """
+
+    start: float
+    zero: float
+    pairs: tuple[tuple[float, float], ...]
+    error: float
+    place: float
+
+
+_PLACES = tuple(0.5 - 0.5 * math.cos(math.radians(30.0 * k)) for k in (1, 3, 5))
+"""Shares of the swing at which a polynomial through three points is nearest to a function: P. L. Chebyshev's."""
+_STARTS = 24  # directions of crank and rocker that are tried, before the best is refined
+_LAST_STEP = math.radians(0.01)
+
+
+def generated(wanted: Wanted, start: float, zero: float, least: float) -> Generated | None:
+    """The linkage of frame 1 through a function from a start on; None where there is none.
+
+    Parameters
+        start, zero : float [rad] - crank and rocker angle at the first x
+        least : float [rad] - transmission angle that it keeps over the swing
+    """
+    import numpy as np
+
+    from gearlink.core.numerics.extremes import maximum_over
+
+    at = wanted.output(np.array(_PLACES))
+    pairs = tuple((start + s * wanted.input_swing, zero + float(y)) for s, y in zip(_PLACES, at, strict=True))
+    try:
+        bar = through_pairs(pairs, 1.0)
+    except NoSolution:
+        return None
+
+    def angles(s: Reals) -> tuple[Reals, Reals]:
+        """Error of the rocker, and sine of the transmission angle; NaN where the linkage opens."""
+        pin = bar.crank * np.exp(1j * (start + bar.crank_offset + s * wanted.input_swing))
+        way = 1.0 - pin
+        n = np.abs(way)
+        along = 0.5 * (n * n + (bar.coupler - bar.rocker) * (bar.coupler + bar.rocker))
+        with np.errstate(invalid="ignore"):
+            across = np.sqrt((bar.coupler * n - along) * (bar.coupler * n + along))
+        joint = pin + way * (along + 1j * bar.assembly * across) / (n * n)
+        meant = np.exp(1j * (zero + bar.rocker_offset + wanted.output(s)))
+        return np.angle((joint - 1.0) / meant), across / (bar.coupler * bar.rocker)
+
+    error, sine = angles(np.linspace(0.0, 1.0, 41))
+    if not np.all(np.isfinite(error)) or float(sine.min()) < math.sin(least):
+        return None
+    worst = maximum_over(lambda s: np.abs(angles(s)[0]), 0.0, 1.0, samples=129)
+    return Generated(start, zero, pairs, worst.value, worst.place)
+
+
+def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: float) -> Generated:
+    """The start of least structural error: of what is not given a grid of directions, then halved steps about its best.
+
+    Raises
+        NoSolution - where no linkage goes through the function
+    """
+    grid = [2.0 * math.pi * k / _STARTS for k in range(_STARTS)]
+    starts, zeros = ([each] if each is not None else grid for each in given)
+    found = [one for a in starts for b in zeros if (one := generated(wanted, a, b, least)) is not None]
+    if not found:
+        raise NoSolution(
+            f"no linkage goes through this function with {math.degrees(least):.6g} deg of transmission angle",
+            key="function",
+            fix="take smaller swings, or lower limits.transmission_angle",
+        )
+    best = min(found, key=lambda one: one.error)
+    step = math.pi / _STARTS
+    ways = [(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+    while step > _LAST_STEP:
+        beside = [
+            generated(
+                wanted, best.start + x * step * (given[0] is None), best.zero + y * step * (given[1] is None), least
+            )
+            for x, y in ways
+        ]
+        nearer = min((one for one in beside if one is not None), key=lambda one: one.error)
+        if nearer.error < best.error:
+            best = nearer
+        else:
+            step *= 0.5
+    return best
+
+
 # The designs
 
 _OF_PAIRS = Outline(
-    (*LENGTHS, "crank_offset", "rocker_offset", "assembly", *MOTION), ("full-turn", "transmission-angle"), ("motion",)
+    (
+        *(*LENGTHS, "crank_offset", "rocker_offset", "assembly"),
+        *("structural_error", "structural_error_at", "function_start", "output_zero"),
+        *MOTION,
+    ),
+    ("full-turn", "transmission-angle"),
+    ("motion",),
 )
 
 
@@ -332,6 +437,9 @@ class FunctionSynthesis(_Synthesis):
             "frame_length",
             "crank_offset",
             "rocker_offset",
+            "structural_error",
+            "function_start",
+            "output_zero",
             ("min_transmission_angle", ">limits.transmission_angle"),
             "rocker_swing",
             "assembly",
@@ -347,8 +455,58 @@ class FunctionSynthesis(_Synthesis):
     def found(self) -> ThroughPairs:
         """Lengths, offsets and assembly."""
         task = section_of(self.spec, "function", "pairs (deg) and frame (mm)")
-        with at_key("function.pairs"):
-            return through_pairs([[math.radians(angle) for angle in pair] for pair in task.pairs], task.frame)
+        with at_key("function" if task.pairs is None else "function.pairs"):
+            return through_pairs(self.pairs, task.frame)
+
+    @cached_property
+    def generated(self) -> Generated | None:
+        """The function and its error; None of given pairs."""
+        task = self.spec.function
+        if task is None or task.pairs is not None:
+            return None
+        from gearlink.core.parts.linkages.functions import CIRCULAR, Wanted
+
+        assert task.name is not None, "the spec has seen to it"
+        assert task.x is not None, "the same"
+        ends = [math.radians(each) if task.name in CIRCULAR else each for each in task.x]
+        swings = [math.radians(each or 0.0) for each in (task.input_swing, task.output_swing)]
+        with at_key("function"):
+            wanted = Wanted(task.name, (ends[0], ends[1]), swings[0], swings[1], task.exponent or 1.0)
+        starts = [None if each is None else math.radians(each) for each in (task.input_start, task.output_start)]
+        free = None in starts
+        least = math.radians(self.spec.limits.transmission_angle) if free else 0.0
+        return best_start(wanted, (starts[0], starts[1]), least)
+
+    @cached_property
+    def pairs(self) -> list[list[float]]:
+        """Crank and rocker angle, three times [rad]."""
+        if self.generated is not None:
+            return [list(pair) for pair in self.generated.pairs]
+        assert self.spec.function is not None
+        return [[math.radians(angle) for angle in pair] for pair in self.spec.function.pairs or ()]
+
+    @property
+    def structural_error(self) -> float | None:
+        """Maximum error of the rocker over the function's interval [rad]; None of given pairs."""
+        return None if self.generated is None else self.generated.error
+
+    @property
+    def structural_error_at(self) -> list[float] | None:
+        """Crank angle at which it is [rad], the offset added."""
+        if self.generated is None or self.spec.function is None:
+            return None
+        swing = math.radians(self.spec.function.input_swing or 0.0)
+        return [self.generated.start + self.crank_offset + self.generated.place * swing]
+
+    @property
+    def function_start(self) -> float | None:
+        """Crank angle at the first x [rad], the offset added."""
+        return None if self.generated is None else self.generated.start + self.crank_offset
+
+    @property
+    def output_zero(self) -> float | None:
+        """Rocker angle at the first y [rad], the offset added."""
+        return None if self.generated is None else self.generated.zero + self.rocker_offset
 
     crank_offset: float = placed("found.crank_offset")
     rocker_offset: float = placed("found.rocker_offset")
@@ -376,8 +534,7 @@ class FunctionSynthesis(_Synthesis):
     @cached_property
     def _between(self) -> tuple[float, float] | None:
         """First and last crank angle [rad] of a way through the pairs, the short one where it closes."""
-        assert self.spec.function is not None
-        given = [math.radians(pair[0]) + self.crank_offset for pair in self.spec.function.pairs]
+        given = [pair[0] + self.crank_offset for pair in self.pairs]
         short = given[:1]
         for angle in given[1:]:
             short.append(short[-1] + math.remainder(angle - short[-1], 2.0 * math.pi))

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
-from gearlink.core.parts.cams.motion_spec import OfFollowerKeys
-
-SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
+from gearlink.core.parts.cams.motion_spec import OfFollowerKeys, SteepAngle
 
 
 class DrumFollower(Spec):

@@ -20,9 +20,8 @@ from gearlink.core.base.spec import (
     TolerancedSpec,
     also,
 )
-from gearlink.core.parts.cams.motion_spec import OfFollowerKeys
+from gearlink.core.parts.cams.motion_spec import OfFollowerKeys, SteepAngle
 
-SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 Strokes = Annotated[list[SteepAngle], Field(min_length=2, max_length=2), Entries("[rise, return]")]
 Kilograms = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})]
 Inertia = Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})]

@@ -44,8 +44,8 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.guidance import Guidance
     from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
     from gearlink.core.machines.five_bar.timed_fit import TimedFit
-    from gearlink.core.machines.five_bar.wanted import Wanted
     from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.parts.linkages.functions import Wanted
 
 
 def layout_of_bodies(design: GearedFiveBar) -> Layout:
@@ -720,7 +720,7 @@ class FiveBarParts(Meshed):
         target = self.spec.target
         if target is None or target.function is None:
             return None
-        from gearlink.core.machines.five_bar.wanted import Wanted
+        from gearlink.core.parts.linkages.functions import Wanted
 
         asked = target.function
         circular = asked.name in ("sine", "cosine", "tangent")

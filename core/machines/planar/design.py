@@ -18,7 +18,7 @@ from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
-from gearlink.core.machines.planar import tables
+from gearlink.core.machines.planar import outputs
 from gearlink.core.machines.planar.codes import ASSEMBLY
 from gearlink.core.machines.planar.extremes import turning_points
 from gearlink.core.machines.planar.structure import GearJoint, RackJoint
@@ -641,8 +641,8 @@ class PlanarMechanism(Design):
 
     # Tables
 
-    table_motion, table_links, table_points = tables.motion, tables.links, tables.points
-    table_slides, table_poles, table_cams = tables.slides, tables.poles, tables.cams
+    table_motion, table_links, table_points = outputs.motion, outputs.links, outputs.points
+    table_slides, table_poles, table_cams = outputs.slides, outputs.poles, outputs.cams
 
     def require_table(self, name: str, /) -> None:
         """Refuse the table of cams where there are none."""

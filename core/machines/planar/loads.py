@@ -186,7 +186,7 @@ class PlanarLoads(LoadsDesign):
 
         if self.spec.range is None:
             return super().rows(samples)
-        from gearlink.core.machines.planar.tables import inputs
+        from gearlink.core.machines.planar.outputs import inputs
 
         degrees = inputs(self.design, samples)
         return np.radians(degrees) - self._first, {"input_angle": (degrees, "deg")}

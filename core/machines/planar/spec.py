@@ -20,7 +20,7 @@ from gearlink.core.base.spec import (
     Spec,
     TolerancedSpec,
 )
-from gearlink.core.parts.cams.motion_spec import FollowerMotion, require_closed
+from gearlink.core.parts.cams.motion_spec import FollowerMotion, SteepAngle, require_closed
 
 FRAME = "frame"
 MOST_LINKS = 40
@@ -41,7 +41,6 @@ Place = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "deg"
 Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 Bar = Annotated[list[Name | Length], Field(min_length=3, max_length=3), Entries("[first point, second point, length]")]
-SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 Points = Annotated[dict[Name, Vector], Field(min_length=1, max_length=100)]
 
 

@@ -13,6 +13,7 @@ from gearlink.core.parts.cams.spec import SegmentLaw
 
 Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
 Row = Annotated[list[Lift], Field(min_length=2, max_length=2), Entries("[cam angle, lift]")]
+SteepAngle = Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})]
 FEWEST_POINTS = 4
 
 

@@ -25,7 +25,8 @@ from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.machines.five_bar.timed_fit import fit_timed
-from gearlink.core.machines.five_bar.wanted import Wanted, structural_error
+from gearlink.core.machines.five_bar.wanted import structural_error
+from gearlink.core.parts.linkages.functions import Wanted
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 LOG = Wanted("log", (1.0, 2.0), math.radians(60.0), math.radians(90.0))

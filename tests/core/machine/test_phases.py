@@ -6,11 +6,16 @@ import functools
 import itertools
 import math
 import random
+import resource
+import subprocess
+import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from machines import FEED, GRIPPER, cam, machine, of, wrapped
 
 from gearlink.core.machines.machine.phases import Tie, solve
@@ -119,3 +124,64 @@ def test_a_dial_of_several_turns() -> None:
     assert math.degrees(found.least_margin or 0.0) == pytest.approx(min(ways), abs=1e-9)
     best = max(min(wrapped(p - 180.0, 720.0), wrapped(-p - 410.0, 720.0)) for p in np.arange(0.0, 720.0, 1.0).tolist())
     assert best - 1e-9 <= min(ways) <= best + 1.0
+
+
+def _member(i: int) -> dict[str, Any]:
+    """Of every four members a crank-rocker and three cams, with their loads."""
+    if i % 4 == 3:
+        links = {"crank": 28 + i, "coupler": 110, "rocker": 80, "frame": 120}
+        masses = {
+            "crank": {"mass": 1.2, "inertia": 0.001},
+            "rocker": {"mass": 1.5, "center": [40, 0], "inertia": 0.012},
+        }
+        return {"kind": "crank-rocker", "links": links, "loads": {"links": masses}}
+    motion = [{"to": 60 + 5 * i, "lift": 8 + i}, {"to": 200}, {"to": 300, "lift": 0}, {"to": 360}]
+    return {
+        "kind": "disc-cam",
+        "motion": motion,
+        "follower": {"type": "translating-roller", "roller_radius": 12, "mass": 0.8},
+        "cam": {"prime_radius": 70, "shaft_radius": 20},
+        "spring": {"preload": 400, "rate": 12},
+        "loads": {"roller": {"width": 16}},
+    }
+
+
+@pytest.mark.slow
+def test_a_machine_of_twelve_members_is_quick(tmp_path: Path) -> None:
+    """Timing, phases, checks, torsion and loads take at most 20 times a minimal command of Typer, 0.1 s where that was
+    measured; processor time."""
+    count = 12
+    file = {
+        "kind": "machine",
+        "name": "twelve",
+        "speed": 150,
+        "members": {f"m{i}": {"phase": "free" if i % 3 else 20 * i, "design": _member(i)} for i in range(count)},
+        "require": [
+            f"m{i - 1}.rise_start before m{i}.rise_end by 2"
+            if i % 2
+            else f"m{i}.rise_start before m{i - 1}.return_start"
+            for i in range(1, count)
+        ],
+        "shaft": {
+            "inertias": [0.08] * count,
+            "stiffnesses": [15000] * (count - 1),
+            "members": [f"m{i}" for i in range(count)],
+        },
+        "loads": {"flywheel": {"inertia": 2}},
+    }
+    (tmp_path / "twelve.yaml").write_text(yaml.safe_dump(file, sort_keys=False))
+    minimal = "import typer\napp = typer.Typer()\n@app.command()\ndef main(name: str = 'x'): print(name)\napp()"
+    least = min(_processor_time([sys.executable, "-c", minimal]) for _ in range(3))
+    whole = 0.0
+    for command in ("analyze", "loads"):
+        line = [sys.executable, "-m", "gearlink", command, str(tmp_path / "twelve.yaml"), "--format", "json"]
+        whole += min(_processor_time(line) for _ in range(2))
+    assert whole <= 20.0 * least
+
+
+def _processor_time(line: list[str]) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(line, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode in (0, 1), done.stderr
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
