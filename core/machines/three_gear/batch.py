@@ -41,7 +41,7 @@ from gearlink.core.parts.linkages.codes import (
     TRANSMISSION_ANGLE,
 )
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
-from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES
+from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES, Gear, Shaft, gaps, shaft_meetings
 from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
@@ -376,28 +376,30 @@ class Batch:
         tips = [tip_radius(z, self.module) for z in (self.z1, self.z3, self.z5)]  # type: ignore[arg-type]
         given, (crank, frame) = self.spec.limits.least_shaft, self.links
         least = LEAST_SHAFT_MODULES * self.module if given is None else np.full(self.count, given)
-        radii = [self.key(f"shafts.{name}_radius") for name in ("input", "output")]
-        bare = [np.isnan(radius) for radius in radii]
-        radii = [np.where(none, 0.0, radius) for none, radius in zip(bare, radii, strict=True)]
+        radii = {axis: self.key(f"shafts.{name}_radius") for axis, name in (("A", "input"), ("D", "output"))}
+        bare = {axis: np.isnan(radius) for axis, radius in radii.items()}
+        shafts = tuple(Shaft("", axis, np.where(bare[axis], 0.0, radius), "") for axis, radius in radii.items())  # type: ignore[arg-type]
+        gears = [Gear("", axis, tip) for axis, tip in zip("BCD", tips, strict=True)]
         dead = self.coupler - crank
         by_crank = dead > np.abs(self.rocker - frame)
-        nearest_c = np.where(by_crank, dead, self.rocker - frame)
         both = "crank" in self.given and "frame" in self.given
-        gaps = (
-            (nearest_c - (tips[1] + radii[0]), 1 * bare[0], both | (by_crank & ("crank" in self.given))),
-            (frame - (tips[2] + radii[0]), 1 * bare[0], "frame" in self.given),
-            (np.abs(frame - crank) - (tips[0] + radii[1]), 1 * bare[1], both),
-            (self.rocker - (tips[1] + radii[1]), 1 * bare[1], True),
-            (frame - (radii[0] + radii[1]), 1 * bare[0] + bare[1], "frame" in self.given),
-        )
-        for gap, axes, exact in gaps:
-            limit = least * axes
-            self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
-            yield shaft_judged(gap, limit, axes > 0).of(self.count)
+        nearest = {  # distances of axes, and whether they are those of the class to the last bit
+            "AC": (np.where(by_crank, dead, self.rocker - frame), both | (by_crank & ("crank" in self.given))),
+            "AD": (frame, "frame" in self.given),
+            "BD": (np.abs(frame - crank), both),
+            "CD": (self.rocker, True),
+        }
+        for one, other in shaft_meetings(gears, shafts):
+            if (ends := "".join(sorted(one.axis + other.axis))) in nearest:
+                distance, exact = nearest[ends]
+                axes = sum(1 * bare[body.axis] for body in (one, other) if isinstance(body, Shaft))
+                gap, limit = gaps(one, other, distance, distance)[0], least * axes
+                self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
+                yield shaft_judged(gap, limit, axes > 0).of(self.count)
         height = FULL_HEIGHT * self.module
-        rim, limit = tips[2] - height - radii[1], 0.5 * height
+        rim, limit = tips[2] - height - shafts[1].outer, 0.5 * height
         self._at_limit |= _near(rim, limit)
-        yield Findings(SHAFT_CLEARANCE.code, rim, limit, self.none, (rim < limit) & ~bare[1], "mm")
+        yield Findings(SHAFT_CLEARANCE.code, rim, limit, self.none, (rim < limit) & ~bare["D"], "mm")
 
     def evaluated(self, outside: Mask) -> Evaluated:
         """All that a study asks for; what lies outside is left to the class."""

@@ -70,7 +70,7 @@ class Shaft(NamedTuple):
     @property
     def outer(self) -> float:
         """Radius [mm], 0 for a bare axis."""
-        return self.radius or 0.0
+        return 0.0 if self.radius is None else self.radius
 
 
 class Seat(NamedTuple):
@@ -132,6 +132,12 @@ def gaps(one: Gear | Shaft, other: Gear | Shaft, nearest: Any, farthest: Any) ->
     return nearest - (one.outer + other.outer), *within
 
 
+def shaft_meetings(gears: Iterable[Gear], shafts: tuple[Shaft, ...]) -> Iterator[tuple[Gear | Shaft, Gear | Shaft]]:
+    """Every gear with every shaft that it does not turn with, then every two shafts; of numbers or of arrays."""
+    of_gears = ((gear, shaft) for shaft in shafts for gear in gears if shaft.axis not in gear.turns_with)
+    return chain(of_gears, combinations(shafts, 2))
+
+
 @dataclass(frozen=True)
 class Layout:
     """Gears and shafts of a machine, and how near their axes come.
@@ -157,8 +163,7 @@ class Layout:
     @cached_property
     def shaft_pairs(self) -> tuple[Clearance, ...]:
         """Every gear against every shaft that it does not turn with, then the shafts against each other."""
-        gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears if shaft.axis not in gear.turns_with)
-        return tuple(self._gaps(chain(gears, combinations(self.shafts, 2))))
+        return tuple(self._gaps(shaft_meetings(self.gears, self.shafts)))
 
     @property
     def seats(self) -> Iterator[Seat]:
