@@ -39,6 +39,9 @@ def test_the_workflow_runs_the_checks_on_every_python() -> None:
     job = _read(".github/workflows/check.yml")["jobs"]["check"]
     assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13", "3.14"]
     assert _run(job) == ["make check"]
+    systems = _read(".github/workflows/check.yml")["jobs"]["systems"]
+    assert systems["strategy"]["matrix"]["system"] == ["windows-latest", "macos-latest"]
+    assert "gearlink verify" in _run(systems)
     least = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
     assert least == ">=3.11"
 
@@ -74,7 +77,7 @@ def test_files_that_the_workflows_name_are_there() -> None:
         named += re.findall(r"cache-dependency-path: (\S+)", text)
         for target in re.findall(r"- run: make (\S+)", text):
             assert re.search(rf"^{target}:", _text("Makefile"), re.MULTILINE), target
-    assert len(named) == 4
+    assert len(named) == 5
     assert [name for name in named if not (ROOT / name).is_file()] == []
 
 
@@ -114,6 +117,25 @@ def test_the_action_takes_every_line_of_its_paths(tmp_path: Path) -> None:
     ]
     words = subprocess.run(command, env=given, capture_output=True, text=True, check=True).stdout.split("\n")
     assert words[words.index("--") + 1 :] == ["a.yaml", "b.yaml", "--dask=c.yaml", ""]
+
+
+def test_the_release_tries_the_wheel_on_three_systems_and_publishes_nothing() -> None:
+    workflow = _read(".github/workflows/release.yml")
+    build, install = workflow["jobs"]["build"], workflow["jobs"]["install"]
+    assert "python -m twine check --strict dist/*" in _run(build)
+    assert install["strategy"]["matrix"]["system"] == ["ubuntu-latest", "windows-latest", "macos-latest"]
+    assert "gearlink verify" in _run(install)
+    assert workflow["permissions"] == {"contents": "read"}
+    uses = [step.get("uses", "") for job in workflow["jobs"].values() for step in job["steps"]]
+    assert not [name for name in uses if "publish" in name]
+
+
+def test_the_hooks_of_the_repository_use_what_make_installs() -> None:
+    (repo,) = _read(".pre-commit-config.yaml")["repos"]
+    assert repo["repo"] == "local"
+    assert [hook["id"] for hook in repo["hooks"]] == ["ruff-format", "ruff-check", "mypy", "words"]
+    named = [word for hook in repo["hooks"] for word in hook["entry"].split() if word.startswith("tests/")]
+    assert [name for name in named if not (ROOT / name).is_file()] == []
 
 
 def test_the_hook_checks_design_files() -> None:

@@ -32,7 +32,7 @@ for name in ("resource", "fcntl", "termios", "grp"):
     sys.modules[name] = None
 from types import SimpleNamespace
 import gearlink.cli.commands.report as report
-report.sys = SimpleNamespace(platform="win32")
+report.sys = SimpleNamespace(platform="win32", stderr=sys.stderr)
 from gearlink.cli.main import main
 main()
 """
