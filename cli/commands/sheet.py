@@ -138,7 +138,7 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
 
 
 _MOST_INPUTS = 4
-_ALIKE = ("motion", "vectors", "forces", "timing", "pressure", "drawing")
+_ALIKE = ("motion", "vectors", "forces", "dwell", "zone", "timing", "pressure", "contact", "drawing")
 """Sheets that are drawn alike of what a kind gives for them; others a kind draws itself."""
 Makers = dict[str, Callable[[], "Figure"]]
 
@@ -182,6 +182,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     from gearlink.cli.views.figures.sheets import (
         cam_sheets,
         force_sheet,
+        magnified,
         motion_sheet,
         timing_sheet,
         vector_sheet,
@@ -195,6 +196,10 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         found["vectors"] = lambda: vector_sheet.draw(design, at, show)
     if "forces" in KINDS[design.kind].all_sheets and force_sheet.draws(design):
         found["forces"] = lambda: force_sheet.draw(design)
+    if "dwell" in KINDS[design.kind].all_sheets and magnified.dwell_of(design) is not None:
+        found["dwell"] = lambda: magnified.dwell(design)
+    if magnified.has_zone(design):
+        found["zone"] = lambda: magnified.zone(design)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     for name, place in KINDS[design.kind].sheets.items():
@@ -203,6 +208,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     cams = cam_sheets.discs(design)
     if cams:
         found["pressure"] = lambda: cam_sheets.pressure(design)
+        found["contact"] = lambda: magnified.contact(design)
     if scale is not None:
         from gearlink.cli.views.figures.sheets import true_size
 

@@ -69,7 +69,11 @@ class Kind(NamedTuple):
     def all_sheets(self) -> dict[str, str]:
         """What gives the content of each sheet: that of the motion stands for itself."""
         sheets = "cli.views.figures.sheets"
-        of_motion = {"motion": f"{sheets}.motion_sheet:of_motion", "vectors": f"{sheets}.vector_sheet:draw"}
+        of_motion = {
+            "motion": f"{sheets}.motion_sheet:of_motion",
+            "vectors": f"{sheets}.vector_sheet:draw",
+            "dwell": f"{sheets}.magnified:dwell",
+        }
         if not self.motion:
             of_motion = {}
         if "loads" in self.commands and self.motion:

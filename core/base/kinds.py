@@ -56,7 +56,7 @@ KINDS: dict[str, Kind] = {
             picture="cli.views.figures.gear_pair:draw",
             scene="cli.views.scenes.gear_pair:build",
             profiles="cli.export.parts:gear_pair",
-            sheets={"motion": "", "vectors": ""},
+            sheets={"motion": "", "vectors": "", "dwell": ""},
             parts=("gear1", "gear2", "rack", "blocking_contour"),
             rexs=("gear 1", "gear 2"),
         ),

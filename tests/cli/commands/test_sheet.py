@@ -173,7 +173,10 @@ def test_keyways_begin_above_a_bore(bore: float, key: tuple[float, float] | None
 def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink("sheet", designs / "ty460.yaml", "--plot-format", "svg", "--out", tmp_path)
     assert (ended.status, ended.out) == (0, "")
-    names = ("drawing-1", "drawing-2", "motion", "polygons", "pressure", "timing", "vectors")
+    names = (
+        *("contact", "drawing-1", "drawing-2", "motion", "polygons", "pressure", "timing", "vectors"),
+        "zone",
+    )
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"TY-460-{name}.svg" for name in names]
     text = (tmp_path / "TY-460-drawing-1.svg").read_text()
     assert "359" in text
@@ -186,7 +189,11 @@ def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) ->
         ("ty460_slider_crank", ("timing",), "it has motion"),
         ("six_bar_two_trains", (), "of which this gear-train-mobility has none"),
         ("gear_pair", (), "its sheet is drawn by `gearlink gear "),
-        ("ty460", ("motions",), "it has motion, vectors, timing, polygons, pressure, drawing-1, drawing-2"),
+        (
+            "ty460",
+            ("motions",),
+            "it has motion, vectors, zone, timing, polygons, pressure, contact",
+        ),
     ],
 )
 def test_what_a_design_has_not_is_refused(
@@ -202,8 +209,10 @@ def test_kinds_with_sheets() -> None:
     assert list(sheets_of(design(worked("swing_gripper")))) == [
         "motion",
         "vectors",
+        "dwell",
         "timing",
         "pressure",
+        "contact",
         "drawing-1",
         "drawing-2",
     ]

@@ -15,7 +15,7 @@ import pytest
 import yaml
 from factory import design, each_kind
 
-from gearlink.cli.views.figures.sheets import force_sheet, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
@@ -242,3 +242,42 @@ def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     assert np.abs(drawn["torque"]).max() <= abs(float(loads.machine.torque(np.array([place]))[0])) * (1.0 + 1e-9)
     arrows_ = [line for line in figure.axes[0].lines if str(line.get_gid()).startswith("force ")]
     assert len(arrows_) >= 8, "an arrow at every joint and mesh"
+
+
+def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
+    """A step of 0.05 deg at each end; the quantities of the design come from roots."""
+    for name in ("standing_feed", "two_gear_standing"):
+        made = design(name)
+        found = magnified.dwell_of(made)
+        assert found is not None
+        assert np.degrees(found.width) == pytest.approx(made.quantity("tolerance_dwell_angle").value, abs=0.11)
+        figure = magnified.dwell(made)
+        (line,) = (line for axes in figure.axes for line in axes.lines if line.get_gid() == "dwell")
+        x, y = line.get_data()
+        inside = (x >= np.degrees(found.start)) & (x <= np.degrees(found.start + found.width))
+        assert np.abs(y[inside]).max() <= np.degrees(found.tolerance) * (1.0 + 1e-6)
+
+
+def test_the_zone_shows_what_the_cams_make_up_for() -> None:
+    made = design("ty460")
+    start, end = np.degrees(made.sync_start), np.degrees(made.sync_end)
+    x = np.linspace(start, end, 1001)
+    way, speed = magnified.zone_errors(made, x, cams=False)
+    assert np.abs(way).max() > 1.0
+    slope = np.gradient(way, np.radians(x))[1:-1] * made.input_speed  # within a step's square of the third derivative
+    assert slope == pytest.approx(speed[1:-1], abs=1e-2)
+    for with_cams, alone in zip(magnified.zone_errors(made, x), (way, speed), strict=True):
+        assert np.abs(with_cams).max() < 1e-9 * np.abs(alone).max()
+
+
+def test_a_cam_is_coloured_by_its_pressure_angle() -> None:
+    made = design("ty460", limits__pressure_angle=12.0)
+    figure = magnified.contact(made)
+    for axes, cam in zip(figure.axes, cam_sheets.discs(made), strict=False):
+        lines, red = axes.collections
+        theta = np.linspace(0.0, 2.0 * np.pi, 1441)
+        angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
+        assert np.array_equal(lines.get_array(), angle)
+        assert len(red.get_segments()) == (angle > 12.0).sum() > 0
+        rollers = [patch for patch in axes.patches if patch.get_gid() == "roller"]
+        assert [patch.radius for patch in rollers] == [cam.roller_radius] * 12

@@ -47,7 +47,7 @@ def follower_discs(design: Any) -> tuple[DiscCam, ...]:
     return () if design.spec.is_flat else tuple(design.profiles)
 
 
-def _limit(design: Any) -> float:
+def pressure_limit(design: Any) -> float:
     """Maximum pressure angle that the file allows [deg]; of strokes with limits of their own the greater."""
     of_strokes = getattr(design.spec, "pressure_limits", None)
     return float(design.spec.limits.pressure_angle if of_strokes is None else max(of_strokes()))
@@ -67,12 +67,11 @@ def _polar(axes: Any, design: Any) -> None:
     theta = np.linspace(0.0, _TURN, 1441)
     for cam, color, line in zip(discs(design), panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         worst = cam.max_pressure_angle
-        angle, way = np.degrees(np.abs(cam.pressure_angle(theta))), np.unwrap(np.angle(cam.points(theta)[0]))
-        there = float(np.interp(worst.place, theta, way))
-        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at cam angle {math.degrees(worst.place):.4g}°"
-        axes.plot(way, angle, color=color, linestyle=line, linewidth=1.5, label=label, gid=f"pressure-{cam.name}")
-        axes.plot([there], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
-    limit = _limit(design)
+        angle = np.degrees(np.abs(cam.pressure_angle(theta)))
+        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {math.degrees(worst.place):.4g}°"
+        axes.plot(theta, angle, color=color, linestyle=line, linewidth=1.5, label=label)
+        axes.plot([worst.place], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
+    limit = pressure_limit(design)
     axes.plot(theta, np.full_like(theta, limit), color=style.BLACK, linestyle=style.DASHED, label=f"limit {limit:g}°")
     axes.set_ylim(0.0)
     axes.set_theta_zero_location("E")
@@ -91,7 +90,7 @@ def _outlines(axes: Axes, design: Any) -> None:
     from matplotlib.lines import Line2D
 
     panels.drawing(axes, "Profiles, line width by pressure angle")
-    theta, limit = np.linspace(0.0, _TURN, 721), _limit(design)
+    theta, limit = np.linspace(0.0, _TURN, 721), pressure_limit(design)
     for cam, color in zip(discs(design), panels.CAM_COLORS, strict=False):
         _, profile = cam.points(theta)
         angle = np.degrees(np.abs(cam.pressure_angle(0.5 * (theta[1:] + theta[:-1]))))
