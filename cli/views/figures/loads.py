@@ -188,7 +188,7 @@ def stroke_profile(axes: Axes, stroke: Any, limit: float | None) -> None:
     """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.cams.outline import dwell_arc
+    from gearlink.core.machines.wide_swing.strokes import dwell_arc
 
     parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
     gap = 0.5 * (parts[0][-1] + parts[1][0])

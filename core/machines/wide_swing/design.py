@@ -244,7 +244,7 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
     """Torque on the rocker axis with and without the device, over the speed."""
     import numpy as np
 
-    from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio, speed_sweep
+    from gearlink.core.machines.wide_swing.torques import drive_balancing_ratio
 
     share, spec = _speed_shares(), design.spec
     losses = spec.unloader.residual, design.unloading.size.reserve
@@ -265,7 +265,7 @@ def balance_table(design: WideSwingDesign, _samples: int | None = None) -> Table
 
 def torque_peaks(design: WideSwingDesign, share: Any) -> tuple[Any, Any]:
     """Peaks on the rocker axis without and with the device [N m], over (N,) shares of the design speed."""
-    from gearlink.core.machines.wide_swing.law.balancing import speed_sweep
+    from gearlink.core.machines.wide_swing.torques import speed_sweep
 
     losses = design.spec.unloader.residual, design.unloading.size.reserve
     motion = design.motion

@@ -67,10 +67,11 @@ def _polar(axes: Any, design: Any) -> None:
     theta = np.linspace(0.0, _TURN, 1441)
     for cam, color, line in zip(discs(design), panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         worst = cam.max_pressure_angle
-        angle = np.degrees(np.abs(cam.pressure_angle(theta)))
-        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {math.degrees(worst.place):.4g}°"
-        axes.plot(theta, angle, color=color, linestyle=line, linewidth=1.5, label=label)
-        axes.plot([worst.place], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
+        angle, way = np.degrees(np.abs(cam.pressure_angle(theta))), np.unwrap(np.angle(cam.points(theta)[0]))
+        there = float(np.interp(worst.place, theta, way))
+        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at cam angle {math.degrees(worst.place):.4g}°"
+        axes.plot(way, angle, color=color, linestyle=line, linewidth=1.5, label=label, gid=f"pressure-{cam.name}")
+        axes.plot([there], [math.degrees(worst.value)], "o", color=color, markersize=4.5)
     limit = pressure_limit(design)
     axes.plot(theta, np.full_like(theta, limit), color=style.BLACK, linestyle=style.DASHED, label=f"limit {limit:g}°")
     axes.set_ylim(0.0)
