@@ -481,8 +481,8 @@ def _angle_marks(axes: Axes, columns: dict[str, Any], x: Any, y: Any) -> None:
             size = 3.6 if angle % 90.0 == 0.0 else 2.0
             axes.plot([x[i]], [y[i]], "o", color=style.BLACK, markersize=size, zorder=4, gid="angle-mark")
             if angle % 90.0 == 0.0:
-                place, look = (x[i], y[i]), {"fontsize": 6.0, "path_effects": style.outlined(), "zorder": 6}
-                axes.annotate(f"{angle:.0f}°", place, (3, 3), textcoords="offset points", **look)
+                look: Any = {"fontsize": 6.0, "path_effects": style.outlined(), "zorder": 6}
+                axes.annotate(f"{angle:.0f}°", (x[i], y[i]), (3, 3), textcoords="offset points", **look)
 
 
 def _jumps(points: Any) -> Any:

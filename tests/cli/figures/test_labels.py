@@ -38,7 +38,7 @@ def _cases() -> list[Case]:
     add("five_bar_path", "analyze", coupler_point__along=[-80.0, 0.0, 400.0])
     add("hypocycloid_slider", "analyze", gears__module=[0.05, 60.0], gears__planet=[20, 25])
     add("geneva_drive", "analyze", slots=[4, 12], center_distance=[110.0, 600.0])
-    add("cycloidal_reducer", "analyze", pins=[6, 40])
+    add("cycloidal_reducer", "analyze", pins=[6, 18])
     add("lift_cam", "analyze", follower__roller_radius=[2.0, 30.0], cam__shaft_radius=[5.0, 60.0])
     add("standing_feed", "analyze", gears__crank=[20, 90], gears__output=[30, 120], dwell__window=[40.0, 60.0])
     add("standing_feed", "analyze", gears__module=[0.05, 80.0])

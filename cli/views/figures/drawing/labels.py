@@ -213,7 +213,7 @@ def _marks(axes: Axes) -> Iterator[tuple[float, float, float, float]]:
         if marker in (None, "", " ", "None", "none") or line.get_markersize() < _SMALL or not line.get_visible():
             continue
         style = MarkerStyle(marker)
-        ends = style.get_path().get_extents(style.get_transform()).extents * float(line.get_markersize()) * scale
+        ends = float(line.get_markersize()) * scale * _sides(style.get_path().get_extents(style.get_transform()))
         xy = line.get_transform().transform(np.column_stack(line.get_data(orig=False)).astype(float))
         panel = axes.bbox.extents
         for x, y in xy[np.isfinite(xy).all(axis=1)]:
@@ -221,10 +221,15 @@ def _marks(axes: Axes) -> Iterator[tuple[float, float, float, float]]:
                 yield x + ends[0], y + ends[1], x + ends[2], y + ends[3]
 
 
+def _sides(box: Any) -> Reals:
+    """Left, lower, right and upper side of a box."""
+    return np.asarray(box.extents, dtype=np.float64)
+
+
 def _curves(axes: Axes) -> Reals:
     """Points of the lines of a panel, close together."""
     found = [np.empty((0, 2))]
-    low, high = axes.bbox.extents[:2] - _STEP, axes.bbox.extents[2:] + _STEP
+    low, high = _sides(axes.bbox)[:2] - _STEP, _sides(axes.bbox)[2:] + _STEP
     for line in axes.lines:
         if not line.get_visible() or line.get_linestyle() in ("None", "none", " ", ""):
             continue

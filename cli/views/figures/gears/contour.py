@@ -157,9 +157,10 @@ def _sliding_axes(axes: Axes) -> None:
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, _SLIDING[0]), min(high, _SLIDING[1]))
     if low < _SLIDING[0]:
-        least = min(float(min(line.get_ydata())) for line in axes.get_lines()[:2])  # type: ignore[arg-type]
+        drawn: list[Any] = [line.get_ydata() for line in axes.get_lines()[:2]]
+        least = min(float(min(values)) for values in drawn)
         words = f"down to ζ = {style.number(least, 4)}"
-        axes.text(0.5, 0.02, words, transform=axes.transAxes, fontsize=7, ha="center", color=style.GREY)
+        axes.text(0.5, 0.08, words, transform=axes.transAxes, fontsize=7, ha="center", color=style.GREY)
 
 
 def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:
