@@ -60,7 +60,8 @@ def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
     """The press in twelve positions, and last where a chain has its minimum transmission angle."""
     from gearlink.core.machines.flatbed_press.chains import least_transmission_input
 
-    return Machine(design, np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN))
+    fraction = np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN)
+    return Machine(design, fraction, cams=design.bed_moves)
 
 
 def bed_positions(axes: Axes, design: FlatbedPress) -> None:
