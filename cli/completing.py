@@ -88,7 +88,7 @@ def parts(incomplete: str) -> Offer:
 def sheets(incomplete: str) -> Offer:
     """Further sheets of the design file on the line."""
     names = [name for kind in _kinds() for name in kind.all_sheets]
-    each = ("zone", "contact", "drawing-1", "drawing-2") if "drawing" in names else ()
+    each = ("tornado", *(("zone", "contact", "drawing-1", "drawing-2") if "drawing" in names else ()))
     return _beginning(incomplete, ((name, "") for name in (*names, *each)))
 
 

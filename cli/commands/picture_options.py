@@ -116,7 +116,7 @@ def _sheet(
         list[str] | None,
         typer.Argument(
             metavar="[NAME]...",
-            help="motion, vectors, forces, dwell, zone, timing, pressure, contact, drawing; default: all",
+            help="motion, vectors, forces, dwell, zone, tornado, timing, pressure, contact, drawing; default: all",
             autocompletion=offers("sheets"),
         ),
     ] = None,

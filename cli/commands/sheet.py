@@ -185,6 +185,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         magnified,
         motion_sheet,
         timing_sheet,
+        tornado,
         vector_sheet,
         workshop,
     )
@@ -200,6 +201,8 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         found["dwell"] = lambda: magnified.dwell(design)
     if magnified.has_zone(design):
         found["zone"] = lambda: magnified.zone(design)
+    if tornado.study_of(design) is not None:
+        found["tornado"] = lambda: tornado.draw(design)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     for name, place in KINDS[design.kind].sheets.items():

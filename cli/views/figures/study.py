@@ -51,7 +51,23 @@ def draw(_command: str, design: Design) -> Figure:
     elif count == 2:
         axes.legend(handles=_marks(study), loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, **_LEGEND)
     _parallel(made.add_subplot(grid[across, :]), study, figures)
+    vars(made)["names_of_rows"] = row_names(study)
     return made
+
+
+def row_names(study: Exploration) -> dict[str, str]:
+    """What a kept design is called under the pointer, by its index: variables and objectives with their values."""
+    units, objectives = study.problem.base.units, study.problem.objectives
+    found: dict[str, str] = {}
+    for row in study.found.rows:
+        parts = [(path, value, units.get(path, "1")) for path, value in row.variables]
+        parts += [(one.name, float(value), one.unit) for one, value in zip(objectives, row.figures, strict=False)]
+        shown = (
+            f"{name} {style.number(value, 5) if isinstance(value, float) else value} {unit}".removesuffix(" 1")
+            for name, value, unit in parts
+        )
+        found[str(row.index)] = f"design {row.index}: {', '.join(shown)}"
+    return found
 
 
 def _empty(study: Exploration) -> Figure:

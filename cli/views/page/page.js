@@ -83,10 +83,11 @@ function linkSheet(sheet) {
 function linkRows(sheet) {
   // Marks and lines of one design of a study: whichever is pointed at, the others of that design stay and the rest fades.
   const marks = [...sheet.querySelectorAll('g[id^="row-"]')], design = mark => mark.id.split("-")[1];
+  const names = sheet.querySelector("script.names"), named = names ? JSON.parse(names.textContent) : {};
   const light = index => marks.forEach(mark => { mark.style.opacity = index === null || design(mark) === index ? "" : .12; });
   for (const mark of marks) {
     const words = document.createElementNS("http://www.w3.org/2000/svg", "title");
-    words.textContent = "design " + design(mark); mark.append(words);
+    words.textContent = named[design(mark)] || "design " + design(mark); mark.append(words);
     mark.addEventListener("pointerenter", () => light(design(mark)));
     mark.addEventListener("pointerleave", () => light(null));
   }

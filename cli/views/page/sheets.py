@@ -78,7 +78,9 @@ def _as_html(command: str, name: str, draw: Callable[[], Figure]) -> tuple[str, 
     svg = _HEAD.sub("", stream.getvalue().decode(), count=1)
     words = escape(f"{command} of {name}", quote=True)
     svg = svg.replace("<svg ", f'<svg role="img" aria-label="{words}" ', 1)
-    html = f'<div class="sheet"><div class="wide">{svg}</div>{as_data(charts(drawn[0]), "charts")}</div>'
+    named = getattr(drawn[0], "names_of_rows", {})  # designs of a study, which name themselves under the pointer
+    data = as_data(charts(drawn[0]), "charts") + (as_data(named, "names") if named else "")
+    html = f'<div class="sheet"><div class="wide">{svg}</div>{data}</div>'
     return html, drawn[0]
 
 

@@ -15,7 +15,7 @@ import pytest
 import yaml
 from factory import design, each_kind
 
-from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, tornado, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
@@ -281,3 +281,18 @@ def test_a_cam_is_coloured_by_its_pressure_angle() -> None:
         assert len(red.get_segments()) == (angle > 12.0).sum() > 0
         rollers = [patch for patch in axes.patches if patch.get_gid() == "roller"]
         assert [patch.radius for patch in rollers] == [cam.roller_radius] * 12
+
+
+def test_bars_of_a_tornado_are_designs_with_one_size_at_its_limit() -> None:
+    made = design("slider_crank_tolerances")
+    study = tornado.study_of(made)
+    assert study is not None
+    found, nominal = tornado.effects(study, ["stroke"])
+    assert nominal["stroke"] == pytest.approx(made.quantity("stroke").value, rel=1e-12)
+    for key, low, high in found["stroke"]:
+        off = {"crank": 0.02, "rod": 0.03, "offset": 0.05}[key]
+        for sign, change in ((-1.0, low), (1.0, high)):
+            other = design("slider_crank_tolerances", **{key: getattr(made.spec, key) + sign * off})
+            expected = other.quantity("stroke").value - nominal["stroke"]
+            assert change == pytest.approx(expected, abs=1e-9)
+    assert [row[0] for row in found["stroke"]] == ["crank", "offset", "rod"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +79,10 @@ def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
     page = (tmp_path / "idlers.html").read_text()
     assert 'id="row-' in page
     assert "linkRows" in page
+    (names,) = re.findall(r'<script type="application/json" class="names">(.*?)</script>', page)
+    named = json.loads(names)
+    assert set(named) == set(re.findall(r'id="row-(\d+)-', page))
+    assert all(words.startswith(f"design {index}: ") and "," in words for index, words in named.items())
 
 
 @pytest.mark.parametrize("objectives", [["frame_length"], ["frame_length", "back_step_angle", "gear_gap"]])
