@@ -99,7 +99,8 @@ def checks_of(kind: Kind, spec: Any) -> Sequence[Check]:
     from gearlink.core.base.errors import NoSolution
     from gearlink.core.base.kind import FileDesigns
 
-    designs, found = FileDesigns(kind, spec), []
+    designs = FileDesigns(kind, spec)
+    found: list[Check] = []
     for command in spec.commands():
         with suppress(NoSolution):
             found += designs.of(command).report(command, findings_only=True).checks

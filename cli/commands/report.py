@@ -168,7 +168,7 @@ def _as_pdf(
     designs = FileDesigns(kind, spec)
     found = (_built(loaded, kind, spec, options, designs, command) for command in _commands(kind, spec))
     parts = [part for part in found if part is not None]
-    return [report for _, report in parts], document(parts, loaded.text, lines_of(changes) if changes else ())
+    return [report for _, report in parts], document(parts, loaded.text, list(lines_of(changes)) if changes else ())
 
 
 def _commands(kind: Kind, spec: Any) -> tuple[str, ...]:

@@ -347,7 +347,7 @@ def _pieces(
     return [
         lambda: board.begin(spec.name, order),
         lambda: board.put("head", sections.head(spec, [report for _, report in parts])),
-        lambda: board.put("film", sections.film(parts[0][0], _FIRST_PICTURES)),
+        lambda: board.put("film", sections.film(parts[0][0], _FIRST_PICTURES, checks=parts[0][1].checks)),
         # Numbers take milliseconds, a sheet half a second.
         *(lambda i=i: board.put(f"{names[i]}-results", results(i)) for i in every),
         lambda: board.put("input", sections.given(text, spec)),

@@ -91,7 +91,8 @@ class Raster:
             elif isinstance(part, Arrow):
                 ends = part.start[i] + np.array([0.0, part.vector[i]])
                 if np.isfinite(ends).all():
-                    arrow(draw, *self._fine(ends).tolist(), round(1.8 * FINER), part.color)
+                    start, end = self._fine(ends).tolist()
+                    arrow(draw, start, end, round(1.8 * FINER), part.color)
         for mark in self.stage.scene.marks:
             if mark.pivot:
                 self._pivot(draw, mark.point[i : i + 1])

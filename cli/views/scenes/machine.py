@@ -11,6 +11,7 @@ import numpy as np
 from gearlink.cli.views.scenes.colors import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY
 from gearlink.cli.views.scenes.loops import builder
 from gearlink.cli.views.scenes.scene import (
+    Arrow,
     Body,
     Chain,
     Chart,
@@ -87,6 +88,8 @@ def _ends(part: Part) -> Points:
         return part.points
     if isinstance(part, Chain):
         return np.concatenate([np.asarray(joint) for joint in part.joints])
+    if isinstance(part, Arrow):
+        return np.concatenate([part.start, part.start + part.vector])
     outline = np.asarray(part.outline)
     if part.repeats == 0 or np.ptp(part.turn) > math.pi:
         reach = float(np.abs(outline).max()) if outline.size else 0.0
@@ -100,6 +103,8 @@ def _moved(part: Part, scale: float, shift: complex) -> Part:
         return replace(part, points=scale * part.points + shift, name="")
     if isinstance(part, Chain):
         return replace(part, joints=tuple(scale * joint + shift for joint in part.joints), width=0.7 * part.width)
+    if isinstance(part, Arrow):
+        return replace(part, start=scale * part.start + shift, vector=scale * part.vector)
     body: Body = replace(part, outline=scale * part.outline, place=scale * part.place + shift, pitch=scale * part.pitch)
     return replace(body, label="", name="")
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -239,6 +239,8 @@ def build(design: Any, fraction: Reals, wanted: Sequence[Wish] = (), checks: Seq
     own = loops.builder(design.kind)
     if not wanted:
         return _with_faults(own(design, fraction), design, fraction, own, checks)
+    if not has_motion(design):
+        raise WrongShow(f"--show: a {design.kind} has no motion of its own; show the files of its members")
     maker, frame = own, frame_of(design, own)
     if frame is None:
         maker, given = of_motion.build, design.moving.input
@@ -246,11 +248,20 @@ def build(design: Any, fraction: Reals, wanted: Sequence[Wish] = (), checks: Seq
     return _with_faults(_shown(design, fraction, maker, frame, wanted), design, fraction, maker, checks)
 
 
+def has_motion(design: Any) -> bool:
+    """Whether the links of a design are known by their motion."""
+    from gearlink.core.base.kinds import KINDS
+
+    return design.kind in KINDS and bool(KINDS[design.kind].motion)
+
+
 def _shown(design: Any, fraction: Reals, maker: Maker, frame: Frame,
            wanted: Sequence[Wish]) -> Scene:  # fmt: skip
     scene = maker(design, fraction)
     picture = Picture(design, fraction, maker, frame)
-    behind, before, marks, keys = [], [], list(scene.marks), list(scene.keys)
+    behind: list[Part] = []
+    before: list[Part] = []
+    marks, keys = list(scene.marks), list(scene.keys)
     for wish in wanted:
         parts, words, key = picture.of(wish)
         (behind if wish.what == "ghosts" else before).extend(parts)
@@ -360,7 +371,7 @@ class Picture:
         except vectors.UnknownPoint as error:
             raise WrongShow(str(error)) from None
 
-    def _arrows(self, what: str, tracks: dict[str, tuple[Points, Points]], most: float, unit: str) -> Found:
+    def _arrows(self, what: str, tracks: Mapping[str, tuple[Points, Points]], most: float, unit: str) -> Found:
         """Arrows of one scale, the longest of the whole loop a set share of the drawing, and the key of the scale."""
         if most <= 0.0 or not math.isfinite(most):
             return [], [], [Key(f"{what}: none", _COLORS[what], 0.0)]
@@ -601,7 +612,7 @@ class _Failing:
 
     def _inputs(self) -> Reals | None:
         """Inputs of the motion at the positions; None where the scene does not tell."""
-        frame = frame_of(self.design, self.maker) if self.design.moving else None
+        frame = frame_of(self.design, self.maker) if has_motion(self.design) else None
         return None if frame is None else frame.inputs(self.fraction)
 
     def _clashes(self) -> Told:
@@ -642,6 +653,8 @@ class _Failing:
 
     def _pressure(self) -> Told:
         """A red ring about the roller where the pressure angle is above its limit."""
+        if not has_motion(self.design):
+            return
         frame, spec = frame_of(self.design, self.maker), self.design.spec
         limits = getattr(spec, "pressure_limits", None)
         limit = max(limits()) if limits is not None else getattr(spec.limits, "pressure_angle", None)
@@ -656,6 +669,8 @@ class _Failing:
 
     def _named_instant(self, check: Check) -> Mask:
         """The position nearest to the place that a finding names; none where it names no input of the motion."""
+        if not has_motion(self.design):
+            return np.zeros(self.fraction.shape, dtype=bool)
         found, words = _DEGREES.search(check.at), self.design.moving.input.column.replace("_", " ")
         q = self._inputs() if found and (words in check.at or "input angle" in check.at) else None
         if found is None or q is None:

@@ -144,6 +144,11 @@ def test_what_cannot_be_shown_is_refused(text: str) -> None:
         shown.build(design("standing_feed"), np.array([0.1]), shown.wishes(text))
 
 
+def test_a_machine_of_members_has_no_vectors() -> None:
+    with pytest.raises(shown.WrongShow, match="members"):
+        shown.build(design("sheet_press"), np.array([0.1]), shown.wishes("velocity"))
+
+
 def failing(name: str, **keys: Any) -> tuple[Any, Any]:
     made = design(name, **keys)
     found = FileDesigns(KINDS[made.kind], made.spec)

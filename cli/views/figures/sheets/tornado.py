@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
@@ -25,8 +25,7 @@ def study_of(design: Any) -> ToleranceStudy | None:
     kind = KINDS.get(design.kind)
     if kind is None or "tolerance" not in kind.commands or getattr(design.spec, "tolerance", None) is None:
         return None
-    found: ToleranceStudy = kind.design("tolerance", design.spec)
-    return found
+    return cast("ToleranceStudy", kind.design("tolerance", design.spec))
 
 
 def draw(design: Any) -> Figure:

@@ -30,7 +30,7 @@ _NAMES = ("velocity", "acceleration")
 
 def draws(design: Any) -> bool:
     """Whether a design has points that move."""
-    if design.kind == "machine" or not loops.moves(design.kind):
+    if not shown.has_motion(design):
         return False
     motion = design.moving
     few = np.linspace(motion.input.start, motion.input.end, 5)[:4]
