@@ -510,6 +510,11 @@ class WideSwingCam:
         return self.profile_correction
 
     @property
+    def zero_end_swing(self) -> float | None:
+        """Swing at whose ends a cam of this rocker radius has no pressure angle, 2 acos(lambda) [rad]; None above 1."""
+        return 2.0 * math.acos(self.ratio) if abs(self.ratio) < 1.0 else None
+
+    @property
     def phase_angle(self) -> float:
         """Phi = phi_ud/2 - xi, cam angle of the run-up profile [rad] ((21), (22))."""
         return 0.5 * self.cycle_angle - self.profile_correction

@@ -63,7 +63,13 @@ DRIVE = {
 }
 OF_REST = ("dwell_force",)
 OF_SLIDER_CAM = {"line_of_centers_place": "aimed_cam.middle", "roller_arm_offset": "aimed_cam.arm_offset"}
-OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
+OF_EVEN_CAM = (
+    "profile_correction",
+    "largest_profile_correction",
+    "zero_end_swing",
+    "phase_angle",
+    "start_curvature_radius",
+)
 PROFILE = {
     "rocker_radius": "cam.rocker_radius",
     "min_radius": "cam.min_radius",
@@ -937,7 +943,7 @@ class WideSwingDesign(Design):
             return value_of(self)
         with at_key("cam.roller_radius"):
             value = value_of(self)
-        return None if math.isinf(value) else value
+        return None if value is None or math.isinf(value) else value
 
     table_law, table_slider, table_balance = law_table, slider_table, balance_table
     table_iteration, table_contact = iteration_table, contact_table

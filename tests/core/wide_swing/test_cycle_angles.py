@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import factory
+import numpy as np
 import pytest
 from pydantic import ValidationError
 
@@ -35,3 +37,11 @@ def test_remainder(left_out: str) -> None:
 def test_refusals(cycle: dict[str, float], words: str) -> None:
     with pytest.raises(ValidationError, match=words):
         design(**cycle)
+
+
+@pytest.mark.parametrize("swing", [110.0, 140.0])
+def test_swing_without_pressure_angle_at_its_ends(swing: float) -> None:
+    radius = 200.0 * math.cos(math.radians(0.5 * swing))
+    found = factory.design("wide_swing_twin_cam", command="swing", swing=swing, cam__rocker_radius=radius)
+    assert math.degrees(found.raw("zero_end_swing")) == pytest.approx(swing, rel=1e-12)
+    assert found.even_cam.pressure_angle(np.array([0.0, 1.0])) == pytest.approx([0.0, 0.0], abs=1e-12)
