@@ -195,10 +195,16 @@ def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dic
 
     Parameters
         ends : by size, a link or the frame and the end of it that the size places, from its origin [mm]
+    Raises
+        AssertionError - where no pin and no mesh stands there, so that the size would seem to move nothing
     """
-    return {
-        size: (Shift(link, elements_at(mechanism, link, end), end / abs(end)),) for size, (link, end) in ends.items()
-    }
+    found = {}
+    for size, (link, end) in ends.items():
+        names = elements_at(mechanism, link, end)
+        if not names:
+            raise AssertionError(f"nothing stands at the end of {link} that {size} places")
+        found[size] = (Shift(link, names, end / abs(end)),)
+    return found
 
 
 def origin_of(link: Link | None) -> Points | complex:

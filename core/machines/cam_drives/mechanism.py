@@ -64,10 +64,10 @@ def cam_gear(design: CamGear) -> Motion:
 
 def cam_gear_errors(design: CamGear, mechanism: Mechanism) -> Movable:
     """Lever, centre distance and the groove; the error is measured at the sun's pitch circle."""
-    ends = {"lever.length": ("planet", design.spec.lever.length), "centers.gears": ("carrier", design.carrier_length)}
+    ends = {"centers.gears": ("carrier", design.carrier_length)}
     outwards = (Shift(FRAME, ("groove",), 1.0, "normal"),)
     return Movable(
-        longer(mechanism, ends) | {CAM_PROFILE: outwards},
+        longer(mechanism, ends) | {"lever.length": (Shift("planet", ("groove",)),), CAM_PROFILE: outwards},
         {"gears": design.carrier_length},
         others={CAM_PROFILE: 0.0},
         pins={"roller": (Shift("planet", ("groove",), 1.0, "frame"),)},

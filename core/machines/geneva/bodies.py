@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,8 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.wording import short
-from gearlink.core.machines.geneva.mechanism import TURN, Geneva
+from gearlink.core.machines.geneva.mechanism import Geneva
+from gearlink.core.mechanism.motion import TURN
 from gearlink.core.numerics.arrays import Points, Reals, units
 
 _INSTANTS, _PLACES = 721, 33
@@ -79,9 +80,9 @@ class Outlines:
         bottom, mouth, middle = drive.distance - s * drive.crank, drive.wheel, math.pi / drive.slots
         axis, corner = cmath.rect(drive.distance, middle), math.asin(pin / self.tip)
         if corner >= middle:
-            most = safely_below(drive.wheel * math.tan(middle))
+            widest = drive.wheel * math.tan(middle)
             message = f"slots for a pin of radius {short(pin)} mm run into each other at their mouths"
-            raise NoSolution(message, key="pin_radius", fix=f"choose pin_radius below {most} mm")
+            raise NoSolution(message, key="pin_radius", fix=f"choose pin_radius below {safely_below(widest)} mm")
         arc_from = middle - self._arc_half
         if arc_from < corner:  # no lip: the arc cuts the wall of the slot
             mouth -= s * math.sqrt(self.locking**2 - (drive.crank - pin) ** 2)
@@ -91,7 +92,7 @@ class Outlines:
                 fix = f"choose locking_radius below {safely_below(most)} mm"
                 raise NoSolution(message, key="locking_radius", fix=fix)
         pieces = [
-            Piece("bottom", lambda t: bottom - s * pin * np.exp(-1j * s * t), 0.0, 0.5 * math.pi),
+            Piece("bottom", lambda t: bottom - s * pin * units(-s * t), 0.0, 0.5 * math.pi),
             Piece("slot", lambda t: bottom + t * (mouth - bottom) + 1j * pin, 0.0, 1.0),
         ]
         start = complex(mouth, pin)
@@ -110,8 +111,7 @@ class Outlines:
         drive, half, pitch = self.drive, self.drive.half, TURN / self.drive.pins
         cut, pieces = self._cut(), []
         for k in range(drive.pins):
-            place = cmath.rect(1.0, k * pitch)
-            pieces.append(Piece("cut-out", lambda t, place=place: place * cut(t), 0.0, 1.0))
+            pieces.append(Piece("cut-out", partial(_turned, cut, cmath.rect(1.0, k * pitch)), 0.0, 1.0))
             if pitch - 2.0 * half > _INSIDE:
                 pieces.append(
                     Piece("locking arc", lambda t: self.locking * units(t), k * pitch + half, (k + 1) * pitch - half)
@@ -125,7 +125,7 @@ class Outlines:
         if abs(half) < _INSIDE:
             return lambda t: end.real + 1j * end.imag * (2.0 * t - 1.0)
         radius = end.imag / math.sin(half)
-        return lambda t: vertex + radius - radius * np.exp(-1j * half * (2.0 * t - 1.0))
+        return lambda t: vertex + radius - radius * units(-half * (2.0 * t - 1.0))
 
     @property
     def cut_vertex(self) -> float:
@@ -168,3 +168,7 @@ class Outlines:
         lips = self.tip * units(np.concatenate([lip, -lip]))
         turn = (math.pi if s > 0.0 else 0.0) - s * drive.rates(f, 0)[0]
         return np.asarray(((s * drive.distance + lips * units(turn)) * units(-f)).ravel())
+
+
+def _turned(curve: Callable[[Reals], Points], unit: complex, parameter: Reals) -> Points:
+    return unit * curve(parameter)

@@ -288,7 +288,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
 
     @property
-    def running(self) -> Any:
+    def running(self) -> tuple[Any, Any, Any]:
         """As `FeedResults.running`."""
         way = math.copysign(1.0, self.mean_ratio)
         turnings = [Turning(each.place, way * each.value) for each in self.speed_turnings]

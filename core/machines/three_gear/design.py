@@ -445,7 +445,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         return turnings(self._forwards, bend)
 
     @property
-    def running(self) -> Any:
+    def running(self) -> tuple[Any, Any, Any]:
         """As `FeedResults.running`."""
         return self._forwards, self._turned, self._speed_turnings
 

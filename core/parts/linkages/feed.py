@@ -155,7 +155,7 @@ class FeedResults(RealSpeed, Design):
         return found._replace(checks=tuple(name for name in found.checks if name != "lay-speed"))
 
     @property
-    def running(self) -> Any:
+    def running(self) -> tuple[Any, Any, Any]:
         """Speed ratio and angle of the output in the sense of its mean motion, as functions of the crank angle [rad],
         and all turnings of the speed ratio over a revolution."""
         raise NotImplementedError

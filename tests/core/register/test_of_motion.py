@@ -322,3 +322,17 @@ def test_far_dwell_of_a_wide_swing_is_the_roller_on_its_arc() -> None:
         "links.roller_arm": scale * abs(r - a * math.cos(half)),
     }
     assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_lever_of_a_cam_gear_in_its_groove() -> None:
+    """A longer lever turns its roller along the wall: N . (dl + i l dX) e^(i (theta + X)) = 0, sun by the teeth."""
+    made = register("cam_gear", ("lever.length",))
+    design, phi = made.design, some(made)
+    unit = np.exp(1j * (phi + np.asarray(design.lever(phi, 0, 1)[0])))
+    rate = design.groove.path(phi).first
+    normal = 1j * rate / np.abs(rate)
+    turned = -np.real(normal.conj() * unit) / (design.spec.lever.length * np.real(normal.conj() * 1j * unit))
+    gain = next(one.gain for one in made.contributions(phi, 1) if one.source == "lever.length")
+    wanted = np.abs(turned) * design.spec.gears.planet / design.spec.gears.sun * design.gear_data.pair.working_radius[0]
+    np.testing.assert_allclose(np.abs(gain).ravel(), wanted, rtol=1e-9)
+    assert wanted.max() > 0.5
