@@ -92,8 +92,12 @@ class Function(Spec):
     output_swing: Annotated[float, Field(ge=-180, le=180, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="turn of the rocker from the first y to the last, negative clockwise"
     )
-    input_start: Angle | None = Field(None, description="crank angle at the first x; left out: that of least error")
-    output_start: Angle | None = Field(None, description="rocker angle at the first y; left out: that of least error")
+    input_start: Angle | None = Field(
+        None, description="crank angle at the first x; left out: that of the smallest error"
+    )
+    output_start: Angle | None = Field(
+        None, description="rocker angle at the first y; left out: that of the smallest error"
+    )
 
     @model_validator(mode="after")
     def _given_or_named(self) -> Function:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -297,7 +297,7 @@ class CamJoint:
         reach = (along.conjugate() * (self._seen(found.touch(phi).point, phi) - self.point)).real
         low, high = float(reach.min()), float(reach.max())
         ends = np.array([low, high]) + _BEYOND * (high - low) * np.array([-1.0, 1.0])
-        return self._bore + turned * found.points(phi)[0], self.point + along * ends
+        return self._bore + turned * found.points(phi)[0], np.asarray(self.point + along * ends, dtype=np.complex128)
 
     def _seen(self, place: Points, phi: Reals) -> Points:
         """Places about the cam's axis, in coordinates of the follower at these cam angles."""
@@ -347,7 +347,8 @@ def shaft_checks(structure: Structure) -> Iterator[Check]:
     for name, cam in structure.cams.items():
         pins = (pin for pin, at in structure.bodies[FRAME].items() if cam.carrier == 0 and at == cam.axis)
         shaft = max((structure.spec.shafts.get(f"{pin}_radius", 0.0) for pin in pins), default=0.0)
-        fix = f"set the follower of {name} farther from the cam"
-        yield from hub_checks(
-            SHAFT_CLEARANCE, [cam.profile], shaft, lambda by, fix=fix: f"{fix} by {safely_above(by)} mm"
-        )  # type: ignore[misc]
+        yield from hub_checks(SHAFT_CLEARANCE, [cam.profile], shaft, partial(_farther, name))
+
+
+def _farther(name: str, by: float) -> str:
+    return f"set the follower of {name} farther from the cam by {safely_above(by)} mm"

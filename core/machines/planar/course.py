@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -305,11 +305,13 @@ class Course:
             q = self._even
             jets = self.jets(q, 0)
             for name, cam in self.structure.cams.items():
-                lift = self.at_start.lifts[name]
-                found += _crossings(
-                    lambda q, lift=lift: lift.angle(self.jets(q, 0), 0), q, lift.angle(jets, 0), cam.motion.joints
-                )  # type: ignore[misc]
+                angles = self.at_start.lifts[name].angle(jets, 0)
+                found += _crossings(partial(self._cam_angle, name), q, angles, cam.motion.joints)
         return tuple(sorted({each for each in found if self.start < each < self.end}))
+
+    def _cam_angle(self, name: str, q: Reals) -> Reals:
+        """Angles of a cam at inputs [rad]."""
+        return self.at_start.lifts[name].angle(self.jets(q, 0), 0)
 
     @cached_property
     def grid(self) -> Reals:

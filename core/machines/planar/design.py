@@ -569,7 +569,9 @@ class PlanarMechanism(Design):
     @property
     def moving_numbers(self) -> dict[str, tuple[Any, str]]:
         """By name what moves, its Taylor coefficients and its unit."""
-        found = {each.output.name: (each.output.coefficient, each.output.unit) for each in self.meanings.values()}
+        found: dict[str, tuple[Any, str]] = {
+            each.output.name: (each.output.coefficient, each.output.unit) for each in self.meanings.values()
+        }
         return found | {f"dyad {i}": (dyad.angle, "rad") for i, dyad in enumerate(self.course.dyads)}
 
     def extremes(self, *keys: tuple[str, int]) -> list[Pair]:

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import cmath
-import math
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from gearlink.core.machines.planar.outputs import jets_of, moved
+from gearlink.core.machines.planar.outputs import moved
 from gearlink.core.machines.planar.structure import GearJoint, LineJoint, PinJoint, RackJoint
 from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
-from gearlink.core.mechanism.motion import Course, Input, Motion, Output
+from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from gearlink.core.machines.planar.cams import CamJoint, Lift
     from gearlink.core.machines.planar.course import Course as Followed
     from gearlink.core.machines.planar.design import PlanarMechanism
-    from gearlink.core.machines.planar.dyads import Dyad
     from gearlink.core.machines.planar.structure import Driven, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Points, Reals
@@ -150,23 +146,3 @@ class _Places:
         toward = (other - one) / abs(mesh.at[1] - mesh.at[0])
         return Mesh(mesh.name, self.names[first], self.names[second], one, toward, abs(r1), abs(r2), mesh.tangent,
                     mesh.internal, self.names[mesh.carrier])  # fmt: skip
-
-
-def transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
-    """The minimum transmission angle of all dyads."""
-
-    def of(links: Mechanism) -> Sequence[Reals]:
-        jets = jets_of(links, structure.names, structure.size)
-        return [np.min([dyad.transmission(jets) for dyad in dyads], axis=0)]
-
-    return Course("rad", of)
-
-
-def poles(links: Mechanism, name: str) -> Points:
-    """Instant centre of a link against the frame, x + i x'/t'; NaN where it does not turn."""
-    link = links.links[name]
-    rate = link.turn.first
-    turning = np.abs(rate) > 1e-12
-    with np.errstate(all="ignore"):
-        found = link.origin.value + 1j * link.origin.first / rate
-    return np.where(turning, found, complex(math.nan, math.nan))

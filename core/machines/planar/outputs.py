@@ -13,13 +13,14 @@ from gearlink.core.machines.planar.system import scaled
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planar.design import PlanarMechanism
+    from gearlink.core.machines.planar.dyads import Dyad
     from gearlink.core.machines.planar.extremes import Coefficient
     from gearlink.core.machines.planar.structure import Line, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.mechanism.courses import Shown
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Course
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.arrays import Points, Reals
 
 RATES = {
     "angle": ("speed_ratio", "acceleration_ratio", "jerk_ratio"),
@@ -200,7 +201,6 @@ def _made(design: PlanarMechanism, name: str, shown: Iterable[Shown], samples: i
 
 def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
     """Every output with speed and acceleration, and the minimum transmission angle."""
-    from gearlink.core.machines.planar.mechanism import transmission
     from gearlink.core.mechanism.courses import Shown
 
     structure, shown = design.structure, []
@@ -209,7 +209,7 @@ def motion(design: PlanarMechanism, samples: int | None = None) -> Table:
         columns = [[*part.shown(structure.names, 2)] for part in parts]
         shown += [each for orders in zip(*columns, strict=True) for each in orders]
     if design.course.dyads:
-        shown.append(Shown("transmission_angle", transmission(structure, design.course.dyads)))
+        shown.append(Shown("transmission_angle", _transmission(structure, design.course.dyads)))
     return _made(design, "motion", shown, samples)
 
 
@@ -271,7 +271,6 @@ def cams(design: PlanarMechanism, samples: int | None = None) -> Table:
 
 def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     """The instant centre of every moving link against the frame; none where it does not turn."""
-    from gearlink.core.machines.planar.mechanism import poles as pole
     from gearlink.core.mechanism.motion import Course
 
     table = _made(design, "poles", (), samples)
@@ -279,7 +278,7 @@ def poles(design: PlanarMechanism, samples: int | None = None) -> Table:
     q = _in_rad(design, table.data[0])
     for name in design.structure.names[1:]:
         # Two numbers in place of a number and its derivative: both take the first derivatives of the link.
-        both = Course("mm", lambda links, name=name: [pole(links, name).real, pole(links, name).imag])  # type: ignore[misc]
+        both = Course("mm", lambda links, name=name: [_pole(links, name).real, _pole(links, name).imag])  # type: ignore[misc]
         x, y = both.rates(design.moving, q, 1)
         columns |= {f"{name}_pole_x": (x, "mm"), f"{name}_pole_y": (y, "mm")}
     return Table.of("poles", columns)
@@ -290,3 +289,29 @@ def _in_rad(design: PlanarMechanism, rows: Any) -> Reals:
     import numpy as np
 
     return np.radians(rows) if design.moving.input.unit == "rad" else np.asarray(rows)
+
+
+def _transmission(structure: Structure, dyads: Sequence[Dyad]) -> Course:
+    """The minimum transmission angle of all dyads."""
+
+    import numpy as np
+
+    from gearlink.core.mechanism.motion import Course
+
+    def of(links: Mechanism) -> Sequence[Reals]:
+        jets = jets_of(links, structure.names, structure.size)
+        return [np.min([dyad.transmission(jets) for dyad in dyads], axis=0)]
+
+    return Course("rad", of)
+
+
+def _pole(links: Mechanism, name: str) -> Points:
+    """Instant centre of a link against the frame, x + i x'/t'; NaN where it does not turn."""
+    import numpy as np
+
+    link = links.links[name]
+    rate = link.turn.first
+    turning = np.abs(rate) > 1e-12
+    with np.errstate(all="ignore"):
+        found = link.origin.value + 1j * link.origin.first / rate
+    return np.where(turning, found, complex(math.nan, math.nan))

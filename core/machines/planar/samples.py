@@ -162,10 +162,16 @@ class PlanarSamples:
             return parts[0]
         unsure = [part.unsure for part in parts if part.unsure is not None]
         findings = [
-            Findings(first.code, *(np.concatenate([getattr(part.findings[i], of) for part in parts])
-                                   for of in ("value", "limit", "fails", "warns")), first.unit)
+            Findings(
+                first.code,
+                np.concatenate([part.findings[i].value for part in parts]),
+                np.concatenate([part.findings[i].limit for part in parts]),
+                np.concatenate([part.findings[i].fails for part in parts]),
+                np.concatenate([part.findings[i].warns for part in parts]),
+                first.unit,
+            )
             for i, first in enumerate(parts[0].findings)
-        ]  # fmt: skip
+        ]
         return Evaluated(
             {name: np.concatenate([part.quantities[name] for part in parts]) for name in parts[0].quantities},
             findings, np.concatenate([part.refused for part in parts]), (), np.concatenate(unsure),

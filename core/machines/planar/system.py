@@ -123,8 +123,11 @@ class System:
     @cached_property
     def _pins(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Points, Points, Points]:
         a, b, *places = zip(*self.pins, strict=True) if self.pins else ((), (), (), (), ())
-        s, r, play = (np.stack(np.broadcast_arrays(*each, 0j)[:-1], -1) if each else np.zeros(0) for each in places)
-        return np.array(a, int), np.array(b, int), s + 0j, r + 0j, play + 0j
+        s, r, play = (
+            np.asarray(np.stack(np.broadcast_arrays(*each, 0j)[:-1], -1) if each else np.zeros(0), dtype=np.complex128)
+            for each in places
+        )
+        return np.array(a, dtype=np.intp), np.array(b, dtype=np.intp), s, r, play
 
     def values(self, jets: Jets, k: int, q: Reals) -> Reals:
         """Coefficient k of all equations along a motion; (N, count).
