@@ -19,11 +19,21 @@ GLOSSARY = Path(__file__).parent / "texts" / "glossary.json"
 _FOLDED = {"ß": "ss", "ä": "ae", "ö": "oe", "ü": "ue"}
 _SEPARATORS = re.compile(r"[\s_'’-]+")
 _PLACE = re.compile(
-    r"(?P<source>[^()]*?)(?:(?<![a-z])(?P<what>figures?|fig\.?|附?图|рис\.?|abb\.?|equations?|eqs?\.?|formula|section|sheet)\s*)?"
+    r"(?P<source>[^()]*?)(?:(?<![a-z])(?P<what>figures?|fig\.?|附?图|рис\.?|abb(?:ildung)?\.?|bild|gl(?:eichung)?\.?|式|equations?|eqs?\.?|formula|section|sheet)\s*)?"
     r"(?P<open>\()?(?P<label>\d+(?:[-.]\d+){0,2})\)?",
     re.IGNORECASE,
 )
-_WHAT = {"fi": "figure", "图": "figure", "ри": "figure", "ab": "figure", "eq": "equation", "fo": "equation"}
+_WHAT = {
+    "fi": "figure",
+    "图": "figure",
+    "ри": "figure",
+    "ab": "figure",
+    "bi": "figure",
+    "gl": "equation",
+    "式": "equation",
+    "eq": "equation",
+    "fo": "equation",
+}
 _WHAT |= {"se": "section", "sh": "sheet", "附图": "sheet"}
 
 
@@ -139,9 +149,13 @@ def folded(name: str) -> str:
 
 
 def named_terms(name: str) -> list[Concept]:
-    """The terms that a name stands for, those that it names first; several where one word has several meanings."""
+    """The terms that a name stands for, those that it names first; several where one word has several meanings.
+
+    A plural counts as its singular where nothing is called by it.
+    """
     asked = folded(name)
-    return sorted(_by_name().get(asked, ()), key=lambda term: folded(term.name) != asked)
+    found = _by_name().get(asked) or _by_name().get(asked.removesuffix("s"), ())
+    return sorted(found, key=lambda term: folded(term.name) != asked)
 
 
 @cache

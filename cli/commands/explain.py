@@ -123,7 +123,20 @@ def find(subject: str) -> list[Topic]:
 
     found = [*map(_term, named_terms(subject)), *(_place(label, place) for label, place in named_places(subject))]
     found += _program_names(subject)
-    return [*found, *(_meaning(subject, meaning) for meaning in meanings_of(subject))] or list(_told_of(subject))
+    found += [_meaning(subject, meaning) for meaning in meanings_of(subject)]
+    return found or list(_told_of(subject)) or list(_turned_round(subject))
+
+
+def _turned_round(subject: str) -> Iterator[Topic]:
+    """Quantities and terms whose words are those of a name in another order, as in normal backlash."""
+    from gearlink.cli.glossary import folded, glossary
+    from gearlink.core.base.nomenclature import TERMS
+
+    asked = sorted(map(folded, re.split(r"[\s_-]+", subject)))
+    if len(asked) < 2:
+        return
+    yield from (_term(term) for name, term in glossary().items() if sorted(map(folded, name.split())) == asked)
+    yield from (_quantity(name) for name in TERMS if sorted(name.split("_")) == asked)
 
 
 def _program_names(subject: str) -> list[Topic]:

@@ -46,6 +46,10 @@ FIELD = """
     Übertragungswinkel; Uebertragungswinkel; Rollenmittelpunktsbahn; Vorgreifer; Vordermarke; Flankenspiel;
     Profilverschiebung; 传动角; 停歇; 根切; 槽轮机构
 """
+FIELD += """;
+    trace point; whole depth; circular pitch; diametral pitch; transverse module; crowning; application factor; Burmester;
+    Gruebler; Freudenstein equation; mechanical advantage; snap; parabolic motion; double dwell; indexing table; bearer;
+    Rastgetriebe; Kurbelwinkel; Zahnfußfestigkeit; Hubkurve; 曲柄摇杆; 间歇机构; blanket cylinder; forme; precision points"""
 NAMES = [" ".join(name.split()) for name in FIELD.split(";")]
 
 
@@ -138,6 +142,10 @@ def test_explain_takes_several_words_with_and_without_quotes(gearlink: Any) -> N
     assert as_json["picture"] == "`gearlink sheet designs/lift_cam.yaml pressure`"
 
 
+def test_the_words_of_a_quantity_may_be_in_another_order(gearlink: Any) -> None:
+    assert gearlink("explain", "angle back step").out.startswith("back_step_angle")
+
+
 def test_a_misspelled_term_has_its_neighbour(gearlink: Any) -> None:
     for wrong, near in (
         ("transmision angle", "transmission-angle"),
@@ -177,6 +185,8 @@ def test_places_lead_to_kinds_and_commands_that_there_are(place: Any) -> None:
         ("dissertation (18)", "wide-swing dissertation", "equation", "cam"),
         ("TY-460 3.2", "TY-460 report", "section", "press"),
         ("paper (5)", "swing-gripper paper", "equation", "gripper"),
+        ("Gl. 4-26", "thesis", "equation", "synth momentary-dwell"),
+        ("Bild 4-5", "thesis", "figure", "chart back-step"),
     ],
 )
 def test_a_place_of_a_source_leads_to_its_command(name: str, source: str, what: str, command: str) -> None:
