@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.numerics.arrays import BLOCK
 from gearlink.core.parts.cams.profile import profile, profile_points, translating
 
 Array = NDArray[np.float64]

@@ -9,6 +9,11 @@ from numpy.typing import NDArray
 
 from gearlink.core.base.rows import row_numbers
 
+# The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
+# pages for each of them, which doubles the time.
+BLOCK = 8000
+"""How many positions are computed together."""
+
 Reals: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.complex128]
 """Points or vectors of the plane, x + i y."""

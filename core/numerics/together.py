@@ -7,8 +7,7 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.numerics.arrays import BLOCK, Reals
 
 Function: TypeAlias = Callable[[Reals], Reals]
 Found = TypeVar("Found")

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.numerics.arrays import BLOCK
 from gearlink.core.parts.cams.profile import profile, translating
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.numerics.arrays import BLOCK, Points, Reals
 from gearlink.core.parts.cams.codes import LARGER
 
 

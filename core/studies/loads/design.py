@@ -573,7 +573,7 @@ class LoadsDesign(Design):
         """
         import numpy as np
 
-        from gearlink.core.numerics.blocks import BLOCK
+        from gearlink.core.numerics.arrays import BLOCK
 
         machine, apart, sizes = self.machine, [0.0], [0.0]
         phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)

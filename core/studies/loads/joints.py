@@ -10,7 +10,7 @@ import numpy as np
 from gearlink.core.base.results import cached_property
 from gearlink.core.mechanism.joints import Pin, ToothDrive, meshes_of
 from gearlink.core.mechanism.links import rates
-from gearlink.core.numerics.blocks import BLOCK
+from gearlink.core.numerics.arrays import BLOCK
 from gearlink.core.studies.loads.panels import Panels
 from gearlink.core.studies.loads.reversals import Function, places, places_of
 from gearlink.core.studies.loads.zeros import zeros, zeros_of
