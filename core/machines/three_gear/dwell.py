@@ -318,14 +318,16 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
 
 def valley(linkage: FourBar, train: GearTrain) -> Valley:
     """The part of the turn around the minimum speed, of a train whose output gains angle over a revolution."""
+    extremes = speed_extremes(linkage, train)
+    step = back_step(linkage, train) if len(dwell_positions(linkage, train)) == 2 else None
+    return _valley(linkage, train, extremes.least_angle, extremes.greatest_angle, step)
+
+
+def _valley(linkage: FourBar, train: GearTrain, least: float, greatest: float, step: BackStep | None) -> Valley:
     from gearlink.core.parts.linkages.band_dwell import Valley
 
-    extremes = speed_extremes(linkage, train)
-    first = second = extremes.least_angle
-    if len(dwell_positions(linkage, train)) == 2:
-        step = back_step(linkage, train)
-        first, second = step.start, step.start + step.crank_angle
-    after = first + (extremes.greatest_angle - first) % _TURN
+    first, second = (least, least) if step is None else (step.start, step.start + step.crank_angle)
+    after = first + (greatest - first) % _TURN
     return Valley(
         output_angles(linkage, train),
         lambda phi: output_speed(linkage, train, phi),
@@ -426,14 +428,9 @@ class ByRoots(Output):
 
     def within(self, tolerance: float) -> ToleranceDwell:
         """The longest dwell within a tolerance [rad] to either side that has an end."""
-        from gearlink.core.parts.linkages.band_dwell import Valley, longest_in_band
+        from gearlink.core.parts.linkages.band_dwell import longest_in_band
 
-        step, forward, extremes = self.back_step, self.train.sense * self.ahead.sense, self.speed_extremes
-        least, greatest = (extremes.least_angle, extremes.greatest_angle)[::forward]
-        first = second = least
-        if step is not None:
-            first, second = step.start, step.start + step.crank_angle
-        after = first + (greatest - first) % _TURN
-        mean = abs(mean_ratio(self.linkage, self.train))
-        found = longest_in_band(Valley(self._angle, self._speed, first, second, after - _TURN, after, mean), tolerance)
+        forward, extremes = self.train.sense * self.ahead.sense, self.speed_extremes
+        places = (extremes.least_angle, extremes.greatest_angle)[::forward]
+        found = longest_in_band(_valley(self.linkage, self.ahead, *places, self.back_step), tolerance)
         return found._replace(output_angle=forward * found.output_angle)

@@ -329,9 +329,9 @@ def _with_one_end(valleys: Valleys, low: Reals, high: Reals) -> tuple[Reals, Rea
     rise = np.where(early, least, most)
     between = np.flatnonzero(~early & ~late)
     if between.size:
-        some = valleys.part(between), *(bound[between] for bound in bounds)
+        some, around = valleys.part(between), [bound[between] for bound in bounds]
         ends = first[between], last[between]
-        rise[between] = bracketed_roots(lambda x: _ends(x, *some)[2], least[between], most[between], ends=ends)
+        rise[between] = bracketed_roots(lambda x: _ends(x, some, *around)[2], least[between], most[between], ends=ends)
     left, right, _ = _ends(rise, valleys, *bounds)
     return left, right, np.isfinite(rise)
 
