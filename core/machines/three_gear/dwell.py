@@ -431,6 +431,6 @@ class ByRoots(Output):
         from gearlink.core.parts.linkages.band_dwell import longest_in_band
 
         forward, extremes = self.train.sense * self.ahead.sense, self.speed_extremes
-        places = (extremes.least_angle, extremes.greatest_angle)[::forward]
-        found = longest_in_band(_valley(self.linkage, self.ahead, *places, self.back_step), tolerance)
+        least, greatest = (extremes.least_angle, extremes.greatest_angle)[::forward]
+        found = longest_in_band(_valley(self.linkage, self.ahead, least, greatest, self.back_step), tolerance)
         return found._replace(output_angle=forward * found.output_angle)
