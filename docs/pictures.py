@@ -41,6 +41,7 @@ THUMBNAILS = {
     "swing-gripper": ("swing_gripper", 0.4),
     "wide-swing-cam": ("wide_swing_cycle", 0.3),
     "disc-cam": ("lift_cam", 0.12),
+    "cylindrical-cam": ("barrel_cam", 0.1),
     "linked-cams": ("linked_cams", 0.1),
     "cam-gear": ("cam_gear", 0.1),
     "cam-linkage": ("cam_linkage", 0.1),
@@ -88,19 +89,26 @@ def write_feed() -> None:
     frames[0].save(TARGET / "feed.gif", "GIF", optimize=False, **options)
 
 
-def write_press() -> None:
-    """The figure of `gearlink press`."""
+def write_figure(command: tuple[str, ...], design: str, dpi: int, name: str) -> None:
+    """The figure of a command."""
     with tempfile.TemporaryDirectory() as folder:
-        words = ["press", str(ROOT / "designs" / "ty460.yaml"), "--plot", "--dpi", "80", "--out", folder, "--quiet"]
+        source = str(ROOT / "designs" / f"{design}.yaml")
+        words = [*command, source, "--plot", "--dpi", str(dpi), "--out", folder, "--quiet"]
         assert CliRunner().invoke(app, words).exit_code == 0
         (path,) = Path(folder).glob("*.png")
         with Image.open(path) as picture:
-            picture.convert("RGB").save(TARGET / "press.png", optimize=True)
+            picture.convert("RGB").save(TARGET / f"{name}.png", optimize=True)
+
+
+def write_all() -> None:
+    """Every figure of docs/img."""
+    TARGET.mkdir(exist_ok=True)
+    write_feed()
+    write_figure(("press",), "ty460", 80, "press")
+    write_figure(("synth", "dwell"), "standing_feed", 80, "first-result")
+    for kind, (name, fraction) in THUMBNAILS.items():
+        write_png(thumbnail(name, fraction), kind)
 
 
 if __name__ == "__main__":
-    TARGET.mkdir(exist_ok=True)
-    write_feed()
-    write_press()
-    for kind, (name, fraction) in THUMBNAILS.items():
-        write_png(thumbnail(name, fraction), kind)
+    write_all()

@@ -73,14 +73,18 @@ def test_figures_of_the_readme_are_those_of_the_script_and_small() -> None:
     assert [name for _, name in kinds if not (DESIGNS / f"{name}.yaml").exists()] == []
     sizes = {path.name: path.stat().st_size for path in (ROOT / "docs" / "img").iterdir()}
     shown = re.findall(r"docs/img/([\w.-]+)", (ROOT / "README.md").read_text())
-    assert sorted(shown) == sorted(sizes) == sorted(["feed.gif", "press.png", *(f"{kind}.png" for kind, _ in kinds)])
+    assert (
+        sorted(shown)
+        == sorted(sizes)
+        == sorted(["feed.gif", "press.png", "first-result.png", *(f"{kind}.png" for kind, _ in kinds)])
+    )
     assert sizes["feed.gif"] < 400_000
     assert sum(sizes.values()) < 1_500_000
 
 
 def test_the_readme_has_every_kind_and_is_a_page() -> None:
     text = (ROOT / "README.md").read_text()
-    assert set(re.findall(r"^\|.*?\| `([\w-]+)` \|", text, re.MULTILINE)) == set(FILES)
+    assert set(re.findall(r"^\|.*?\| \[`([\w-]+)`\]", text, re.MULTILINE)) == set(FILES)
     assert text.count("\n") < 200
 
 

@@ -123,3 +123,29 @@ def test_a_command_that_changed_makes_its_page_stale() -> None:
 
 def test_examples_of_the_docstrings() -> None:
     assert sum(doctest.testmod(module).failed for module in (blocks, drawings, typeset, reference)) == 0
+
+
+@pytest.mark.slow
+def test_pictures_of_the_readme_are_those_that_the_program_draws(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """But for a few grey levels at edges, which other versions of libraries move."""
+    import numpy as np
+    from PIL import Image
+
+    from docs import pictures
+
+    committed = pictures.TARGET
+    monkeypatch.setattr(pictures, "TARGET", tmp_path)
+    pictures.write_all()
+    stale = []
+    for path in sorted(tmp_path.iterdir()):
+        with Image.open(path) as now, Image.open(committed / path.name) as before:
+            same = now.size == before.size and getattr(now, "n_frames", 1) == getattr(before, "n_frames", 1)
+            if (
+                not same
+                or np.abs(np.asarray(now.convert("L"), int) - np.asarray(before.convert("L"), int)).mean() > 2.0
+            ):
+                stale.append(path.name)
+    assert stale == [], "run `make docs`"
+    assert {path.name for path in tmp_path.iterdir()} == {path.name for path in committed.iterdir()}
