@@ -20,7 +20,7 @@ from gearlink.core.base.report import Rule
 
 DESIGNS = sorted((ROOT / "designs").glob("*.yaml"))
 FAILING: dict[str, str] = yaml.safe_load((Path(__file__).parent / "failing.yaml").read_text(encoding="utf-8"))
-"""For each code a change of an example with which its check fails or warns: `designs/x.yaml --set key=value`."""
+"""For each code a command in which its check fails or warns: `check designs/x.yaml --set key=value`."""
 
 API = {
     "Open, change, draw": ["gearlink.load", "gearlink.design", "gearlink.changed", "gearlink.figure"],
@@ -35,7 +35,7 @@ API = {
 
 def commands() -> Iterator[tuple[str, bool]]:
     """What these pages run, each with whether its picture is wanted."""
-    yield from ((f"gearlink check {change}", False) for change in FAILING.values())
+    yield from ((f"gearlink {command}", False) for command in FAILING.values())
     yield from ((f"{drawn(path)} --plot --quiet", True) for path in DESIGNS)
     yield from ((f"gearlink {name} --help", False) for name in names_of_commands())
     yield from ((f"gearlink new {kind}", False) for kind in FILES)
@@ -134,12 +134,11 @@ def _check(rule: Rule) -> str:
     lines += [f"**Kinds.** {', '.join(f'[{kind}](../kinds/{kind}.md)' for kind in kinds)}\n"] if kinds else []
     lines += [f"**Source.** {rule.source}\n"] if rule.source else []
     if rule.code in FAILING:
-        change = FAILING[rule.code]
-        stem = Path(change.split()[0]).stem
-        lines += [
-            f"## Example\n\nThe design [{stem}](../gallery.md#{stem}), changed so that this check does not pass:\n"
-        ]
-        lines += [f"```console\n$ gearlink check {change}\n```\n"]
+        command = FAILING[rule.code]
+        file = re.search(r"designs/(\w+)\.yaml", command)
+        shown = f"[{file[1]}](../gallery.md#{file[1]})" if file else "a design"
+        lines += [f"## Example\n\nThis check does not pass for {shown}, changed as the command says:\n"]
+        lines += [f"```console\n$ gearlink {command}\n```\n"]
     return "\n".join(line for line in lines if line).replace("|l", "\\|l")
 
 
