@@ -198,7 +198,7 @@ def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dic
     Raises
         AssertionError - where no pin and no mesh stands there, so that the size would seem to move nothing
     """
-    found = {}
+    found: dict[str, tuple[Shift, ...]] = {}
     for size, (link, end) in ends.items():
         names = elements_at(mechanism, link, end)
         if not names:

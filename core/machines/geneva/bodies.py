@@ -92,8 +92,8 @@ class Outlines:
                 fix = f"choose locking_radius below {safely_below(most)} mm"
                 raise NoSolution(message, key="locking_radius", fix=fix)
         pieces = [
-            Piece("bottom", lambda t: bottom - s * pin * units(-s * t), 0.0, 0.5 * math.pi),
-            Piece("slot", lambda t: bottom + t * (mouth - bottom) + 1j * pin, 0.0, 1.0),
+            Piece("bottom", lambda t: complex(bottom) - complex(s * pin) * units(-s * t), 0.0, 0.5 * math.pi),
+            Piece("slot", partial(_straight, complex(bottom, pin), complex(mouth, pin)), 0.0, 1.0),
         ]
         start = complex(mouth, pin)
         if arc_from >= corner:
@@ -123,9 +123,9 @@ class Outlines:
         end, vertex = self.edge, self.cut_vertex
         half = math.pi - 2.0 * cmath.phase(end - vertex)  # at the arc's centre, by the chord from vertex to edge
         if abs(half) < _INSIDE:
-            return lambda t: end.real + 1j * end.imag * (2.0 * t - 1.0)
+            return partial(_straight, end.conjugate(), end)
         radius = end.imag / math.sin(half)
-        return lambda t: vertex + radius - radius * units(-half * (2.0 * t - 1.0))
+        return lambda t: complex(vertex + radius) - complex(radius) * units(-half * (2.0 * t - 1.0))
 
     @property
     def cut_vertex(self) -> float:
@@ -172,3 +172,7 @@ class Outlines:
 
 def _turned(curve: Callable[[Reals], Points], unit: complex, parameter: Reals) -> Points:
     return unit * curve(parameter)
+
+
+def _straight(start: complex, end: complex, parameter: Reals) -> Points:
+    return np.asarray(start + parameter * (end - start), dtype=np.complex128)
