@@ -221,7 +221,7 @@ def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
     with pytest.raises(NoSolution, match="within the limits") as caught:
         _ = refused.linkage
     assert caught.value.key == "gears.idler"
-    longest = float(str(caught.value).rpartition("deg over ")[2].split()[0])
+    longest = float(str(caught.value).rpartition("set dwell.window to ")[2].split()[0])
     made = design({**request, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
     assert {check.status for check in made.report("synth dwell").checks} <= {"pass", "warn"}
 
