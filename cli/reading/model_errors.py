@@ -389,6 +389,8 @@ class _Wording:
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
         by_letters = {name.lower(): name for name in allowed}  # A_radius beside W_radius
+        if not parent and (deeper := self._deeper(plain)):
+            return f"it belongs to {deeper}; {listed}"
         if near := get_close_matches(plain, by_letters, n=1):
             return f"did you mean '{by_letters[near[0]]}'? {listed}"
         own = {path: [name.lower() for name in self._keys(path)] for path in self._sections() if path != parent}
@@ -397,6 +399,15 @@ class _Wording:
             return listed
         place = f"to '{format_path(sections[0])}'" if sections[0] else "to the top level of the file"
         return f"it belongs {place}; {listed}"
+
+    def _deeper(self, key: str) -> str:
+        """The sections of this kind of file that have a key, where no allowed section has it."""
+        from gearlink.cli.texts.spec_keys import known_keys
+
+        kind = str(self.loaded.data.get("kind", ""))
+        paths = [path.path for path, kinds in known_keys() if kind in kinds and path.path.rpartition(".")[2] == key]
+        sections = dict.fromkeys(path.rpartition(".")[0] for path in paths if "." in path)
+        return " or ".join(f"'{section}'" for section in list(sections)[:3])
 
     def _meaning(self, key: str, parent: KeyPath, allowed: Sequence[str]) -> Meaning | None:
         """What an unknown key means by the words of the field; nothing for another spelling of an allowed one."""
