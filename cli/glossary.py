@@ -154,7 +154,7 @@ def named_terms(name: str) -> list[Concept]:
     A plural counts as its singular where nothing is called by it.
     """
     asked = folded(name)
-    found = _by_name().get(asked) or _by_name().get(asked.removesuffix("s"), ())
+    found = _by_name().get(asked) or _by_name().get(asked.removesuffix("s"), [])
     return sorted(found, key=lambda term: folded(term.name) != asked)
 
 

@@ -202,6 +202,7 @@ def truth_remedy(text: str) -> str:
 
 _MOST_ERRORS = 500
 _MOST_READINGS = 64
+_SLIP = 0.8  # likeness of a misspelled key, before a key of that very name in a section is offered
 _LISTED_KEYS = 24
 _LONGEST_WORD = 40
 
@@ -389,7 +390,8 @@ class _Wording:
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
         by_letters = {name.lower(): name for name in allowed}  # A_radius beside W_radius
-        if not parent and (deeper := self._deeper(plain)):
+        near = get_close_matches(plain, by_letters, n=1, cutoff=_SLIP)
+        if not near and not parent and (deeper := self._deeper(plain)):
             return f"it belongs to {deeper}; {listed}"
         if near := get_close_matches(plain, by_letters, n=1):
             return f"did you mean '{by_letters[near[0]]}'? {listed}"

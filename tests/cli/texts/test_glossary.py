@@ -47,9 +47,11 @@ FIELD = """
     Profilverschiebung; 传动角; 停歇; 根切; 槽轮机构
 """
 FIELD += """;
-    trace point; whole depth; circular pitch; diametral pitch; transverse module; crowning; application factor;
-    Burmester; Gruebler; Freudenstein equation; mechanical advantage; snap; parabolic motion; double dwell; indexing table;
-    bearer; Rastgetriebe; Kurbelwinkel; Zahnfußfestigkeit; Hubkurve; 曲柄摇杆; 间歇机构; blanket cylinder; forme; precision points"""
+    trace point; whole depth; circular pitch; diametral pitch; transverse module; crowning;
+    application factor; Burmester; Gruebler; Freudenstein equation; mechanical advantage; snap;
+    parabolic motion; double dwell; indexing table; bearer; Rastgetriebe; Kurbelwinkel;
+    Zahnfußfestigkeit; Hubkurve; 曲柄摇杆; 间歇机构; blanket cylinder; forme; precision points
+"""
 NAMES = [" ".join(name.split()) for name in FIELD.split(";")]
 
 
