@@ -72,7 +72,7 @@ KINDS: dict[str, Kind] = {
                 "register": "",
                 "tolerance": "",
             },
-            errors="register:errors",
+            errors="mechanism:errors",
             register_at="range",
             motion="mechanism:motion",
             codes="",

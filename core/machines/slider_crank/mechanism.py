@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.mechanism.closures import slider
 from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.dual import Shift, longer
 from gearlink.core.mechanism.joints import Connection, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, standing, steady
+from gearlink.core.studies.register.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.design import SliderCrankDesign
@@ -58,3 +60,12 @@ def rack_displacement(design: SliderCrankDesign) -> Course:
     assert design.rack_drive is not None
     ratio = design.rack_drive.stroke_ratio
     return coordinate("rack", along=-1j).less(ratio * design.depth(design.dead_center_folded_at, 0))
+
+
+def errors(design: SliderCrankDesign, mechanism: Mechanism) -> Movable:
+    """Crank or stroke, rod and offset."""
+    part = design.slider_crank
+    ends = {"crank": ("crank", part.crank_length), "rod": ("rod", part.rod)}
+    sizes = longer(mechanism, ends) | {"offset": (Shift(FRAME, ("guide",), -1.0),)}
+    sizes["stroke"] = tuple(shift.scaled(part.crank_per_stroke) for shift in sizes["crank"])
+    return Movable(sizes)
