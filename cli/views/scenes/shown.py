@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -33,13 +34,14 @@ from gearlink.cli.views.scenes.scene import (
     circle,
     placed,
 )
+from gearlink.core.base.design import UnknownName
 from gearlink.core.base.errors import GearlinkError, NoSolution, named
 from gearlink.core.mechanism import vectors
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
 
 if TYPE_CHECKING:
-    from gearlink.core.base.report import Check
+    from gearlink.core.base.report import Check, Table
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Input
     from gearlink.core.numerics.arrays import Mask
@@ -52,6 +54,8 @@ _LONGEST, _GHOSTS, _APART = 0.28, 4, 1.0 / 24.0
 """Longest arrow by the size of the drawing; earlier positions, and their distance in the loop."""
 _SAMPLES, _FAR = 180, 1.15
 _PROBES, _FEW = 15, 4
+_OVER_INPUT = ("motion", "path", "function")
+"""Tables that have the transmission angle over the input."""
 _COLORS = {"velocity": GREEN, "acceleration": PURPLE, "force": RED}
 _NEAR = 1e-4
 """Of the size of the drawing, less than the width of a line: a direction of the file has a few digits."""
@@ -635,9 +639,9 @@ class _Failing:
             yield mask, parts
 
     def _transmission(self) -> Told:
-        """The links in red where the transmission angle of the table `motion` is below its limit."""
-        q, table = self._inputs(), self.design.table("motion")
-        if q is None or "transmission_angle" not in table.columns:
+        """The links in red where the transmission angle of the table over the input is below its limit."""
+        q, table = self._inputs(), self._over_input()
+        if q is None or table is None:
             return
         x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
         period = math.degrees(self.design.moving.input.end) if self.design.moving.input.turns else None
@@ -650,6 +654,17 @@ class _Failing:
                 if isinstance(part, Chain) and part.marked
             ],
         )
+
+    def _over_input(self) -> Table | None:
+        """A table of the design that has the transmission angle over the input of the motion."""
+        if not has_motion(self.design):
+            return None
+        for name in _OVER_INPUT:
+            with suppress(NoSolution, UnknownName):  # of another form of the file
+                table: Table = self.design.table(name)
+                if table.columns[0] == self.design.moving.input.column and "transmission_angle" in table.columns:
+                    return table
+        return None
 
     def _pressure(self) -> Told:
         """A red ring about the roller where the pressure angle is above its limit."""

@@ -179,6 +179,32 @@ def test_gears_that_clash_are_red_where_they_do() -> None:
     assert len(red) == 2
 
 
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("five_bar_path", {"transmission_angle": 80.0}),
+        ("five_bar_positions", {"transmission_angle": 80.0}),
+        ("ty460", {"transmission_angle": 80.0}),
+        ("hypocycloid_slider", {"transmission_angle": 80.0}),
+        ("wide_swing_slider", {"transmission_angle": 80.0}),
+        ("lift_cam", {"pressure_angle": 5.0}),
+        ("wide_swing_twin_cam", {"pressure_angle": 5.0}),
+        ("ty460", {"pressure_angle": 5.0}),
+        ("six_bar_swing", {"gear_gap": 300.0}),
+    ],
+)
+def test_every_failing_check_is_said_in_the_film(name: str, keys: dict[str, float]) -> None:
+    """Of each kind, also where the motion does not tell the instants."""
+    made, scene = failing(name, limits=keys)
+    assert scene.faults
+    data = player_data(scene, made.spec.name, 25)
+    assert any(data["faults"])
+    assert [bool(any(fault.placed and fault.at[i] for fault in scene.faults)) for i in range(36)] == [
+        bool(framed) for framed in data["framed"]
+    ]
+
+
 def test_a_passing_design_has_nothing_red() -> None:
     _, scene = failing("crank_rocker")
     assert scene.faults == ()
