@@ -18,7 +18,7 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -92,11 +92,11 @@ def run(command: str, picture: bool = False) -> Run:
     Raises
         RuntimeError - for a fault of the program, and where a picture is wanted and none is written
     """
-    os.environ |= {"COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "agg", "NO_COLOR": "1"}
     words = shlex.split(command)
     if words[0] != "gearlink":
         raise RuntimeError(f"only gearlink is run: {command}")
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(ROOT):
+    KEPT.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(ROOT), _plain():
         extra = ["--out", folder] if picture else []
         extra += ["--dpi", _DPI] if picture and words[1] not in _WITHOUT_DPI else []
         began = time.perf_counter()
@@ -116,11 +116,24 @@ def run(command: str, picture: bool = False) -> Run:
     return ended
 
 
+@contextlib.contextmanager
+def _plain() -> Iterator[None]:
+    """A terminal of 80 columns without colours, whatever that of the user is."""
+    before, program_name = dict(os.environ), sys.argv[0]
+    os.environ |= {"COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "agg", "NO_COLOR": "1"}
+    sys.argv[0] = "gearlink"  # which messages on the command line name
+    try:
+        yield
+    finally:
+        sys.argv[0] = program_name
+        os.environ.clear()
+        os.environ.update(before)
+
+
 def _printed(words: list[str]) -> tuple[int, str]:
     from gearlink.cli.main import run as gearlink
 
     out, err = io.StringIO(), io.StringIO()
-    sys.argv[:1] = ["gearlink"]  # which messages on the command line name
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         status = int(gearlink(words))
     lines = (out.getvalue() + err.getvalue()).rstrip().split("\n")
@@ -151,9 +164,8 @@ def session(commands: tuple[str, ...], files: tuple[str, ...], stale: bool = Fal
     if all(_kept(key, False, stale) for key in keys):
         return [result(key) for key in keys]
     KEPT.mkdir(parents=True, exist_ok=True)
-    os.environ |= {"COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "agg", "NO_COLOR": "1"}
     found = []
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), _plain():
         for key, command in zip(keys, commands, strict=True):
             words = shlex.split(command, comments=True)
             began = time.perf_counter()
