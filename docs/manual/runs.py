@@ -19,6 +19,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -70,7 +71,7 @@ def result(command: str, picture: bool = False) -> Run:
 
 
 def compute(wanted: Iterable[tuple[str, bool]], stale: bool = False) -> list[Run]:
-    """Run what is not kept, two commands at a time.
+    """Run what is not kept, in as many processes as there are processors, four at most.
 
     Parameters
         wanted : commands, each with whether its picture is wanted
@@ -82,8 +83,9 @@ def compute(wanted: Iterable[tuple[str, bool]], stale: bool = False) -> list[Run
     missing = [pair for pair in dict.fromkeys(wanted) if not _kept(*pair, stale)]
     if not missing:
         return []
-    with multiprocessing.get_context("spawn").Pool(min(len(missing), os.cpu_count() or 1, 4)) as pool:
-        return pool.starmap(run, missing, chunksize=1)
+    count = min(len(missing), os.cpu_count() or 1, 4)
+    with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return list(pool.map(run, *zip(*missing, strict=True)))
 
 
 def run(command: str, picture: bool = False) -> Run:
