@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -106,7 +107,8 @@ def build_site() -> None:
     command = [sys.executable, "-m", "zensical", "build", "--clean", "--strict", "--config-file", str(config)]
     ended = subprocess.run(command, cwd=BUILT, text=True, capture_output=True)
     if ended.returncode:
-        sys.exit(f"{ended.stdout}\n{ended.stderr[-1500:]}")
+        told = re.sub(r"\x1b\[[0-9;]*m", "", ended.stdout + ended.stderr)
+        sys.exit(told.partition("Traceback")[0])
     for path in SITE.rglob("*.html"):
         up = "../" * (len(path.relative_to(SITE).parts) - 1) or "./"
         html = path.read_text(encoding="utf-8")
