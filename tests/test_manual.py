@@ -149,3 +149,23 @@ def test_pictures_of_the_readme_are_those_that_the_program_draws(
                 stale.append(path.name)
     assert stale == [], "run `make docs`"
     assert {path.name for path in tmp_path.iterdir()} == {path.name for path in committed.iterdir()}
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not browser.installed(), reason=browser.MISSING)
+@pytest.mark.skipif(not (ROOT / "build/manual/site").exists(), reason="the site is built by `make site`")
+def test_the_search_works_from_the_disk_and_pages_fit_a_phone() -> None:
+    site = ROOT / "build" / "manual" / "site"
+    with browser.browser() as shown:
+        shown.size(390, 800)
+        for name in ("index.html", "which_kind.html", "kinds/disc-cam.html", "checks/GL301.html"):
+            shown.open(site / name)
+            assert shown.run("return document.documentElement.scrollWidth") <= 390, name
+        shown.size(1280, 800)
+        shown.wait("return document.querySelector('.md-search__button')")
+        shown.run("document.querySelector('.md-search__button').click()")
+        host = "[...document.querySelectorAll('div')].find(each => each.shadowRoot)"
+        shown.wait(f"return document.activeElement === {host}")
+        shown.press(*"pressure angle")
+        shown.wait(f"return /GL401/.test({host}.shadowRoot.textContent)")
+        assert shown.problems() == []

@@ -139,7 +139,7 @@ def _check(rule: Rule) -> str:
         shown = f"[{file[1]}](../gallery.md#{file[1]})" if file and (ROOT / file[0]).exists() else "a design"
         lines += [f"## Example\n\nThis check does not pass for {shown}, changed as the command says:\n"]
         lines += [f"```console\n$ gearlink {command}\n```\n"]
-    return "\n".join(line for line in lines if line).replace("|l", "\\|l")
+    return "\n".join(line for line in lines if line)
 
 
 def _kind_list() -> str:
