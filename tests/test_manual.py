@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import browser
 import pytest
 
 from docs.manual import blocks, drawings, links, reference, tables, typeset
