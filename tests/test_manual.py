@@ -65,6 +65,12 @@ def test_equations_are_typeset(page: str, block: str) -> None:
     assert not re.search(r"\\[a-z]", left), f"{page}: {left}"
 
 
+def test_no_block_that_is_to_be_filled_is_indented() -> None:
+    """Within a list it would be left as it is."""
+    for path, text in WRITTEN.items():
+        assert not re.search(r"(?m)^ +```(console|figure|drawing|keys|checks|session|picture|design|math)$", text), path
+
+
 def test_keys_and_checks_that_pages_ask_for_exist() -> None:
     for page, block in _blocks("keys"):
         kind, *sections = block.split()

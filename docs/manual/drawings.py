@@ -82,7 +82,7 @@ class Drawing:
             axes.set_ylabel("y [mm]")
             scene_axes.draw(axes, scene, ahead=ahead)
             self._label(axes, scene)
-            made.savefig(path, metadata={"Date": None})
+            made.savefig(path, metadata={"Date": None}, bbox_inches="tight", pad_inches=0.08)
 
     def _label(self, axes: Axes, scene: Scene) -> None:
         points = places(scene)

@@ -223,6 +223,7 @@ def _signature(name: str, thing: Any) -> str:
     return f"```python\n{name}{parameters}\n```"
 
 
+_ENTRY = re.compile(r"[\w.,* ]+ (:|-) ")
 _SECTIONS = ("Parameters", "Returns", "Raises", "Example", "Examples", "Fields", "Source", "Yields")
 
 
@@ -254,7 +255,8 @@ def docstring(text: str) -> str:
             made.append(line.removeprefix("    "))
         elif section and line.strip():
             inner = line[4:]
-            made.append(f"  {inner.strip()}" if inner.startswith(" ") else f"* {_parameter(inner)}")
+            goes_on = inner.startswith(" ") or (made[-1] and not _ENTRY.match(inner))
+            made.append(f"  {inner.strip()}" if goes_on else f"* {_parameter(inner)}")
         else:
             made.append(line)
     _close(made, section)
