@@ -58,7 +58,7 @@ class Page:
     def image(self, name: str, caption: str) -> str:
         """A picture of `runs.KEPT`."""
         self.pictures.add(name)
-        return f"![{caption}]({self.up}pictures/{name})\n"
+        return f"![{caption}]({self.up}pictures/{name}){{ loading=lazy }}\n"
 
 
 def commands(text: str) -> Iterator[tuple[str, bool]]:
