@@ -22,6 +22,7 @@ LOADS: dict[str, tuple[str, dict[str, Any]]] = {
     "geared-six-bar": ("six_bar_swing", {"speed": 60, "links": {"coupler_2": _MASSES, "output": _MASSES}}),
     "planar-mechanism": ("planar_watt", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),
     "disc-cam": ("loaded_cam", {}),
+    "measured-cam": ("loaded_measured_cam", {}),
     "cycloidal-reducer": ("loaded_cycloidal", {}),
     "cam-gear": ("loaded_cam_gear", {}),
     "cam-linkage": ("cam_linkage", {"speed": 60, "links": {"coupler": _MASSES, "output": _MASSES}}),

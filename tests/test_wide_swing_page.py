@@ -61,7 +61,7 @@ def test_what_the_longer_stroke_has_to_spare() -> None:
     """Page, nomenclature and GL510 have the quantity's formula; the comment of the design rounds it."""
     made = design("wide_swing_cycle", command="swing")
     found = made.quantity("longer_stroke_reserve").value
-    working, _, back, _ = made.spec.cycle.lengths()
+    working, _, back, _ = made.spec.cycle.lengths
     assert found == pytest.approx((1.0 + made.spec.unloader.reserve) * (back / working) ** 2 - 1.0, rel=1e-12, abs=0.0)
     for words in (PAGE.read_text(), TERMS["longer_stroke_reserve"].words):
         assert "(1 + rho)(longer/shorter)^2 - 1" in words

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.cli.views.figures.sheets.true_size import Scale
-    from gearlink.core.base.report import Check
 
 
 class Asked(NamedTuple):
@@ -47,6 +46,7 @@ class Asked(NamedTuple):
 
 def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked) -> int:
     """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
+    from gearlink.cli.views.figures.write import failures
 
     try:
         size, at = _scale(asked.scale, asked.paper, names), _inputs(asked.at)
@@ -55,7 +55,7 @@ def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
             made = sheets_of(whole_design(kind, spec), size, at, asked.show)
             chosen, paths = _chosen(made, names, spec, source), []
-            failed = failing(checks_of(kind, spec))
+            failed = failures(checks_of(kind, spec))
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
                 paths.append(_write(made, chosen[number], spec, options, failed))
     except (DesignFileError, CannotWrite) as error:
@@ -67,11 +67,6 @@ def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked)
 
 def _is_drawing(name: str) -> bool:
     return name.startswith("drawing")
-
-
-def failing(checks: Sequence[Check]) -> str:
-    """The checks that fail by code and name, each once."""
-    return ", ".join(dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail"))
 
 
 def _inputs(text: str) -> list[float]:

@@ -765,7 +765,7 @@ def geneva_driver(design: Any) -> Part:
         circles=(*pins, *shaft),
         notes=(
             f"pins of radius {spec.pin_radius:.9g} mm at {drive.crank:.9g} mm from the axis",
-            "the crank's arm, which carries pin and disc, lies beside the wheel and is not drawn",
+            "the crank's arm, which carries pin and disc, lies in front of the wheel and is not drawn",
             f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius; no running clearance",
             "frame: axis of the crank at the origin, a pin on the x axis",
         ),

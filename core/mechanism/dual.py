@@ -202,7 +202,7 @@ def longer(mechanism: Mechanism, ends: Mapping[str, tuple[str, complex]]) -> dic
     for size, (link, end) in ends.items():
         names = elements_at(mechanism, link, end)
         if not names:
-            raise AssertionError(f"nothing stands at the end of {link} that {size} places")
+            raise AssertionError(f"nothing stands at the end of {link} that {size} moves")
         found[size] = (Shift(link, names, end / abs(end)),)
     return found
 

@@ -60,7 +60,6 @@ def pair(tmp_path: Path) -> Path:
         ("gear SPEC --format yaml", "; give --save FILE"),
         ("gear SPEC -f SVG", "; give --plot --plot-format svg"),
         ("gear SPEC --plot-format markdown", "; give --format md"),
-        ("report SPEC --format html", "; report writes HTML without being told"),
         ("check SPEC --format sarif", "; use `gearlink batch DIR --format sarif`"),
         ("export SPEC -o x.dxf", "; --out DIR: folder for files that are written"),
         ("gear SPEC --jobs 4", "; it belongs to batch, explore, tolerance, register"),

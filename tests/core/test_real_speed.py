@@ -148,7 +148,7 @@ def test_variable_speed_names_its_input_speed_and_refuses_another():
     assert made.input_speed == 200.0
     assert made.quantity("output_speed_max").value == pytest.approx(300.0 * 2.0 * math.pi / 60.0, rel=1e-12)
     assert design("thesis_example_2", command="synth variable-speed", input_speed=200).input_speed == 200.0
-    with pytest.raises(ValueError, match=r"input_speed is 190 rev/min, but .* asks for 200 rev/min"):
+    with pytest.raises(ValueError, match=r"input_speed is 190 rev/min, but .* requires 200 rev/min"):
         design("thesis_example_2", command="synth variable-speed", input_speed=190)
 
 

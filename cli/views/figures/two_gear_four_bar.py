@@ -112,7 +112,7 @@ def _magnified(axes: Axes, design: TwoGearFourBar) -> None:
         short = asked > width
         look: Any = {"color": style.WRONG if short else style.GREY, "linewidth": 2.5, "solid_capstyle": "butt"}
         ends = start + 0.5 * (width - asked), start + 0.5 * (width + asked)
-        axes.plot(ends, [-1.4 * band] * 2, **look, label=f"asked for: {asked:g}°", gid="fails" if short else "asked")
+        axes.plot(ends, [-1.4 * band] * 2, **look, label=f"required: {asked:g}°", gid="fails" if short else "asked")
     axes.set_xlim(float(degrees[0]), float(degrees[-1]))
     axes.set_ylim(-2.0 * band, 2.0 * band)
     panels.legend_above(axes, 2)

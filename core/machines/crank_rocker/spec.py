@@ -77,7 +77,7 @@ class Function(Spec):
             list[_Pair], Field(min_length=3, max_length=3), Entries("three pairs", "[[40, 50], [90, 80], [160, 110]]")
         ]
         | None
-    ) = Field(None, description="crank angle and rocker angle, three times; or name, x and both swings in their place")
+    ) = Field(None, description="crank angle and rocker angle, three times; or name, x and both swings instead of them")
     frame: Length = Field(description="frame AD")
     name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] | None = Field(
         None, description="function y of x: the crank's swing stands for x, the rocker's for y"
@@ -93,10 +93,10 @@ class Function(Spec):
         None, description="turn of the rocker from the first y to the last, negative clockwise"
     )
     input_start: Angle | None = Field(
-        None, description="crank angle at the first x; left out: that of the smallest error"
+        None, description="crank angle at the first x; default: that of the smallest error"
     )
     output_start: Angle | None = Field(
-        None, description="rocker angle at the first y; left out: that of the smallest error"
+        None, description="rocker angle at the first y; default: that of the smallest error"
     )
 
     @model_validator(mode="after")
@@ -118,7 +118,7 @@ class Function(Spec):
         if self.x is not None and self.x[0] == self.x[1]:
             raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
         if self.output_swing == 0.0:
-            raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
+            raise PydanticCustomError("GL108", "an output that is at rest is no function", {"key": "output_swing"})
         return self
 
 

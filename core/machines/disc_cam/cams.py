@@ -163,7 +163,7 @@ class FollowerCams:
         assert roller.distance is not None
         if roller.distance < least * (1.0 - 1e-12):
             message = f"at a roller distance of {roller.distance:.6g} mm the return cam does not keep cam.size"
-            fix = f"raise return_roller.distance to {safely_above(least)} mm, or leave it out"
+            fix = f"raise return_roller.distance to {safely_above(least)} mm, or omit it"
             raise NoSolution(message, key="return_roller.distance", fix=fix)
 
     def _rocking_place(self) -> Place:

@@ -60,7 +60,7 @@ class TranslatingFollower(Translating):
     """A roller on a slide; the cam axis is the origin."""
 
     type: Literal["translating"] = Field(description="how the follower moves")
-    offset: SignedLength = Field(0.0, description="how far the line of travel passes the cam axis on its right")
+    offset: SignedLength = Field(0.0, description="distance of the line of travel from the cam axis on its right")
 
 
 class Profile(Spec):
@@ -107,7 +107,7 @@ class MeasuredCamSpec(TolerancedSpec):
     )
     dwell_tolerance: Distance = Field(0.02, description="range of the follower within a dwell: mm, oscillating deg")
     speed: Speed | None = Field(None, description="speed of the cam")
-    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not judged")
+    shaft_radius: Distance = Field(0.0, description="radius of the cam shaft; 0: not checked")
     closure: Literal["spring", "groove"] = Field("spring", description="what holds the follower on the cam")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()

@@ -411,7 +411,7 @@ def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: f
         raise NoSolution(
             f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
             fix=(
-                f"ask for more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
+                f"specify more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
                 "widest dwell of a tolerance"
             ),
         )
@@ -457,7 +457,7 @@ class SlottedArm:
                     f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
                     f"the planet's axis, not at {self.ratio:g}"
                 ),
-                fix="choose a place between them",
+                fix="choose a position between them",
             )
 
     @property

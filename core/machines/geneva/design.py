@@ -314,7 +314,7 @@ class GenevaDrive(RealSpeed, Design):
         what, overlap = "depth of the locking disc in the wheel", "gap between locking disc and wheel"
         yield LOCKING.check(status, what, depth, 0.0, "mm", overlap=overlap, fix=deeper)
         if depth > 0.0 and (over := outlines.overlap) > 0.0:
-            what = "interference of the lip beside a slot with the edge of the locking disc"
+            what = "interference of the lip at a slot with the edge of the locking disc"
             yield LOCKING.check("fail", what, over, 0.0, "mm", side="<=", fix=deeper)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

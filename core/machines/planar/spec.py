@@ -132,16 +132,16 @@ class CamPair(Spec):
     )
     roller_radius: Length | None = Field(None, description="radius of the roller")
     face: Direction | None = Field(
-        None, description="of a flat face in place of a roller: its direction in coordinates of the follower"
+        None, description="of a flat face instead of a roller: its direction in coordinates of the follower"
     )
     phase: Direction = Field(0.0, description="cam angle in the start position")
     sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise against `on`; -1: clockwise")
-    on: Name | None = Field(None, description="body that carries both; left out: the first that does")
+    on: Name | None = Field(None, description="body that carries both; default: the first that does")
 
     @model_validator(mode="after")
     def _one_contact(self) -> CamPair:
         if (self.roller_radius is None) == (self.face is None):
-            words = "give roller_radius, or face in its place"
+            words = "give roller_radius or face"
             code = "GL106" if self.face is None else "GL111"
             raise PydanticCustomError(code, "{message}", {"key": "roller_radius", "message": words})
         require_closed(self.motion, 0.0)
@@ -216,7 +216,7 @@ class PlanarSpec(TolerancedSpec):
     drive: Drive
     start: Annotated[dict[Name, Place], Field(max_length=2 * MOST_LINKS)] = Field(
         {},
-        description="directions of the links [deg] and places of slides [mm] at input 0: exact of what is driven or "
+        description="directions of the links [deg] and positions of slides [mm] at input 0: exact of what is driven or "
         "tied by a mesh, of followers of cams at lift 0, rough of all others, where they choose the assembly",
     )
     range: Range | None = Field(None, description="inputs, where the input swings; default: it turns")

@@ -183,7 +183,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
     if room[0] <= 0.0:
         most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
         raise NoSolution(
-            (f"roller radius {roller_radius:.6g} mm: where the roller stands still it covers the whole profile"),
+            (f"roller radius {roller_radius:.6g} mm: where the roller is at rest it covers the whole profile"),
             fix=f"make it less than {safely_below(most)} mm, or the centre distance larger",
         )
     within = np.flatnonzero(room < 0.0)

@@ -540,7 +540,7 @@ def slider_law(device: Device, swing: float, inertia: Callable[[float], float], 
 
 
 def _otherwise(exponent: int) -> str:
-    return "take exponent 1" if exponent != 1 else "leave method out, which gives the law by its integral"
+    return "take exponent 1" if exponent != 1 else "omit method, which gives the law by its integral"
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,7 +37,7 @@ class SwingLoads(CommonLoads):
     device_direction: Direction | None = Field(
         None,
         description="direction from the rocker's axis D to the base pin of the device, or to the mass of type: gravity "
-        "at mid-swing; left out: no force at D",
+        "at mid-swing; default: no force at D",
     )
     slider_direction: Direction | None = Field(
         None,

@@ -211,12 +211,14 @@ class SwingCam(Spec):
 
 
 class SwingCycle(Spec):
-    """Cam angles of a whole cycle, in place of cycle_angle: they add up to 360 deg; one may be omitted."""
+    """Cam angles of a whole cycle, instead of cycle_angle: they add up to 360 deg; one may be omitted."""
 
     working: Stroke | None = Field(None, description="working stroke, run-up and run-out")
     far_dwell: Phase | None = Field(None, description="rest at the far end")
     return_: Stroke | None = Field(None, alias="return", description="return stroke")
-    near_dwell: Phase | None = Field(None, description="rest at the near end; any one of the four left out is the rest")
+    near_dwell: Phase | None = Field(
+        None, description="rest at the near end; one of the four may be omitted: the remainder of 360 deg"
+    )
 
     @model_validator(mode="after")
     def _one_turn(self) -> SwingCycle:

@@ -213,7 +213,7 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
     """
     refusal = (
         "the rocker turns over so sharply within the stroke that its drive's oscillations cannot be summed: raise the "
-        "pivot ratio, reduce the swing, or leave out the drive (shaft)"
+        "pivot ratio, reduce the swing, or omit the drive (shaft)"
     )
     probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, refusal, first=32)
     values = acceleration((np.arange(probe.nodes) + 0.5) / probe.nodes)

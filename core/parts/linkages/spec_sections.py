@@ -33,7 +33,7 @@ class FrontLay(Spec):
         description="maximum speed of the sheet on that way"
     )
     angle: Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle of the arrival; left out: where the sheet arrives most gently"
+        None, description="crank angle of the arrival; default: where the sheet arrives most gently"
     )
 
 

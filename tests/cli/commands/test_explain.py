@@ -87,10 +87,11 @@ def test_keys_of_the_explanations_exist_in_a_kind() -> None:
 
 def test_what_is_known_is_what_models_and_classes_say() -> None:
     """After a change of specs or outlines: `make docs`."""
-    from gearlink.cli.texts import indexing, known
+    from docs.generate import index_text, schemas_text
+    from gearlink.cli.texts import known
 
-    assert known.SCHEMAS.read_text(encoding="utf-8") == indexing.schemas_text()
-    assert known.INDEX.read_text(encoding="utf-8") == indexing.index_text()
+    assert known.SCHEMAS.read_text(encoding="utf-8") == schemas_text()
+    assert known.INDEX.read_text(encoding="utf-8") == index_text()
 
 
 def test_formulas_belong_to_quantities() -> None:
@@ -137,7 +138,8 @@ def test_check_name_leads_to_its_code(gearlink: Any) -> None:
 def test_kinds_of_an_optional_check(gearlink: Any) -> None:
     """The lift-off check is shown only where a file has spring and masses, but the kind has it."""
     topics = gearlink("explain", "lift-off", "--format", "json").json["topics"]
-    assert next(each for each in topics if each["about"] == "check")["kinds"] == "swing-gripper, disc-cam"
+    kinds = next(each for each in topics if each["about"] == "check")["kinds"]
+    assert kinds == "swing-gripper, planar-mechanism, disc-cam, measured-cam"
 
 
 def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> None:

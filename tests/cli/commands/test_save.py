@@ -89,7 +89,7 @@ def test_comments_name_unit_meaning_source_and_rounding(gearlink: Any, tmp_path:
     assert gearlink(*line, "--round", "0.01").status == 0
     text = path.read_text()
     assert text.startswith("# standing-feed: `gearlink synth dwell ")
-    assert "# asked for: dwell: {window: 70, tolerance: 0.5}" in text
+    assert "# required: dwell: {window: 70, tolerance: 0.5}" in text
     assert "frame: 114.85" in text
     assert "# mm: frame AD; found by synth dwell; 114.8527195 rounded to 0.01 mm" in text
     assert "# mm: module of all three gears; required" in text

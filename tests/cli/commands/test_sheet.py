@@ -259,7 +259,7 @@ def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) 
     (cam, *_) = cam_sheets.discs(made)
     page, scale = workshop.fitted(cam)
     figure = workshop.drawing(made, 0)
-    assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height))
+    assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height), rel=1e-12, abs=0.0)
     lines = {line.get_gid(): line.get_xydata() for line in figure.axes[0].lines if line.get_gid()}
     profile = lines["profile"] @ [1.0, 1j]
     _, own = cam.points(np.linspace(0.0, 2.0 * math.pi, 7201))

@@ -221,7 +221,7 @@ def test_a_page_has_no_samples_where_nothing_scatters(
 def test_a_place_that_is_none_is_refused_as_that_of_its_option(gearlink: Any, spec: Path, at: str) -> None:
     ended = gearlink("register", str(spec), "--at", at)
     assert ended.status == 2
-    assert ended.err.startswith("<--at>:1:1: error GL112: no place ")
+    assert ended.err.startswith("<--at>:1:1: error GL112: no position ")
     assert "give dwell or an input angle" in ended.err
     ended = gearlink("register", str(spec), "--set", f"register.at={at or repr(at)}", "--format", "json")
     assert [(each["file"], each["key"]) for each in ended.json["errors"]] == [("<--set>", "register.at")]
@@ -259,7 +259,7 @@ UNKNOWN_NAMES = [
     ("candy_feed_tolerances", 'tolerance.sources."links.x".plus_minus=1', "GL170", "'links.x' is no key with a number"),
     ("candy_feed_tolerances", "tolerance.require=[bak_step_angle < 1]", "GL152", "bak_step_angle"),
     ("candy_feed_tolerances", "register.backlash={mesh_9: 1}", "GL112", "no mesh 'mesh_9': there are crank_idler"),
-    ("candy_feed_tolerances", "register.at=zone", "GL112", "no place 'zone' here: give dwell"),
+    ("candy_feed_tolerances", "register.at=zone", "GL112", "no position 'zone' here: give dwell"),
     ("ty460_register", 'tolerance.sources."pins.Q".clearance=[0,0.1]', "GL170", "pin 'Q': it has A, B, C, D, E, F"),
     ("ty460_register", "register.backlash.mesh_9=1", "GL112", "there are mesh_12, mesh_34, rack_lower, rack_upper"),
     (

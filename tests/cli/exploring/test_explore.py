@@ -64,7 +64,7 @@ def test_a_file_in_the_place_of_a_folder_is_told_before_the_study_is_computed(
 def test_one_design_is_printed_or_all_are_written(gearlink: Any, written: Any, other: tuple[str, ...]) -> None:
     ended = gearlink("explore", written(), "--show", "3", *other)
     assert (ended.status, ended.out) == (2, "")
-    assert f"leave {other[0]} out" in ended.err
+    assert f"omit {other[0]}" in ended.err
 
 
 def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_path: Path) -> None:
@@ -75,7 +75,7 @@ def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_
     assert count > 1
     ended = gearlink("explore", written(variables={"gears.idler": {"values": [60]}}), "--write", folder)
     there = len(list(folder.iterdir()))  # its design 0 is one of the others, or stands beside them all
-    assert ended.err == f"wrote 1 design to {folder}, beside {there - 1} of an earlier run\n"
+    assert ended.err == f"wrote 1 design to {folder}, next to {there - 1} of an earlier run\n"
     assert there in (count, count + 1)
 
 

@@ -230,11 +230,11 @@ def test_polygons_close_over_the_links() -> None:
     links = made.moving.at(np.radians([40.0]), 2).links
     coupler = links["coupler"]
     b, c = coupler.origin, links["rocker"].at("C")
-    assert ends["velocity B"] == pytest.approx(complex(b.first[0]) * speed)
+    assert ends["velocity B"] == pytest.approx(complex(b.first[0]) * speed, rel=1e-9, abs=1e-9)
     assert ends["acceleration C"] == pytest.approx(complex(c.second[0]) * speed**2)
     arm = complex(c.value[0] - b.value[0])
     turning = 1j * float(coupler.turn.first[0]) * speed
-    assert ends["velocity C"] - ends["velocity B"] == pytest.approx(turning * arm)
+    assert ends["velocity C"] - ends["velocity B"] == pytest.approx(turning * arm, rel=1e-9, abs=1e-9)
     assert "velocity of coupler" in ends
 
 

@@ -85,9 +85,9 @@ def test_values_stand_as_they_are_written(text: str, path: Any, value: Any, as_w
 
 
 def test_what_has_no_place_is_refused() -> None:
-    with pytest.raises(CannotPlace, match="no place"):
+    with pytest.raises(CannotPlace, match="is not in the file"):
         with_value("a: [1, 2]\n", ("a", 5), 3)
-    with pytest.raises(CannotPlace, match="no place"):
+    with pytest.raises(CannotPlace, match="is not in the file"):
         with_values("a: 1\n", [("a.b", 3)])
 
 

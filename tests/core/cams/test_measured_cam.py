@@ -190,7 +190,7 @@ def test_as_a_disc_cam_it_has_the_profile_that_was_measured(side: int) -> None:
 
 def test_loads_of_a_measured_cam_by_virtual_work() -> None:
     """A slide with mass and spring: torque of the cam and force on the roller by the lift's own rates."""
-    loads = factory.design("measured_cam", command="loads", follower__mass=2.0)
+    loads = factory.design("loaded_measured_cam", command="loads", follower__mass=2.0)
     phi, omega = np.radians([75.0, 100.0, 230.0, 280.0]), 4.0 * math.pi
     value, speed, acceleration = loads.design.cam.motion(phi)
     lift = value - loads.design.ends[0]

@@ -269,7 +269,7 @@ def test_refuses_the_relative_pole() -> None:
 
 
 def test_refuses_a_standing_pitch_curve() -> None:
-    with pytest.raises(NoSolution, match="stands still at cam angle 57"):
+    with pytest.raises(NoSolution, match="is at rest at cam angle 57"):
         profile(1.0, oscillating(0.0, 80.0, 1.0, 1.0), sense=1, roller_radius=10.0)
 
 

@@ -189,7 +189,7 @@ def test_three_pairs_to_forty_digits() -> None:
 @pytest.mark.parametrize(
     ("pairs", "words"),
     [
-        ([[40.0, 100.0], [110.0, 140.0], [180.0, 180.0]], "in line at pair 3"),
+        ([[40.0, 100.0], [110.0, 140.0], [180.0, 180.0]], "collinear at pair 3"),
         ([[40.0, 50.0], [40.0, 50.0], [160.0, 110.0]], "two of them are alike"),
         ([[40.0, 40.0], [90.0, 90.0], [160.0, 160.0]], "no linkage"),
         ([[10.0, 100.0], [120.0, 20.0], [200.0, 90.0]], "different assemblies"),

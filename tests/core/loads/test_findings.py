@@ -66,7 +66,7 @@ def test_a_bearing_that_hardly_swings_has_no_life() -> None:
     def swinging(swing: float, bodies: int | None, kind: str = "needle") -> list[tuple[str, float, float]]:
         bearing = SimpleNamespace(kind=kind, rolling_bodies=bodies, life=None)
         pin = SimpleNamespace(bearing=bearing, life=None, swing=math.radians(swing))
-        design = SimpleNamespace(section=SimpleNamespace(bearings={"C": bearing}), pins_found={"C": pin})
+        design = SimpleNamespace(section=SimpleNamespace(bearings={"C": bearing}), borne_by={"C": pin}.get)
         return [(each.status, each.value, each.limit) for each in checks.bearing_life(design)]
 
     assert swinging(29.0, 24) == [("warn", pytest.approx(29.0, rel=1e-12), 30.0)]

@@ -19,8 +19,8 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from gearlink.core.base.errors import GearlinkError
+from gearlink.core.machines.wide_swing import loads as swing_load_checks
 from gearlink.core.machines.wide_swing import remedies as swing_remedies
-from gearlink.core.machines.wide_swing.loads import design as swing_load_checks
 
 DEGREE = 90
 K = np.array([0.03, 0.11, 0.24, 0.37, 0.44, 0.58, 0.66, 0.79, 0.92, 0.985])

@@ -195,7 +195,7 @@ def test_what_a_machine_does_not_have_is_refused() -> None:
         _ = register("slider_crank_tolerances", radius=10.0).radius
     with pytest.raises(NoSolution, match="this one slides"):
         _ = register("slider_crank_tolerances", load=10.0).flips
-    with pytest.raises(NoSolution, match="no place 'dwell' here"):
+    with pytest.raises(NoSolution, match="no position 'dwell' here"):
         _ = register("slider_crank_tolerances", at="dwell").input_angles
     made = factory.design("wide_swing_cycle", command="register", tolerance={"sources": {"cam.profile": SIZE}})
     with pytest.raises(MissingSection, match=r"give register\.radius"):

@@ -71,6 +71,7 @@ STUDIES = {
     "geneva": Study("geneva_drive", {"center_distance": 8, "locking_radius": 20}, {"GL344"}),
     "drum": Study("barrel_cam", {"cam.radius": 2.0}, {"GL401"}, {"limits__pressure_angle": 26.5}),
     "disc cam": Study("loaded_cam", {"cam.prime_radius": 2.0}, {"GL401"}, {"limits__pressure_angle": 25.95}, "cam"),
+    "measured cam": Study("loaded_measured_cam", {"follower.offset": 2.0}, {"GL401"}, {"limits__pressure_angle": 23.1}),
     "pair by shifts": Study(
         "gear_pair", {"profile_shift[0]": 0.5, "profile_shift[1]": 0.5}, {"GL203"}, {"limits__contact_ratio": 2.1}
     ),

@@ -31,6 +31,7 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "geneva_drive": (["center_distance", "pin_radius"], "lip_thickness >= 1 mm"),
     "barrel_cam": (["cam.radius", "follower.roller_radius"], "least_wall_factor >= 0.1"),
     "loaded_cam": (["cam.prime_radius", "follower.roller_radius"], "min_curvature_radius >= 1 mm"),
+    "loaded_measured_cam": (["follower.offset", "roller_radius"], "min_curvature_radius >= 1 mm"),
     "gear_pair": (["profile_shift[0]", "profile_shift[1]"], "center_distance >= 1 mm"),
     "ring_pair": (["profile_shift[0]"], "contact_ratio >= 1"),
     "mutilated_gear_press": (["links.crank", "links.rocker"], "rocker_swing >= 1 deg"),
