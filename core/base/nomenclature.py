@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from gearlink.core.base.errors import GearlinkError
-from gearlink.core.base.gear_terms import GEAR_PAIR
-from gearlink.core.base.linkage_terms import CRANK_ROCKER, GEAR_LINKAGE, REAL_SPEED, SLIDER
-from gearlink.core.base.machine_terms import MACHINE
-from gearlink.core.base.motion_terms import MOTION_EXTREMES, SHAPED_LAWS
-from gearlink.core.base.planar_terms import PLANAR
-from gearlink.core.base.stepping_terms import STEPPING
-from gearlink.core.base.term import Term as Term
+from gearlink.core.base.terms import (
+    CRANK_ROCKER,
+    GEAR_LINKAGE,
+    GEAR_PAIR,
+    MACHINE,
+    MOTION_EXTREMES,
+    PLANAR,
+    REAL_SPEED,
+    SHAPED_LAWS,
+    SLIDER,
+    STEPPING,
+)
+from gearlink.core.base.terms import Term as Term
 
 _SLIDER_CRANK = {
     "quick_return_ratio": Term(

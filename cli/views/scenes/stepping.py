@@ -52,11 +52,6 @@ def geneva(design: GenevaDrive, fraction: Reals) -> Scene:
     return replace(scene, parts=(*parts, *scene.parts, *pins))
 
 
-def _locking_radius(design: GenevaDrive) -> float:
-    """That of the file, else what leaves a lip of half a pin radius."""
-    return design.spec.locking_radius or max(design.crank_radius - 1.5 * design.spec.pin_radius, 1e-3)
-
-
 def _outlines(design: GenevaDrive) -> Outlines:
     """Wheel and disc; a disc that the file does not give, or that is too large to be drawn, leaves some lip."""
     given, most = design.spec.locking_radius, max(design.crank_radius - design.spec.pin_radius, 1e-3)

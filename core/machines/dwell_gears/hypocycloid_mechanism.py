@@ -15,6 +15,30 @@ from gearlink.core.mechanism.rates import fixed, standing, steady
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.studies.register.movable import Movable
+
+
+def errors(design: HypocycloidDwell, mechanism: Mechanism) -> Movable:
+    """The rod, the carrier, which is the centre distance of planet and ring, and the planet's teeth."""
+    from gearlink.core.mechanism.dual import longer
+    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.tolerance.sources import GearOfSource
+
+    gears, arm = design.spec.gears, design.carrier_length
+    ends = {"centers.planet_ring": ("carrier", arm)}
+    if not design.spec.is_arm:
+        ends["rod.length"] = ("rod", design.slider.rod)
+    sizes = longer(mechanism, ends)
+    alpha = math.radians(gears.pressure_angle)
+    teeth = {name: GearOfSource(gears.module, gears.module * z, alpha) for name, z in
+             (("planet", gears.planet), ("ring", gears.ring))}  # fmt: skip
+    links = {"planet": "planet", "ring": FRAME}
+    return Movable(
+        sizes,
+        {"planet_ring": arm},
+        gears={name: Turned(links[name], each) for name, each in teeth.items()},
+        radius=arm if design.spec.is_arm else 0.0,
+    )
 
 
 def motion(design: HypocycloidDwell) -> Motion:

@@ -19,6 +19,26 @@ from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pi
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.numerics.arrays import Mask, Reals
+    from gearlink.core.studies.register.movable import Movable
+
+
+def errors(design: MutilatedGearDwell, mechanism: Mechanism) -> Movable:
+    """The links of the four-bar, the angle at which it starts, and the runout of the driven gear."""
+    from gearlink.core.mechanism.dual import Shift, longer
+    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.tolerance.sources import GearOfSource
+
+    bar, gears = design.linkage, design.spec.gears
+    diameter = gears.module * design.driven_teeth
+    driven = GearOfSource(gears.module, diameter, math.radians(gears.pressure_angle))
+    found = {"driven": Turned("crank", driven)}
+    if bar is None:
+        return Movable(gears=found, radius=0.5 * diameter)
+    ends = {f"links.{name}": (name, getattr(bar, name)) for name in ("crank", "coupler", "rocker")}
+    sizes = longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)})
+    sizes["start_angle"] = (Shift("crank", ("B",), math.radians(1.0), turned=True),)
+    return Movable(sizes, gears=found, radius=bar.rocker)
+
 
 _NEAR = 8.0
 """Units in the last place by which a place may lie before the start of a motion and be it."""

@@ -25,8 +25,6 @@ from gearlink.core.machines.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Points, Reals
 
 TURN = 2.0 * math.pi
-EXACT = {"fixed": 3, "free": 5}
-"""Poses that are met exactly, by frame."""
 KEEPS = ("links.input", "links.follower", "links.output", "phase")
 _ANGLES, _ARMS = 48, 25
 _STARTS, _SEED, _ENOUGH = 40, 20261126, 3

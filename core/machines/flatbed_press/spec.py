@@ -82,9 +82,6 @@ class Cylinder(Spec):
         return self
 
 
-RackTeeth = Annotated[list[Teeth], Field(min_length=2, max_length=2), Entries("[lower, upper]", "[28, 28]")]
-
-
 class Pinion(PairKeys):
     """The pinion at F between the two racks."""
 

@@ -14,6 +14,28 @@ from gearlink.core.mechanism.rates import fixed, steady
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.design import GearPairDesign
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.studies.register.movable import Movable
+
+
+def errors(design: GearPairDesign, _mechanism: Mechanism) -> Movable:
+    """The centre distance, and the runout of both gears; measured at the reference circle of gear 2."""
+    from gearlink.core.mechanism.dual import Shift
+    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.tolerance.sources import GearOfSource
+
+    pair = design.gear_pair
+    farther = (Shift(FRAME, ("gear2",)),)
+    teeth = [
+        GearOfSource(pair.module, 2.0 * abs(radius), math.radians(design.spec.pressure_angle))
+        for radius in pair.reference_radius
+    ]
+    gears = {name: Turned(name, each) for name, each in zip(("gear1", "gear2"), teeth, strict=True)}
+    return Movable(
+        {"center_distance": farther, "centers.gears": farther},
+        {"gears": abs(pair.center_distance)},
+        gears=gears,
+        radius=abs(pair.reference_radius[1]),
+    )
 
 
 def motion(design: GearPairDesign) -> Motion:

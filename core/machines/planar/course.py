@@ -365,7 +365,6 @@ _START_ROUNDS = 200
 _CLOSED = 1e-11
 _TRIES = 24
 _SHARE = 1e-6  # of a null vector: joints with less have no part in it
-_DEAD = 1e-5
 
 
 def wrapped(angle: float) -> float:

@@ -24,7 +24,6 @@ from gearlink.core.parts.cams.motion_spec import FollowerMotion, SteepAngle, req
 
 FRAME = "frame"
 MOST_LINKS = 40
-_RESERVED = (FRAME, "input", "time")
 
 
 def _is_name(name: str) -> str:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
-OF_SHAFTS = ("shaft_distance", "roller_arm_angle", "cam_gap", "cam_shaft_gap")
 OF_GEARS = tuple(f"shaft_gears.{name}" for name in GEAR_QUANTITIES)
 _TURN = 2.0 * math.pi
 _COARSE, _FINE = (120, 48), (360, 400)

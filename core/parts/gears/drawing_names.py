@@ -141,8 +141,6 @@ def lacking(quantity: str, section: Any, prefix: str = "") -> str:
 
 DRAWING_QUANTITIES = tuple(PLACES)
 _SAFE = frozenset(("contact_stress", "safety_pitting", "root_stress", "safety_bending"))
-FACTORS = tuple(name for name, place in PLACES.items() if place.startswith("rated."))
-"""Quantities that stand only where the file has `rating`."""
 RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("flank.", "root.", "rated."))) | _SAFE
 """Strength by ISO 6336."""
 DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}

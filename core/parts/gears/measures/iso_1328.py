@@ -10,7 +10,6 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 
 EDITION = 2013
-EDITIONS = (1995, 2013)
 
 
 def cumulative_pitch(grade: int, module: float, diameter: float, width: float) -> float:
