@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import repeat
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.finding import Finding
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
@@ -30,6 +29,28 @@ from gearlink.core.base.wording import amount
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind
+
+
+_STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A check's outcome, or an error of the file, at a place in the design file.
+
+    `status` is pass, warn, fail, error or fault; `check` is None for errors and faults.
+    """
+
+    status: str
+    place: Diagnostic
+    command: str = ""
+    check: Check | None = None
+
+    def exit_status(self, *, strict: bool) -> int:
+        """What this finding alone would end the run with."""
+        if strict and self.status == "warn":
+            return ExitCode.FINDING
+        return _STATUS.get(self.status, ExitCode.FAULT)
 
 
 # Starting processes costs some hundredths of a second.

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
-from gearlink.cli.texts.known import index
-from gearlink.cli.texts.worked_designs import worked_design
+from gearlink.cli.texts.known import index, worked_design
 from gearlink.core.base.kinds import FILES, KINDS
 from gearlink.core.base.spec_paths import part_at
 

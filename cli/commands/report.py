@@ -25,7 +25,7 @@ from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.kind import FileDesigns
 
 if TYPE_CHECKING:
-    from gearlink.cli.commands.difference import Difference
+    from gearlink.cli.commands.diff import Difference
     from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.base.design import Design
     from gearlink.core.base.kind import Kind

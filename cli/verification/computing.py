@@ -75,7 +75,7 @@ def thickness_allowances(given: Given) -> Results:
 
 def bearing_clearance(given: Given) -> Results:
     """Minimum and maximum radial clearance [um] of deep groove ball bearings, ISO 5753-1."""
-    from gearlink.core.studies.tolerance.bearings import radial_clearance
+    from gearlink.core.studies.tolerance.sources import radial_clearance
 
     return {"clearance": [1e3 * each for each in radial_clearance(given["bore"], given["group"])]}
 

@@ -22,14 +22,12 @@ from gearlink.core.parts.gears.codes import TRUE_FILLET
 from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed
-from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
 from gearlink.core.parts.linkages.codes import TARGET
-from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
 from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 

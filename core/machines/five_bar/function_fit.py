@@ -14,9 +14,9 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.wanted import StructuralError, outputs, structural_error
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.numerics.halton import halton
 from gearlink.core.numerics.linear_program import least
 from gearlink.core.numerics.lm import State, damped, descend
+from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.functions import Wanted
 
 _NODES, _GRID = 9, 121

@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlink.core.machines.five_bar.family import UNKNOWNS, FiveBarFamily, nearest
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.numerics.halton import halton
+from gearlink.core.numerics.quasi_random import halton
 
 # So many starts, fewer where starts times targets times places would pass the work of a round.
 _TRIED, _ROUND = 600, 3_000_000

@@ -20,8 +20,7 @@ from gearlink.core.machines.flatbed_press.refusals import turns_back
 from gearlink.core.machines.flatbed_press.teeth import OF_CYLINDER, OF_PINION, OF_RACKS, PressTeeth, polygons
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
-from gearlink.core.parts.cams.disc_cams import DiscCams
-from gearlink.core.parts.cams.machine import OnDiscCams
+from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws, is_shaped
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking

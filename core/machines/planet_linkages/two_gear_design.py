@@ -20,15 +20,14 @@ from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standst
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import Meshed
-from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
+from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
 from gearlink.core.parts.linkages.output_rates import OutputRates
 from gearlink.core.parts.linkages.standstills import BackStep, Turning
 from gearlink.core.studies.clearance.bodies import Layout

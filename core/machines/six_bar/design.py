@@ -195,8 +195,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     @cached_property
     def bar(self) -> SixBar:
         """The loop at its start."""
-        from gearlink.core.machines.six_bar.loop import SixBar
-        from gearlink.core.machines.six_bar.relations import train_relation
+        from gearlink.core.machines.six_bar.loop import SixBar, train_relation
 
         one, other = (train_relation(train.first_pin, train.gears) for train in self.spec.trains)
         # The file counts the output from its pivot, the loop on the way from A to F.
@@ -525,7 +524,7 @@ class Follower:
         bar : SixBar
     Example
         >>> from gearlink.core.mechanism.follow import onwards
-        >>> from gearlink.core.machines.six_bar.relations import train_relation
+        >>> from gearlink.core.machines.six_bar.loop import train_relation
         >>> rows = train_relation(0, (20, 20)), train_relation(4, (16, 24))
         >>> start = {2: math.radians(300.0), 5: math.radians(-60.0)}
         >>> follower = Follower(SixBar((190.0, 30.0, 30.0, 150.0, 60.0, 75.0), rows, start))
@@ -656,7 +655,7 @@ class Course:
     Raises
         NoSolution - where a dead centre is met: with the range of the input that is free of them
     Example
-        >>> from gearlink.core.machines.six_bar.relations import train_relation
+        >>> from gearlink.core.machines.six_bar.loop import train_relation
         >>> rows = train_relation(0, (20, 20)), train_relation(4, (16, 24))
         >>> start = {2: math.radians(300.0), 5: math.radians(-60.0)}
         >>> course = Course(SixBar((190.0, 30.0, 30.0, 150.0, 60.0, 75.0), rows, start), None)

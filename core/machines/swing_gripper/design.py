@@ -19,8 +19,7 @@ from gearlink.core.machines.swing_gripper.codes import FARTHER
 from gearlink.core.machines.swing_gripper.motion import Motion, require
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.codes import LARGER
-from gearlink.core.parts.cams.disc_cams import DiscCams
-from gearlink.core.parts.cams.machine import OnDiscCams
+from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws
 
 if TYPE_CHECKING:

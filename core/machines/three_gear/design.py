@@ -23,14 +23,13 @@ from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 from gearlink.core.parts.gears.train.meshed import Meshed, named
-from gearlink.core.parts.gears.train.names import TRAIN_CHECKS
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.gears.train.ways import train_ways
+from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check, window_judged
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
+from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.fourbar.swing import rocker_swing
 from gearlink.core.parts.linkages.standstills import BackStep, Turning, turnings
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat

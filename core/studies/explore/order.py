@@ -17,7 +17,7 @@ import numpy as np
 
 from gearlink.core.base.errors import GearlinkError
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.numerics.sobol import Sobol
+from gearlink.core.numerics.quasi_random import Sobol
 
 _EDGE = 1e-9
 _MOST = 2.0**53

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.sobol import Sobol
+from gearlink.core.numerics.quasi_random import Sobol
 
 REPLICATIONS = 16
 _CONFIDENCE = 0.975  # two-sided 95 %

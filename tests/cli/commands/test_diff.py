@@ -17,8 +17,7 @@ import pytest
 from conftest import ROOT
 
 from gearlink.cli.commands import diff
-from gearlink.cli.commands.diff import show_difference
-from gearlink.cli.commands.difference import Change, Difference, relative_change, same
+from gearlink.cli.commands.diff import Change, Difference, relative_change, same, show_difference
 from gearlink.cli.options import Options
 
 DESIGNS = ROOT / "designs"

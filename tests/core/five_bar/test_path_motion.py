@@ -27,8 +27,8 @@ from gearlink.core.machines.five_bar.fit import fit_path, judge
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import coupler_angles, distances, extent, points, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.numerics.halton import halton
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
+from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.linkages.dyad import close_dyad, transmission_angle
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 

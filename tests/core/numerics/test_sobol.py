@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from gearlink.core.numerics.sobol import MOST_DIMENSIONS, Sobol
+from gearlink.core.numerics.quasi_random import MOST_DIMENSIONS, Sobol
 
 
 def _rng(seed: int) -> np.random.Generator:

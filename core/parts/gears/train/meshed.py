@@ -18,7 +18,6 @@ from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, ge
 from gearlink.core.parts.gears.codes import AT_LIMITS
 from gearlink.core.parts.gears.drawing_names import DERIVED, GEARS, RATING, Roles, lacking
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.train.names import TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.parts.gears.train.single_mesh import (
     MESH_CHECKS,
     MESH_QUANTITIES,
@@ -26,6 +25,7 @@ from gearlink.core.parts.gears.train.single_mesh import (
     mesh_checks,
     mesh_quantity,
 )
+from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, TRAIN_QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -1,10 +1,16 @@
-"""How a file may be changed where a check of the gears inside a machine fails."""
+"""What every mesh inside a machine gives: quantities, checks, and the ways to change a file where one fails."""
 
 from __future__ import annotations
 
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.codes import AT_LIMITS, BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.parts.gears.drawing_names import DRAWING_CHECKS, PLACES
+
+_OF_EVERY_MESH = "tip_fouling_margin"
+TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
+TRAIN_CHECKS = tuple(name for name in DRAWING_CHECKS if name != TIP_FOULING.name)
+
 
 _THINNER = -0.005
 
