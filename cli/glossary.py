@@ -170,9 +170,17 @@ def _by_name() -> dict[str, list[Concept]]:
 
 def meanings_of(word: str, kind: str = "") -> list[Meaning]:
     """What a word stands for, in files of a kind first."""
-    asked = folded(word)
-    found = [meaning for meaning in meanings() if asked in map(folded, meaning.words)]
-    return sorted(found, key=lambda meaning: kind not in meaning.kinds)
+    return sorted(_by_word().get(folded(word), ()), key=lambda meaning: kind not in meaning.kinds)
+
+
+@cache
+def _by_word() -> dict[str, list[Meaning]]:
+    """The meanings by each of their words, folded."""
+    found: dict[str, list[Meaning]] = {}
+    for meaning in meanings():
+        for word in dict.fromkeys(map(folded, meaning.words)):
+            found.setdefault(word, []).append(meaning)
+    return found
 
 
 _GEOMETRY = {

@@ -13,9 +13,8 @@ from typing import Any
 
 from gearlink.cli import glossary
 from gearlink.cli.texts import known
-from gearlink.cli.texts.known import Index
+from gearlink.cli.texts.known import Index, worked_design
 from gearlink.cli.texts.spec_keys import known_keys
-from gearlink.cli.texts.known import worked_design
 from gearlink.cli.verification import page
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES

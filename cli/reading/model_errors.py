@@ -204,6 +204,8 @@ _MOST_ERRORS = 500
 _MOST_READINGS = 64
 _SLIP = 0.8  # likeness of a misspelled key, before a key of that very name in a section is offered
 _LISTED_KEYS = 24
+_NAMED_KINDS = 3
+_ASIDE = {"loads", "tolerance", "register", "rating"}
 _LONGEST_WORD = 40
 
 
@@ -390,6 +392,8 @@ class _Wording:
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
         by_letters = {name.lower(): name for name in allowed}  # A_radius beside W_radius
+        if plain not in by_letters and (elsewhere := self._elsewhere(key)):
+            return f"{elsewhere}; {listed}"
         near = get_close_matches(plain, by_letters, n=1, cutoff=_SLIP)
         if not near and not parent and (deeper := self._deeper(plain)):
             return f"it belongs to {deeper}; {listed}"
@@ -403,13 +407,36 @@ class _Wording:
         return f"it belongs {place}; {listed}"
 
     def _deeper(self, key: str) -> str:
-        """The sections of this kind of file that have a key, where no allowed section has it."""
+        """The sections of this kind of file that have a key, where no allowed section has it.
+
+        A word of the field that means a size of other mechanisms is none of the loads, tolerances and ratings.
+        """
+        from gearlink.cli.glossary import meanings_of
         from gearlink.cli.texts.spec_keys import known_keys
 
         kind = str(self.loaded.data.get("kind", ""))
-        paths = [path.path for path, kinds in known_keys() if kind in kinds and path.path.rpartition(".")[2] == key]
+        of_kind = (path for path, kinds in known_keys() if kind in kinds)
+        paths = [path.path for path in of_kind if key in (path.path.rpartition(".")[2], *path.also)]
+        if meanings_of(key):
+            paths = [path for path in paths if _ASIDE.isdisjoint(path.split("."))]
         sections = dict.fromkeys(path.rpartition(".")[0] for path in paths if "." in path)
         return " or ".join(f"'{section}'" for section in list(sections)[:3])
+
+    def _elsewhere(self, key: str) -> str:
+        """Which kinds have what a word of the field means, where this kind has no such thing."""
+        from gearlink.cli.glossary import meanings_of
+
+        kind = str(self.loaded.data.get("kind", ""))
+        having: dict[str, str] = {}
+        for each in meanings_of(key):
+            for name in each.kinds if each.keys else ():
+                having.setdefault(name, each.keys[0])
+        if not having or kind in having or self._deeper(key):
+            return ""
+        nearest = sorted(having.items(), key=lambda item: item[1].rpartition(".")[2] != key)
+        few = [f"{name} (`{path}`)" for name, path in nearest[:_NAMED_KINDS]]
+        others = ", ..." if len(having) > len(few) else ""
+        return f"{kind} has no {key[:_LONGEST_WORD]}: kinds that have it: {', '.join(few)}{others}"
 
     def _meaning(self, key: str, parent: KeyPath, allowed: Sequence[str]) -> Meaning | None:
         """What an unknown key means by the words of the field; nothing for another spelling of an allowed one."""

@@ -206,7 +206,7 @@ def test_explain_lists_the_aliases(gearlink: Any) -> None:
     topics = gearlink("explain", "prime_radius", "--format", "json").json["topics"]
     assert {(topic["about"], topic["name"]) for topic in topics} == {
         ("term", "prime circle"), ("quantity", "prime_radius"), ("quantity", "cam_base_radius"),
-        ("key", "cam.base_radius"), ("key", "cam.prime_radius"),
+        ("key", "cam.base_radius"), ("key", "cam.prime_radius"), ("word", "prime_radius"),
     }  # fmt: skip
     assert {topic["alias"] for topic in topics if "alias" in topic} == {"prime_radius"}
     assert gearlink("explain", "tip_alteration").status == 0

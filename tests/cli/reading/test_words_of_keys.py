@@ -112,3 +112,21 @@ def test_a_runout_in_tolerance_leads_to_the_source() -> None:
     data = copy.deepcopy(WORKED["slider-crank"]) | {"tolerance": {"eccentricity": 0.02, "sources": {}}}
     (found,) = [each for each in told(data) if each.key == "tolerance.eccentricity"]
     assert "`gears.NAME: {eccentricity: 0.01}` in `tolerance.sources`" in found.help
+
+
+CARD = ("module", "teeth", "tooth_counts", "z1", "eccentricity", "stroke", "dwell_angle", "ratio", "i")
+CARD += ("prime_radius", "base_radius", "offset")
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_a_word_of_the_card_leads_on_in_every_kind(kind: str) -> None:
+    """To keys or results of the kind, to the section that has the key, or to the kinds that have such a thing."""
+    words = [word for word in CARD if word not in WORKED[kind]]
+    known = {key.path for key in spec_keys(FILES[kind])}
+    for found in told(WORKED[kind] | dict.fromkeys(words, 7.5)):
+        if found.key not in words or found.key in known:
+            continue
+        to_kinds = f"{kind} has no {found.key}: kinds that have it: " in found.help
+        assert to_kinds or found.help.startswith((f"{found.key} is ", "it belongs to '")), found.help
+        belongs = found.help.partition(";")[0] if found.help.startswith("it belongs") else ""
+        assert not any(name in belongs for name in ("rating", "tolerance", "loads"))
