@@ -116,9 +116,9 @@ class FollowerCams:
         if found.radius <= roller:
             given = self.spec.cam.prime_radius is not None
             words = "prime_radius" if given else "the minimum prime radius"
-            message = f"{words} {found.radius:.6g} mm is not above roller_radius {roller:g} mm, which leaves no cam: "
-            message += "raise it" if given else "give cam.prime_radius, or cam.size.curvature_radius"
-            raise NoSolution(message, key="cam.prime_radius" if given else "cam.size")
+            message = f"{words}: {found.radius:.4g} mm (limit > {roller:g} mm, the roller_radius): no cam is left"
+            fix = f"set cam.prime_radius above {roller:g} mm" + ("" if given else ", or give cam.size.curvature_radius")
+            raise NoSolution(message, key="cam.prime_radius" if given else "cam.size", fix=fix)
         return found
 
     def _sliding_place(self) -> Place:

@@ -226,7 +226,10 @@ class HypocycloidSlider:
                 edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
                 return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
             low, high = min(low, value), max(high, value)
-        raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole revolution", fix="specify less")
+        raise NoSolution(
+            f"the slider stays within +-{tolerance:g} mm over the whole revolution",
+            fix=f"specify a tolerance below {safely_below(0.5 * (high - low))} mm",
+        )
 
 
 def require_cusps(planet_radius: float, cusps: int) -> None:

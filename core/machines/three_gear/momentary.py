@@ -478,9 +478,11 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
             "a crank gear that is a ring round the idler never stops the output", fix="make it an external gear"
         )
     if not q > 0.0:
+        least = safely_above(2.0 * (r1 + r3))
         raise NoSolution(
-            f"a ring gear of {abs(2.0 * r5):.6g} mm reference diameter never just stops the output: to reach round the "
-            f"crank gear and the idler it must be larger than {safely_above(2.0 * (r1 + r3))} mm"
+            f"reference diameter of the ring gear: {abs(2.0 * r5):.4g} mm (limit > {least} mm): it never stops the "
+            "output, as it does not reach round the crank gear and the idler",
+            fix="take more teeth on the output gear, or fewer on crank gear and idler",
         )
     sigma = 1 if t > 0.0 else -1
     p, root = s * s + (r1 - r5) * (r1 + r5), math.sqrt(q)

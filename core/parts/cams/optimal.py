@@ -101,10 +101,16 @@ def require_possible(wish: Wish) -> None:
         given = getattr(wish, key)
         attained = key == "jerk" or (wish.to_speed and key == "velocity")
         if given is not None and (given < low if attained else given <= low):
-            words = "below" if attained else "not above"
-            raise NoSolution(f"{key} {given:g} is {words} {low:g}, which no law keeps", key=key, fix="raise it")
+            sign, words = (">=", "to at least") if attained else (">", "above")
+            ends = "from rest to speed" if wish.to_speed else "from rest to rest"
+            what = f"{key}: {given:g} (limit {sign} {low:g}): no law {ends} has a smaller maximum {key}"
+            raise NoSolution(what, key=key, fix=f"set {key} {words} {low:g}")
     if wish.minimize == "residual" and wish.acceleration is None and wish.jerk is None:
-        raise NoSolution("minimize: residual needs a limit of acceleration or jerk", key="acceleration", fix="give one")
+        raise NoSolution(
+            "minimize: residual needs a limit of acceleration or jerk",
+            key="acceleration",
+            fix="give acceleration or jerk",
+        )
 
 
 _LEAST = {"jerk": 32.0, "acceleration": 4.0, "velocity": 1.0}
