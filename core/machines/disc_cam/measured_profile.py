@@ -18,6 +18,8 @@ from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
 TURN = 2.0 * math.pi
 _STEPS = 100
+_EXACT, _SETTLED = 1e-13, 1e-9
+"""Errors of the cam angle [rad] at which Newton's steps end: below the first, or no longer falling below the second."""
 _LARGEST_CONDITION = 1e6
 ROWS = 1440
 """Places in a revolution at which the motion is looked at."""
@@ -219,9 +221,10 @@ class MeasuredCam:
         """The place t on the profile that the roller touches at cam angles [rad], by Newton's steps.
 
         Raises
-            NoSolution - where the cam angle turns back along the profile, at the key `profile`
+            NoSolution - where the cam angle turns back along the profile or is not found on it, at the key `profile`
         """
         grid, angle = self._grid
+        last = math.inf
         turned = angle[0] + np.mod(phi - angle[0], TURN)
         t = np.asarray(np.interp(turned, angle, grid), dtype=np.float64)
         for _ in range(_STEPS):
@@ -229,9 +232,15 @@ class MeasuredCam:
             off = found.cam_angle[0] - turned
             off = off - TURN * np.round(off / TURN)
             t = t - off / found.cam_angle[1]
-            if np.max(np.abs(off), initial=0.0) <= 1e-13:
+            most = float(np.max(np.abs(off), initial=0.0))
+            if most <= _EXACT or last <= most <= _SETTLED:  # what is left is rounding
                 return np.asarray(t)
-        return t
+            last = most
+        raise NoSolution(
+            f"no point of the profile to the cam angle, {math.degrees(last):.3g} deg missed",
+            key="profile",
+            fix="lower harmonics, or check the points",
+        )
 
     def motion(self, phi: Reals) -> tuple[Reals, Reals, Reals]:
         """Coordinate of the follower and its derivatives by the cam angle [rad or mm]."""

@@ -178,7 +178,7 @@ def _greatest(edges: Sequence[Edge], count: int, most: float) -> tuple[float, tu
         share = sum(edge.share for edge in circle)
         if not share:
             return -math.inf, circle
-        t, found = min(t - _NEAR, -sum(edge.weight for edge in circle) / share), circle
+        t, found = min(t - max(_NEAR, 4.0 * math.ulp(t)), -sum(edge.weight for edge in circle) / share), circle
     raise AssertionError("the circles of the relations do not come to an end")
 
 

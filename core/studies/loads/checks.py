@@ -34,7 +34,7 @@ def rated_forces(design: LoadsDesign) -> dict[str, float]:
     F_t K_A r/r_w
     """
     machine, keys = _with_gears(design)
-    if getattr(keys, "load", None) is None:
+    if getattr(keys, "load", None) is None or not hasattr(type(machine), "mesh_data"):
         return {}
     found = {}
     for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False):

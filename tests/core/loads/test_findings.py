@@ -299,3 +299,9 @@ def test_the_lag_is_half_the_play_over_the_radius_of_the_gear_that_is_named() ->
     press = factory.design("loaded_press", command="loads", loads__backlash=0.1)
     (found,) = (each for each in press.check("load-reversal") if each.message.startswith("rack_upper"))
     assert "rack_upper: the teeth change flanks 4 times over the period" in found.message
+
+
+def test_rated_teeth_of_a_mechanism_without_a_mesh_of_its_own() -> None:
+    """A cam-gear takes `gears.load`, and has no data of its mesh to be rated by."""
+    made = factory.design("loaded_cam_gear", command="loads", gears__load={"tangential_force": 100.0})
+    assert checks.rated_forces(made) == {}

@@ -185,3 +185,10 @@ def _processor_time(line: list[str]) -> float:
     assert done.returncode in (0, 1), done.stderr
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def test_a_gap_beyond_every_dial_is_said_to_fail() -> None:
+    """Its margin is so large that the least step towards it is below the rounding of the number."""
+    members = {"feed": of(cam(FEED)), "gripper": of(cam(GRIPPER), phase="free")}
+    found = machine(members, require=["feed.rise_start before gripper.rise_end by 2147483648"])
+    assert [each.status for each in found.check("timing-relation")] == ["fail"]
