@@ -22,8 +22,8 @@ from gearlink.cli.commands.reference_options import register
 from gearlink.cli.commands.tolerance_options import register as register_tolerances
 from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.exploring.register import register as register_exploring
-from gearlink.cli.export.register import register as register_export
+from gearlink.cli.exploring.commands import register as register_exploring
+from gearlink.cli.export.commands import register as register_export
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
 from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes

@@ -22,7 +22,7 @@ from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.remedies.bench import Bench
+from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.base.report import Check, Remedy, Report
 from gearlink.core.base.spec_paths import changed, value_at
 

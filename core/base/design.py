@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.base.key_results import Key, key_results
 from gearlink.core.base.nomenclature import fixed_name, term
-from gearlink.core.base.remedies.bench import Bench, commands_of, with_remedies
+from gearlink.core.base.remedies.trials import Bench, commands_of, with_remedies
 from gearlink.core.base.remedies.ways import Way
 from gearlink.core.base.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.base.results import cached_property, step

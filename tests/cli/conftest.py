@@ -22,4 +22,4 @@ def _few_lines_of_blocking_contours() -> Iterator[None]:
 @pytest.fixture
 def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.base.remedies.bench.Bench.remedy", lambda *_: ())
+    monkeypatch.setattr("gearlink.core.base.remedies.trials.Bench.remedy", lambda *_: ())

@@ -24,7 +24,7 @@ LONG = {"cam-gripper-cams", "swing-twin-rocker-pneumatic-120", "dwell-b1-5", "dw
 def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would repair a finding is sought for long, and is no part of the contract; `make check-full` seeks it."""
     if not ALL:
-        monkeypatch.setattr("gearlink.core.base.remedies.bench.Bench.remedy", lambda *_: ())
+        monkeypatch.setattr("gearlink.core.base.remedies.trials.Bench.remedy", lambda *_: ())
 
 
 def close(got: Any, want: Any, rtol: float, atol: float) -> bool:

@@ -109,7 +109,7 @@ def test_what_failed_before_it_was_rounded_seeks_no_remedy_again(
     gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nor a better place of the cams: the remedies of the design as it is are the ones that are shown."""
-    from gearlink.core.base.remedies.bench import Bench
+    from gearlink.core.base.remedies.trials import Bench
     from gearlink.core.machines.swing_gripper.design import GripperCams
 
     sought: list[Any] = []

@@ -11,7 +11,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.base.remedies.bench import Bench
+from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.mechanism.blocks import blocks
 from gearlink.core.mechanism.friction import solution_of
 from gearlink.core.mechanism.rubbing import Rubbing, SelfLocking

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from sweeps import examples, mostly_slow
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.remedies.bench import BUDGET
+from gearlink.core.base.remedies.trials import BUDGET
 from gearlink.core.machines.six_bar import loop
 from gearlink.core.machines.six_bar.design import Course, Follower
 from gearlink.core.machines.six_bar.loop import SixBar, reduced, train_relation

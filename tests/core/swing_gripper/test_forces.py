@@ -20,7 +20,7 @@ from oracles.gripper import CASES, REFERENCE, kinetic_energy, machine
 from sweeps import examples, mostly_slow
 
 from gearlink.core.base.errors import MissingSection, NoSolution
-from gearlink.core.base.remedies.bench import Bench
+from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.machines.swing_gripper.forces import (
     LeverSpring,
     Masses,

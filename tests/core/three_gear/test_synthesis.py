@@ -519,7 +519,7 @@ def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
 
 def test_few_trials_seek_the_idler_of_unequal_gears():
     """Each idler of theirs is a search of its own, hundreds of a design; trials of equal gears go on after them."""
-    from gearlink.core.base.remedies.bench import Bench
+    from gearlink.core.base.remedies.trials import Bench
 
     equal = factory.design("standing_feed", command="synth dwell")
     given = factory.design("standing_feed", command="synth dwell", gears__output=41, gears__idler=45)
