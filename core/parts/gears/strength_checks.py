@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.report import Check, Rule, Shown, Side, Status
+from gearlink.core.base.report import NO_NUMBER, Check, Rule, Shown, Side, Status
 from gearlink.core.base.wording import amount, short
 from gearlink.core.parts.gears.codes import (
     BENDING,
@@ -151,7 +151,9 @@ def _out_of_range(data: GearData) -> Iterator[Check]:
         yield BENDING.check("warn", "no stress and no safety without face_width", fix="give face_width")
     eps = data.path.contact_ratio
     if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
-        yield BENDING.check("warn", "contact ratio", eps, aside="method B of ISO 6336 holds for 1 to 2")
+        what = "contact ratio" if eps > 0.0 else "contact ratio: the gears do not mesh"
+        shown = None if eps > 0.0 else NO_NUMBER
+        yield BENDING.check("warn", what, eps, shown=shown, aside="method B of ISO 6336 holds for 1 to 2")
     for gear, factor in enumerate(data.root.rim_factor or ()):
         if factor is None:
             least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
