@@ -81,7 +81,9 @@ def settings(incomplete: str) -> Offer:
 def parts(incomplete: str) -> Offer:
     """Parts that `export` takes of the design file on the line."""
     kinds = _kinds()
-    of_file = _gears_on_pins() if [bool(kind.profiles and not kind.parts) for kind in kinds] == [True] else ()
+    of_file: Iterable[str] = ()
+    if [bool(kind.profiles and not kind.parts) for kind in kinds] == [True]:
+        of_file = _planar_parts() if kinds[0].name == "planar-mechanism" else _gears_on_pins()
     return _beginning(incomplete, ((name, "") for name in (*of_file, *(name for kind in kinds for name in kind.parts))))
 
 
@@ -125,6 +127,18 @@ def _gears_on_pins() -> Iterator[str]:
     text = next(_texts(_words()), "")
     for number, train in enumerate(_PINS.findall(text), 1):
         yield from (f"gear{number}{pin}" for pin in re.findall(r"\w+", train))
+
+
+def _planar_parts() -> Iterator[str]:
+    """Paths of the output points, gears of the meshes and cams of a planar mechanism."""
+    import yaml
+
+    data = yaml.safe_load(next(_texts(_words()), ""))
+    points = {name for link in data["links"].values() for name in (link if isinstance(link, dict) else link[:2])}
+    yield from (f"PATH-{name}" for name in data.get("outputs", ()) if name in points)
+    for name, mesh in data.get("meshes", {}).items():
+        yield from (f"{name}_{link}" for link in mesh.get("gears", (mesh.get("pinion"),)))
+    yield from data.get("cams", {})
 
 
 def _beginning(incomplete: str, offers: Iterable[tuple[str, str]]) -> Offer:
