@@ -91,6 +91,8 @@ def sheets(incomplete: str) -> Offer:
     """Further sheets of the design file on the line."""
     names = [name for kind in _kinds() for name in kind.all_sheets]
     each = ("tornado", *(("zone", "contact", "drawing-1", "drawing-2") if "drawing" in names else ()))
+    if re.search(r"^fingers\b", next(_texts(_words()), ""), re.MULTILINE):
+        each = (*each, "drawing-3")
     return _beginning(incomplete, ((name, "") for name in (*names, *each)))
 
 
