@@ -54,7 +54,7 @@ def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
     turning = motion.input.unit == "rad"
     for row, place in enumerate(places):
         q = math.radians(place) if turning else place
-        columns = grid[row].subgridspec(1, 3, width_ratios=(1.6, 1.0, 1.0))
+        columns = grid[row].subgridspec(1, 3, width_ratios=(1.25, 0.95, 1.15))
         _mechanism(made.add_subplot(columns[0]), design, q, wanted or _WISHES)
         for order in (1, 2):
             polygon(made.add_subplot(columns[order]), design, q, order)
