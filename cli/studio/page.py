@@ -115,7 +115,7 @@ class StudioPage:
         self.session = session
         self.quiet = True
         self._rows: dict[str, _Row] = {}
-        self._shown_titles: list[tuple[Any, ...]] = []
+        self._shown_results: list[str] = []
         self._shown_checks: list[tuple[str, ...]] = []
         self._sheets: dict[str, Any] = {}
         self._ghost: dict[str, Any] | None = None
@@ -157,6 +157,7 @@ class StudioPage:
             self._numbers = ui.column().classes("scrolls")
             with ui.column().classes("scrolls") as self._right:
                 self._film = ui.element("div").classes("film").classes("w-full")
+                _plain("div", "shown", id="shown", role="group", aria_label="shown on the mechanism")
                 self._key = (
                     ui.select([], label="key that a target may change")
                     .props("dense options-dense")
@@ -171,6 +172,7 @@ class StudioPage:
         ui.on("grip", lambda event: self.session.grip(event.args["which"], event.args["fraction"]))
         ui.on("drag", lambda event: self.session.drag(event.args["place"]))
         ui.on("drop", lambda: self.session.drop())
+        ui.on("show", lambda event: self.session.show(str(event.args["show"])))
 
     def _button(self, action: str, words: str) -> Any:
         button = ui.button(words, on_click=lambda: self.session.act(action)).props("dense no-caps outline")
@@ -223,15 +225,16 @@ class StudioPage:
 
     def results(self, found: Sequence[KeyResult], before: dict[str, KeyResult]) -> None:
         """The key results with their change."""
-        titles = [(result.quantity.name, result.title, result.how, result.asked) for result in found]
+        names = [result.quantity.name for result in found]
         shown = {}
         for result in found:
             name, unit = result.quantity.name, result.quantity.unit
             now, old = _with_unit(result.quantity.value, unit), before.get(name)
             was = "" if old is None else _with_unit(old.quantity.value, unit)
-            shown[name] = [now, f"was {was}" if was not in ("", now) else ""]
-        if titles != self._shown_titles:
-            self._shown_titles = titles
+            title = f"{result.title} ({result.how} {result.asked:g})" if result.asked is not None else result.title
+            shown[name] = [now, f"was {was}" if was not in ("", now) else "", title]
+        if names != self._shown_results:
+            self._shown_results = names
             with self._silently():
                 self._results.clear()
                 with self._results:
@@ -241,9 +244,8 @@ class StudioPage:
 
     def _result(self, result: KeyResult) -> None:
         name = result.quantity.name
-        title = f"{result.title} ({result.how} {result.asked:g})" if result.asked is not None else result.title
         with _plain("div", "result"):
-            _plain("span", words=title, title=f"{name}: {result.quantity.words}")
+            _plain("span", data_title=name, title=f"{name}: {result.quantity.words}")
             _plain("span", "value", data_quantity=name)
             _plain("span", "was", data_was=name)
             if isinstance(result.quantity.value, bool) or not isinstance(result.quantity.value, (int, float)):

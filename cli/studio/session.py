@@ -101,6 +101,7 @@ class Session:
         self.pages: list[Page] = []
         self.state = State()
         self.locks: dict[str, bool] = {}
+        self._show = ""
         self._first = State()
         self._ghost: dict[str, Any] | None = None
         self._known: dict[Any, Any] = {}
@@ -155,6 +156,17 @@ class Session:
 
         self._try(run)
 
+    def show(self, words: str) -> None:
+        """What is shown on the mechanism, as `animate --show` has it."""
+        from gearlink.cli.views.scenes import shown
+
+        def run() -> None:
+            shown.wishes(words)
+            self._show = words
+            self._fresh()
+
+        self._try(run)
+
     def _try(self, run: Callable[[], None]) -> None:
         try:
             run()
@@ -194,7 +206,7 @@ class Session:
         self._grip = None
         try:
             taken = (str(which[0]), int(which[1]), int(which[2]))
-            given = self.document.text, str(self.document.path), taken, float(fraction), keys
+            given = self.document.text, str(self.document.path), taken, float(fraction), keys, self._show
             self._grip = await asyncio.to_thread(self._taken, *given)
         except (Refused, LookupError, ValueError) as refused:
             words = str(refused)
@@ -213,12 +225,13 @@ class Session:
 
         if self.state.study is None:
             raise Refused("there is no mechanism yet")
-        return Grip(*given), player_stage(self.state.study.scene(np.array([0.0])), "", reach=self.state.reach)
+        scene = self.state.study.scene(np.array([0.0]), self._show)
+        return Grip(*given), player_stage(scene, "", reach=self.state.reach)
 
     @property
-    def _held(self) -> float | None:
-        """The fraction of the loop at which a joint is held."""
-        return None if self._grip is None else self._grip[0].fraction
+    def _look(self) -> making.Look:
+        """How the animation is to be shown now."""
+        return making.Look(self.state.reach, None if self._grip is None else self._grip[0].fraction, self._show)
 
     async def drag(self, place: Sequence[float]) -> None:
         """The joint that is held is drawn to a place of the picture [pixels]."""
@@ -338,13 +351,14 @@ class Session:
         slow = [command for command in study.commands if self._slow(command)]
         quick = [command for command in study.commands if command not in slow]
         given = study.text, study.file
-        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self.state.reach, self._held)
+        checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self._look)
         self.state.checks |= checks
         self._each(lambda page: page.checks(self._all_checks()))
         await self._show_film(film)
         if slow and self._version == version:
             names = {command: self._names(command) for command in slow}
-            results, checks = await self._beside_page(making.slow, *given, names)
+            results, checks, seconds = await self._beside_page(making.slow, *given, names)
+            self._cost |= {command: min(self._cost[command], each) for command, each in seconds.items()}
             self.state.results |= results
             self.state.checks |= checks
             self._each(lambda page: page.results(self._all_results(), self._before()))
@@ -362,9 +376,12 @@ class Session:
         first, given = self._first.study, self.state.reach
         changed = first is not None and self.document.text != first.text
         if changed and first is not None and (self._ghost is None or given != before):
-            self._ghost, _ = await self._beside_page(making.film, first.text, first.file, _AT_ONCE, given)
+            self._ghost, _ = await self._beside_page(making.film, first.text, first.file, _AT_ONCE, making.Look(given))
         ghost = self._ghost if changed else None
         self._each(lambda page: page.film(self.state.film, ghost))
+        refused = str(self.state.film["refused"])
+        if refused:
+            self._each(lambda page: page.say(refused))
 
     async def _at_rest(self, study: Study, version: int) -> bool:
         """All of it, when the hand rests."""
@@ -373,7 +390,7 @@ class Session:
             return False
         self.document.rest()
         state, given = self.state, (study.text, study.file)
-        results, checks, film = await self._beside_page(making.whole, *given, state.reach, self._held)
+        results, checks, film = await self._beside_page(making.whole, *given, self._look)
         if self._version != version:
             return False
         state.results, state.checks = results, checks

@@ -4,11 +4,44 @@ const studio = { player: null, held: null, waiting: false, next: null, ghost: nu
 studio.animation = (id, data, ghost) => {  // without a ghost the one that is there stays, null takes it away
   const root = document.getElementById(id);
   if (!root) return;
+  studio.toggles(data);
   if (!data) { root.hidden = true; return; }
   root.hidden = false;
   if (ghost !== undefined) studio.ghost = ghost;
   if (!studio.player) { studio.player = filmPlayer(root, data); studio.listen(studio.player); }
   studio.player.take(data, studio.ghost);
+};
+studio.toggles = data => {
+  // What can be shown on the mechanism: a box for each word, the points for a path.
+  const row = document.getElementById("shown"), words = data ? data.words : [], points = data ? data.points : [];
+  row.hidden = !words.length;
+  const made = JSON.stringify([words, points]);
+  if (row.dataset.made !== made) {
+    row.dataset.made = made;
+    row.replaceChildren(...words.map(word => {
+      const label = document.createElement("label");
+      const set = document.createElement(word === "path" ? "select" : "input");
+      if (word === "path") set.append(new Option("none", ""), ...points.map(name => new Option(name)));
+      else set.type = "checkbox";
+      set.dataset.show = word;
+      set.onchange = studio.show;
+      label.append(...word === "path" ? ["path of ", set] : [set, word === "centres" ? " instant centres" : ` ${word}`]);
+      return label;
+    }));
+  }
+  const now = data ? data.show.split(",") : [];
+  for (const set of row.querySelectorAll("[data-show]")) {
+    if (set.dataset.show === "path") set.value = now.find(each => each.startsWith("path:"))?.slice(5) ?? "";
+    else set.checked = now.includes(set.dataset.show);
+  }
+};
+studio.show = () => {
+  const found = [];
+  for (const set of document.querySelectorAll("[data-show]")) {
+    if (set.checked) found.push(set.dataset.show);
+    if (set.tagName === "SELECT" && set.value) found.push(`path:${set.value}`);
+  }
+  emitEvent("show", { show: found.join(",") });
 };
 studio.joint = (player, event) => {
   // The joint next to the pointer, as list, index, joint; null where none is near.
@@ -19,11 +52,12 @@ studio.joint = (player, event) => {
     const away = Math.hypot(p[2 * i] - x, p[2 * i + 1] - y);
     if (away < least) { least = away; best = which; }
   };
-  player.data.parts.forEach((part, k) => {
+  const [first, after, marks] = player.data.own;
+  player.data.parts.slice(first, after).forEach((part, k) => {
     if (part.is === "chain") part.p.forEach((joint, j) => look(joint, ["parts", k, j]));
     if (part.is === "body") look(part.p, ["parts", k, 0]);
   });
-  player.data.marks.forEach((mark, k) => look(mark.p, ["marks", k, 0]));
+  player.data.marks.slice(0, marks).forEach((mark, k) => look(mark.p, ["marks", k, 0]));
   return best;
 };
 studio.listen = player => {
@@ -74,10 +108,11 @@ studio.numbers = rows => {
 };
 studio.results = found => {
   for (const name in found) studio.soon(() => {
-    const now = studio.at("quantity", name), was = studio.at("was", name);
+    const now = studio.at("quantity", name), was = studio.at("was", name), title = studio.at("title", name);
     if (!now) return false;
     if (now.textContent !== found[name][0]) now.textContent = found[name][0];
     if (was.textContent !== found[name][1]) was.textContent = found[name][1];
+    if (title.textContent !== found[name][2]) title.textContent = found[name][2];
     return true;
   });
 };

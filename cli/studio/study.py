@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property, lru_cache
 from multiprocessing import parent_process
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,7 +14,7 @@ from gearlink.cli.evaluate import read_spec, refusals_located
 from gearlink.cli.reading.design_file import parse, read_kind
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.studio.text import with_value
-from gearlink.core.base.errors import GearlinkError
+from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
 
@@ -22,9 +22,24 @@ if TYPE_CHECKING:
     from gearlink.cli.studio.numbers import Number
     from gearlink.cli.views.films.page import Reach
     from gearlink.cli.views.scenes.scene import Scene
+    from gearlink.cli.views.scenes.shown import Wish
     from gearlink.core.base.design import Design
     from gearlink.core.base.key_results import KeyResult
     from gearlink.core.base.report import Check
+
+
+class Look(NamedTuple):
+    """How an animation is to be shown.
+
+    Fields
+        reach : x from, x to, y from, y to [mm] - what the picture has shown so far
+        held : float - the fraction of the loop at which a joint is held: one picture is of it, and `reach` stays
+        show : str - what is shown on the mechanism, as `animate --show` has it
+    """
+
+    reach: Reach | None = None
+    held: float | None = None
+    show: str = ""
 
 
 class Study:
@@ -84,12 +99,33 @@ class Study:
         """Whether there is something to be seen moving."""
         return bool(self.kind.scene or self.kind.motion)
 
-    def scene(self, fractions: Any) -> Scene:
-        """The mechanism over fractions of its loop."""
-        from gearlink.cli.views.scenes import loops
+    @property
+    def moved(self) -> Design:
+        """The design that is shown moving."""
+        return self.design(self.commands[0])
+
+    @cached_property
+    def showable(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """What can be shown on the mechanism, and the points that have a path."""
+        from gearlink.cli.views.scenes import shown
 
         with refusals_located(self.loaded):
-            return loops.build(self.design(self.commands[0]), fractions)
+            return shown.possible(self.moved)
+
+    def wanted(self, show: str) -> tuple[Wish, ...]:
+        """What is to be shown, as far as this design has it."""
+        from gearlink.cli.views.scenes import shown
+
+        words, points = self.showable if show else ((), ())
+        found = shown.wishes(show)
+        return tuple(wish for wish in found if wish.what in words and (not wish.point or wish.point in points))
+
+    def scene(self, fractions: Any, show: str = "") -> Scene:
+        """The mechanism over fractions of its loop, as it stands where something is shown on it, without that."""
+        from gearlink.cli.views.scenes import shown
+
+        with refusals_located(self.loaded):
+            return shown.maker_of(self.moved, self.wanted(show))(self.moved, fractions)
 
     @cached_property
     def pictures(self) -> int:
@@ -100,21 +136,38 @@ class Study:
 
         return min(_MOST_PICTURES, loops.pictures_for(self.scene(np.arange(96) / 96), FPS))
 
-    def film(self, count: int, reach: Reach | None = None, held: float | None = None) -> tuple[dict[str, Any], Reach]:
-        """What the player draws, and what its picture shows: `reach` as long as that suits it.
+    def film(self, most: int, look: Look, checks: Sequence[Check] = ()) -> tuple[dict[str, Any], Reach]:
+        """What the player draws, and what its picture shows: `look.reach` as long as that suits it.
 
         Parameters
-            held : float - a fraction of the loop at which a joint is held: one picture is of it, and `reach` stays
+            most : pictures, at most
+            checks : findings; instants at which one fails are red
         """
         import numpy as np
 
         from gearlink.cli.views.films.page import player_data, player_stage
 
-        after = 0.0 if held is None else held * count % 1.0
-        scene = self.scene((np.arange(count) + after) / count)
+        count = min(most, self.pictures)
+        after = 0.0 if look.held is None else look.held * count % 1.0
+        scene, refused = self._shown((np.arange(count) + after) / count, look.show, checks)
         own = player_stage(scene, "").own_reach
-        shown = reach if reach is not None and (held is not None or _within(own, reach)) else _roomy(own)
-        return player_data(scene, self.spec.name, FPS * count / self.pictures, reach=shown), shown
+        reach = look.reach if look.reach and (look.held is not None or _within(own, look.reach)) else _roomy(own)
+        data = player_data(scene, self.spec.name, FPS * count / self.pictures, reach=reach)
+        words, points = self.showable
+        return data | {"show": look.show, "words": words, "points": points, "refused": refused}, reach
+
+    def _shown(self, fractions: Any, show: str, checks: Sequence[Check]) -> tuple[Scene, str]:
+        """The scene with what is shown on it and what fails; without the former, and why, where that is refused."""
+        from gearlink.cli.views.scenes import shown
+
+        with refusals_located(self.loaded):
+            wanted = self.wanted(show)
+            try:
+                return shown.build(self.moved, fractions, wanted, checks), ""
+            except (shown.WrongShow, NoSolution) as error:
+                if not wanted:
+                    raise
+                return shown.build(self.moved, fractions, (), checks), str(error).removeprefix("--show ")
 
 
 FPS, _MOST_PICTURES = 25, 150
@@ -135,8 +188,6 @@ def _roomy(own: Reach) -> Reach:
 
 # What takes longer, in a process beside the page
 
-Found = tuple[dict[str, "tuple[KeyResult, ...]"], dict[str, "list[Check]"]]
-
 
 @cache
 def step_back() -> None:
@@ -151,43 +202,44 @@ def _study(text: str, file: str) -> Study:
     return Study(text, file)
 
 
-def moving(
-    text: str, file: str, commands: Sequence[str], count: int, reach: Reach | None, held: float | None
-) -> tuple[Any, Any]:
+def moving(text: str, file: str, commands: Sequence[str], count: int, look: Look) -> tuple[Any, Any]:
     """The findings of some commands, and an animation of few pictures; None where nothing moves."""
     study = _study(text, file)
     checks = {command: study.checks(command, advised=False) for command in commands}
-    return checks, film(text, file, count, reach, held)
+    return checks, film(text, file, count, look, checks)
 
 
-def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> Found:
-    """Results and findings of commands that take long.
+def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> tuple[Any, Any, dict[str, float]]:
+    """Results and findings of commands that take long, and how long the results took [s].
 
     Parameters
         names : their key results, where they are known
     """
-    study = _study(text, file)
-    results = {command: study.results(command, known) for command, known in names.items()}
-    return results, {command: study.checks(command, advised=False) for command in names}
+    study, results, seconds = _study(text, file), {}, {}
+    for command, known in names.items():
+        begun = time.perf_counter()
+        results[command] = study.results(command, known)
+        seconds[command] = time.perf_counter() - begun
+    return results, {command: study.checks(command, advised=False) for command in names}, seconds
 
 
-def whole(text: str, file: str, reach: Reach | None, held: float | None) -> tuple[Any, Any, Any]:
+def whole(text: str, file: str, look: Look) -> tuple[Any, Any, Any]:
     """Key results and findings of all commands, these with what would repair them, and the whole animation."""
     study = _study(text, file)
     results = {command: study.results(command) for command in study.commands}
     checks = {command: study.checks(command, advised=True) for command in study.commands}
-    return results, checks, film(text, file, _MOST_PICTURES, reach, held)
+    return results, checks, film(text, file, _MOST_PICTURES, look, checks)
 
 
 def film(
-    text: str, file: str, most: int, reach: Reach | None, held: float | None = None
+    text: str, file: str, most: int, look: Look, checks: Mapping[str, Sequence[Check]] | None = None
 ) -> tuple[dict[str, Any], Reach] | None:
     """The animation of at most so many pictures; None where nothing moves, or it cannot be drawn."""
     study = _study(text, file)
     if not study.moves:
         return None
     try:
-        return study.film(min(most, study.pictures), reach, held)
+        return study.film(most, look, [check for each in (checks or {}).values() for check in each])
     except DesignFileError:
         return None
 
@@ -365,16 +417,23 @@ class Grip:
         which : (list of the scene, index, joint) - ("marks", 3, 0), ("parts", 2, 1)
         fraction : float - of the loop, at which the mechanism stands
         keys : the numbers that may change
+        show : what is shown on the mechanism
     Raises
         Refused - where none of them moves the joint
     """
 
     def __init__(
-        self, text: str, file: str, which: tuple[str, int, int], fraction: float, keys: Sequence[Number]
+        self,
+        text: str,
+        file: str,
+        which: tuple[str, int, int],
+        fraction: float,
+        keys: Sequence[Number],
+        show: str = "",
     ) -> None:
         import numpy as np
 
-        self._text, self._file, self._which, self.fraction = text, file, which, fraction
+        self._text, self._file, self._which, self.fraction, self._show = text, file, which, fraction, show
         self.stopped = ""
         self._built = text
         start = self._point(text)
@@ -409,7 +468,7 @@ class Grip:
         import numpy as np
 
         try:
-            scene = Study(text, self._file).scene(np.array([self.fraction]))
+            scene = Study(text, self._file).scene(np.array([self.fraction]), self._show)
             return point_of(scene, self._which)
         except DesignFileError as error:
             self.stopped = error.diagnostics[0].message

@@ -56,6 +56,7 @@ def player_data(
         "count": stage.count,
         "title": title,
         "text": stage.text_size,
+        "own": scene.own or (0, len(scene.parts), len(scene.marks)),
         "parts": [_part(stage, part, on_body) for part in scene.parts],
         "marks": [
             {

@@ -166,6 +166,8 @@ class Scene:
     readouts: tuple[Readout, ...] = ()
     keys: tuple[Key, ...] = ()
     faults: tuple[Fault, ...] = ()
+    own: tuple[int, int, int] | None = None
+    """First part of the mechanism, the one after its last, its number of marks; None: all belong to it."""
 
 
 def track(value: Any, fraction: Reals) -> Points:

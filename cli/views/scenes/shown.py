@@ -240,16 +240,56 @@ def build(design: Any, fraction: Reals, wanted: Sequence[Wish] = (), checks: Seq
     Raises
         WrongShow - where the design has not what is asked for
     """
-    own = loops.builder(design.kind)
     if not wanted:
+        own = loops.builder(design.kind)
         return _with_faults(own(design, fraction), design, fraction, own, checks)
+    maker, frame = _base(design)
+    return _with_faults(_shown(design, fraction, maker, frame, wanted), design, fraction, maker, checks)
+
+
+def maker_of(design: Any, wanted: Sequence[Wish] = ()) -> Maker:
+    """What builds the mechanism on which things are shown: its own scene, or that of its motion.
+
+    Raises
+        WrongShow - where there is no motion
+    """
+    return _base(design)[0] if wanted else loops.builder(design.kind)
+
+
+def _base(design: Any) -> tuple[Maker, Frame]:
     if not has_motion(design):
         raise WrongShow(f"--show: a {design.kind} has no motion of its own; show the files of its members")
-    maker, frame = own, frame_of(design, own)
-    if frame is None:
-        maker, given = of_motion.build, design.moving.input
-        frame = Frame(lambda each: of_motion.inputs(given, each))
-    return _with_faults(_shown(design, fraction, maker, frame, wanted), design, fraction, maker, checks)
+    own = loops.builder(design.kind)
+    frame = frame_of(design, own)
+    if frame is not None:
+        return own, frame
+    given = design.moving.input
+    return of_motion.build, Frame(lambda each: of_motion.inputs(given, each))
+
+
+def possible(design: Any) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What can be asked for of a design, and the points that have a path.
+
+    Returns
+        words, points : of `WORDS`, without force where the file has no loads; both empty without a motion
+    """
+    if not has_motion(design):
+        return (), ()
+    given = design.moving.input
+    points = vectors.moving_points(design.moving.at(of_motion.inputs(given, np.linspace(0.0, 0.93, _PROBES)), 0))
+    loaded = _is_loaded(design) or _names_loads(design)
+    return tuple(word for word in WORDS if loaded or word != "force"), tuple(points)
+
+
+def _is_loaded(design: Any) -> bool:
+    return hasattr(type(design), "machine") and hasattr(type(design), "unknown_joints")
+
+
+def _names_loads(design: Any) -> bool:
+    """Whether the file has loads of which its kind computes the forces."""
+    from gearlink.core.base.kinds import KINDS
+
+    return getattr(design.spec, "loads", None) is not None and "loads" in KINDS[design.kind].commands
 
 
 def has_motion(design: Any) -> bool:
@@ -271,7 +311,9 @@ def _shown(design: Any, fraction: Reals, maker: Maker, frame: Frame,
         (behind if wish.what == "ghosts" else before).extend(parts)
         marks += words
         keys += key
-    return replace(scene, parts=(*behind, *scene.parts, *before), marks=tuple(marks), keys=tuple(keys))
+    parts = (*behind, *scene.parts, *before)
+    own = len(behind), len(behind) + len(scene.parts), len(scene.marks)
+    return replace(scene, parts=parts, marks=tuple(marks), keys=tuple(keys), own=own)
 
 
 def _reach(scene: Scene) -> float:
@@ -532,12 +574,9 @@ def loads_design(design: Any) -> Any:
     """The design of the loads of the same file; None where the file or the kind has none."""
     from gearlink.core.base.kinds import KINDS
 
-    if hasattr(type(design), "machine") and hasattr(type(design), "unknown_joints"):
+    if _is_loaded(design):
         return design
-    kind = KINDS[design.kind]
-    if getattr(design.spec, "loads", None) is None or "loads" not in kind.commands:
-        return None
-    return kind.design("loads", design.spec)
+    return KINDS[design.kind].design("loads", design.spec) if _names_loads(design) else None
 
 
 # What fails
@@ -549,7 +588,8 @@ def _with_faults(scene: Scene, design: Any, fraction: Reals, maker: Maker, check
         return scene
     found = list(_Failing(scene, design, fraction, maker).of(failed))
     parts = [part for _, more in found for part in more]
-    return replace(scene, parts=(*scene.parts, *parts), faults=tuple(fault for fault, _ in found))
+    own = scene.own or (0, len(scene.parts), len(scene.marks))
+    return replace(scene, parts=(*scene.parts, *parts), faults=tuple(fault for fault, _ in found), own=own)
 
 
 def fault_words(check: Check) -> str:

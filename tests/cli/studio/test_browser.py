@@ -272,6 +272,37 @@ def test_a_joint_is_dragged_and_a_wish_is_met(window: Browser, tmp_path: Path) -
         page.until(lambda: "at most" in page.text("#note"))
 
 
+def test_vectors_are_shown_and_what_fails_is_red(window: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "feed.yaml"
+    path.write_text(FEED)
+    parts = "studio.player.data.parts.filter(part => part.is === 'arrow').length"
+    with _opened(window, path) as page:
+        page.rests()
+        assert window.run(f"return {parts}") == 0
+        page.click("[data-show=velocity]")
+        window.wait(f"return {parts}")
+        assert window.run("return studio.player.data.keys.length") == 1
+        page.click("[data-show=ghosts]")
+        window.wait("return studio.player.data.own[0]")
+        window.run(
+            "const e = document.querySelector('[data-show=path]'); e.value = 'C'; e.dispatchEvent(new Event('change'))"
+        )
+        window.wait("return studio.player.data.keys.some(key => key.words.includes('path of C'))")
+        page.click("#play")
+        before = page.numbers()
+        x, y = page.joint("C")  # before and behind which other things are drawn
+        window.drag((x, y), *((x + 2 * k, y - 2 * k) for k in range(1, 5)))
+        page.until(lambda: page.numbers() != before)
+        window.release()
+        page.click("[data-action=undo]")
+        page.until(lambda: page.numbers() == before)
+        page.click("[data-show=velocity]")
+        window.wait(f"return {parts} === 0")
+        page.put('[data-path="links.crank"]', 65)
+        page.until(lambda: "fail" in " ".join(_checks(window)))
+        window.wait("return studio.player.data.faults.some(words => words.length)")
+
+
 def test_a_fix_is_applied_by_its_button(window: Browser, tmp_path: Path) -> None:
     path = tmp_path / "feed.yaml"
     path.write_text(FEED + "limits: {gear_gap: 31}\n")

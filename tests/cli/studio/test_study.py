@@ -9,7 +9,7 @@ import pytest
 
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.studio.numbers import Number, numbers
-from gearlink.cli.studio.study import Grip, Refused, Study, changes, moving, point_of, wished
+from gearlink.cli.studio.study import Grip, Look, Refused, Study, changes, moving, point_of, wished
 from gearlink.cli.studio.text import with_value
 from gearlink.core.base.errors import NoSolution
 
@@ -120,12 +120,35 @@ def test_what_is_made_beside_the_page() -> None:
     changed = with_value(FEED, ("links", "crank"), 39.5)
     assert "links.crank" in changes(FEED, changed, "feed.yaml")
     assert changes(FEED, FEED, "feed.yaml") == ""
-    checks, film = moving(FEED, "feed.yaml", ["analyze"], 24, None, None)
+    checks, film = moving(FEED, "feed.yaml", ["analyze"], 24, Look())
     assert [check.code for check in checks["analyze"]]
     data, reach = film
-    again = moving(changed, "feed.yaml", ["analyze"], 24, reach, 0.3)[1]
+    again = moving(changed, "feed.yaml", ["analyze"], 24, Look(reach, 0.3))[1]
     assert (data["count"], again[1]) == (24, reach)
     now = Study(changed, "feed.yaml").scene(np.array([0.3]))
     shown = [mark["p"][2 * 7] for mark in again[0]["marks"]]  # 0.3 of 24 pictures lies in the seventh
     stage = [mark.point[0].real for mark in now.marks]
     assert np.corrcoef(shown, stage)[0, 1] == pytest.approx(1.0, abs=1e-6)  # hundredths of a pixel
+
+
+@pytest.mark.parametrize("show", ["velocity,force", "centres,ghosts", "path:C"])
+def test_what_is_shown_leaves_the_joints_that_are_dragged(show: str) -> None:
+    """A joint has the same place among the parts of the mechanism, whatever stands before and behind it."""
+    plain, data = (Study(FEED, "feed.yaml").film(8, Look(show=words))[0] for words in ("", show))
+    assert "force" not in data["words"]  # the file has no loads
+    assert {"A", "B", "C"} & set(data["points"])
+    assert data["refused"] == ""
+    first, after, marks = data["own"]
+    assert [part["is"] for part in data["parts"][first:after]] == [part["is"] for part in plain["parts"]]
+    assert [mark["text"] for mark in data["marks"][:marks]] == [mark["text"] for mark in plain["marks"]]
+    assert len(data["parts"]) > after - first
+    scene = Study(FEED, "feed.yaml").scene(np.array([0.2]), show)
+    assert len(scene.parts) == after - first
+
+
+def test_instants_that_fail_are_red_as_in_a_film() -> None:
+    text = FEED + "limits: {transmission_angle: 65}\n"
+    data = moving(text, "feed.yaml", ["analyze"], 24, Look())[1][0]
+    assert any("GL303" in words for instant in data["faults"] for words in instant)
+    assert 0 < sum(data["framed"]) < 24
+    assert moving(FEED, "feed.yaml", ["analyze"], 24, Look())[1][0]["faults"] == []
