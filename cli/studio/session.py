@@ -145,7 +145,8 @@ class Session:
         self._try(lambda: self.put(with_values(self.document.text, remedy)))
 
     def act(self, action: str) -> None:
-        """One of undo, redo, save, revert."""
+        """One of undo, redo, save, revert; a joint that is held is let go where it was last shown."""
+        self._grip = None
 
         def run() -> None:
             done: Any = getattr(self.document, action)()
@@ -238,10 +239,11 @@ class Session:
         if self._grip is not None:
             grip, stage = self._grip
             text = await asyncio.to_thread(grip.to, stage.place(complex(*map(float, place[:2]))))
-            self.put(text, "drag")
-            words = f"the joint goes no farther: {grip.stopped}" if grip.stopped else ""
-            self._each(lambda page: page.say(words))
-            await self._made_once()
+            if self._grip is not None and self._grip[0] is grip:
+                self.put(text, "drag")
+                words = f"the joint goes no farther: {grip.stopped}" if grip.stopped else ""
+                self._each(lambda page: page.say(words))
+                await self._made_once()
         self._each(lambda page: page.answered())
 
     def drop(self) -> None:

@@ -1,6 +1,6 @@
 "use strict";
 // The drawing of the studio: the film takes new states, and its joints can be dragged; numbers are put in their places.
-const studio = { player: null, held: null, waiting: false, next: null, ghost: null };
+const studio = { player: null, held: null, waiting: false, dropping: false, next: null, ghost: null };
 studio.animation = (id, data, ghost) => {  // without a ghost the one that is there stays, null takes it away
   const root = document.getElementById(id);
   if (!root) return;
@@ -67,7 +67,7 @@ studio.listen = player => {
     const which = studio.joint(player, event);
     if (!which) return;
     player.pause();
-    studio.held = which; studio.waiting = true; studio.next = null;
+    studio.held = which; studio.waiting = true; studio.dropping = false; studio.next = null;
     stage.setPointerCapture(event.pointerId);
     emitEvent("grip", { which, fraction: player.shown / player.data.count });
   });
@@ -77,13 +77,18 @@ studio.listen = player => {
     studio.next = player.toPicture(event);
     studio.send();
   });
-  const drop = () => { if (studio.held) { studio.held = null; studio.send(); emitEvent("drop", {}); } };
+  const drop = () => { if (studio.held) { studio.held = null; studio.dropping = true; studio.send(); } };
   stage.addEventListener("pointerup", drop);
   stage.addEventListener("pointercancel", drop);
 };
-// One place at a time: the next goes when the last has been answered.
+// One place at a time: the next goes when the last has been answered; the joint is let go at the last.
 studio.send = () => {
-  if (studio.waiting || !studio.next) return;
+  if (studio.waiting) return;
+  if (!studio.next) {
+    if (studio.dropping) emitEvent("drop", {});
+    studio.dropping = false;
+    return;
+  }
   studio.waiting = true;
   emitEvent("drag", { place: studio.next });
   studio.next = null;
