@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from contextlib import contextmanager
 from html import escape
@@ -61,7 +62,8 @@ class _Row:
         step = number.step if len(number.choices) != 2 else high - low
         with _plain("div", "number"):
             name = number.name.removeprefix(f"{number.section}.") if number.section else number.name
-            _plain("span", "name", words=name, title=number.words or number.name)
+            with _plain("span", "name", title=number.words or number.name):
+                ui.html(re.sub(r"([._])", r"\1<wbr>", escape(name)), sanitize=False, tag="span")
             shared: dict[str, Any] = {"step": "any", "aria_label": number.name}
             field = _plain("input", type="number", data_path=number.name, **shared)
             _plain("span", "unit", words="" if number.unit == "1" else number.unit)
@@ -153,7 +155,9 @@ class StudioPage:
             self._note = ui.label().classes("note grow").props("role=status id=note")
         self._problem = ui.html("", sanitize=False).props("id=problem role=alert")
         with ui.element("div").classes("desk"):
-            self._editor = ui.codemirror("", language="YAML", on_change=self._typed).classes("editor")
+            self._editor = ui.codemirror("", language="YAML", line_wrapping=True, on_change=self._typed).classes(
+                "editor"
+            )
             self._numbers = ui.column().classes("scrolls")
             with ui.column().classes("scrolls") as self._right:
                 self._film = ui.element("div").classes("film").classes("w-full")
@@ -210,7 +214,8 @@ class StudioPage:
             for number in found:
                 if number.section != section:
                     section = number.section
-                    _plain("div", "section", words=section or "design")
+                    with _plain("div", "section", words=section or "design"):
+                        _plain("span", "lock", words="lock")
                 self._rows[number.name] = _Row(number, self)
         names = [number.name for number in found]
         kept = self._key.value if self._key.value in names else next((n.name for n in found if n.is_geometry), None)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _AT_ONCE = 48
 """Pictures of an animation while the hand moves."""
-_QUICK = 0.02
+_QUICK = 0.04
 """Results of further commands that take longer are computed beside the page [s]."""
 _REST = 0.35
 """After so many seconds without a change the hand rests [s]."""
@@ -104,6 +104,7 @@ class Session:
         self._show = ""
         self._first = State()
         self._ghost: dict[str, Any] | None = None
+        self._ghost_look: making.Look | None = None
         self._known: dict[Any, Any] = {}
         self._kind = ""
         self._version = self._shown = 0
@@ -349,17 +350,18 @@ class Session:
         self._each(lambda page: page.numbers(self.state.numbers))
 
     async def _moving(self, study: Study, version: int) -> bool:
-        """Animation and findings, then what takes longer; whether the text is still the newest."""
+        """Animation and findings, and at the same time what takes longer; whether the text is still the newest."""
         slow = [command for command in study.commands if self._slow(command)]
         quick = [command for command in study.commands if command not in slow]
         given = study.text, study.file
+        names = {command: self._names(command) for command in slow}
+        later = self._beside.submit(making.slow, *given, names) if slow else None
         checks, film = await self._beside_page(making.moving, *given, quick, _AT_ONCE, self._look)
         self.state.checks |= checks
         self._each(lambda page: page.checks(self._all_checks()))
         await self._show_film(film)
-        if slow and self._version == version:
-            names = {command: self._names(command) for command in slow}
-            results, checks, seconds = await self._beside_page(making.slow, *given, names)
+        if later is not None:
+            results, checks, seconds = await asyncio.wrap_future(later)
             self._cost |= {command: min(self._cost[command], each) for command, each in seconds.items()}
             self.state.results |= results
             self.state.checks |= checks
@@ -373,12 +375,12 @@ class Session:
             if self.state.study is not None and not self.state.study.moves:
                 self._each(lambda page: page.film(None, None))
             return
-        before = self.state.reach
         self.state.film, self.state.reach = film
-        first, given = self._first.study, self.state.reach
+        first, look = self._first.study, making.Look(self.state.reach, show=self._show, bare=True)
         changed = first is not None and self.document.text != first.text
-        if changed and first is not None and (self._ghost is None or given != before):
-            self._ghost, _ = await self._beside_page(making.film, first.text, first.file, _AT_ONCE, making.Look(given))
+        if changed and first is not None and look != self._ghost_look:
+            found = await self._beside_page(making.film, first.text, first.file, _AT_ONCE, look)
+            self._ghost, self._ghost_look = found[0] if found else None, look
         ghost = self._ghost if changed else None
         self._each(lambda page: page.film(self.state.film, ghost))
         refused = str(self.state.film["refused"])

@@ -35,11 +35,13 @@ class Look(NamedTuple):
         reach : x from, x to, y from, y to [mm] - what the picture has shown so far
         held : float - the fraction of the loop at which a joint is held: one picture is of it, and `reach` stays
         show : str - what is shown on the mechanism, as `animate --show` has it
+        bare : bool - the mechanism alone, drawn as it is where that is shown on it
     """
 
     reach: Reach | None = None
     held: float | None = None
     show: str = ""
+    bare: bool = False
 
 
 class Study:
@@ -101,8 +103,8 @@ class Study:
 
     @property
     def moved(self) -> Design:
-        """The design that is shown moving."""
-        return self.design(self.commands[0])
+        """The design that is shown moving: an analysis of given links before a synthesis."""
+        return self.design("analyze" if "analyze" in self.commands else self.commands[0])
 
     @cached_property
     def showable(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -149,9 +151,13 @@ class Study:
 
         count = min(most, self.pictures)
         after = 0.0 if look.held is None else look.held * count % 1.0
-        scene, refused = self._shown((np.arange(count) + after) / count, look.show, checks)
+        fractions = (np.arange(count) + after) / count
+        scene, refused = (
+            (self.scene(fractions, look.show), "") if look.bare else self._shown(fractions, look.show, checks)
+        )
         own = player_stage(scene, "").own_reach
-        reach = look.reach if look.reach and (look.held is not None or _within(own, look.reach)) else _roomy(own)
+        kept = look.bare or look.held is not None
+        reach = look.reach if look.reach and (kept or _within(own, look.reach)) else _roomy(own)
         data = player_data(scene, self.spec.name, FPS * count / self.pictures, reach=reach)
         words, points = self.showable
         return data | {"show": look.show, "words": words, "points": points, "refused": refused}, reach

@@ -102,10 +102,12 @@ function filmPlayer(root, DATA) {
     pen.fillStyle = color; pen.fill();
   }
   function keysAndFaults(i) {
-    for (const key of DATA.keys || []) {
-      if (key.long) arrow(key.p[0], key.p[1], key.long, 0, key.color);
-      words(key.words, key.p[0] + key.long + 0.5 * DATA.text, key.p[1], letters, key.color, "left", "middle", "#ffffff");
-    }
+    const keys = DATA.keys || [];
+    keys.forEach((key, k) => {  // rows as far apart as the letters on the screen are high
+      const y = key.p[1] - 1.15 * (letters - DATA.text) * (keys.length - k - 0.5);
+      if (key.long) arrow(key.p[0], y, key.long, 0, key.color);
+      words(key.words, key.p[0] + key.long + 0.5 * DATA.text, y, letters, key.color, "left", "middle", "#ffffff");
+    });
     const wrong = DATA.faults && DATA.faults[i] || [];
     if (!wrong.length) return;
     if (DATA.framed[i]) {
@@ -180,12 +182,8 @@ function filmPlayer(root, DATA) {
       words(String(y).replace("-", "\u2212"), sides.left - 5, upwards(y), 11, "#666666", "right", "middle");
     }
     grid([sides.left, sides.top, sides.left, sides.bottom, sides.right, sides.bottom], "#777777");
-    pen.font = "11px sans-serif";
-    chart.bands.forEach((band, k) => {
-      if (!band.name || pen.measureText(band.name).width > across(band.end) - across(band.start)) return;
-      const row = chart.bands.slice(0, k).filter(o => o.name && o.start < band.end && band.start < o.end).length;
-      words(band.name, (across(band.start) + across(band.end)) / 2, sides.top + 3 + 13 * row, 11, "#444444", "center", "top");
-    });
+    pen.save();
+    pen.beginPath(); pen.rect(sides.left, sides.top - 2, sides.right - sides.left, sides.bottom - sides.top + 4); pen.clip();
     for (const of of [ghost && ghost.chart, chart]) {
       pen.globalAlpha = of === chart ? 1 : .3;
       for (const curve of of ? of.curves : []) {
@@ -193,6 +191,14 @@ function filmPlayer(root, DATA) {
         pen.strokeStyle = curve.color; pen.lineWidth = 2; pen.stroke();
       }
     }
+    pen.restore();
+    pen.font = "11px sans-serif";
+    chart.bands.forEach((band, k) => {  // over the curves, which a band's name would be crossed by
+      if (!band.name || pen.measureText(band.name).width > across(band.end) - across(band.start)) return;
+      const row = chart.bands.slice(0, k).filter(o => o.name && o.start < band.end && band.start < o.end).length;
+      const middle = (across(band.start) + across(band.end)) / 2;
+      words(band.name, middle, sides.top + 3 + 13 * row, 11, "#444444", "center", "top", "#ffffff");
+    });
     grid([across(chart.now[i]), sides.top, across(chart.now[i]), sides.bottom], "#444444");
     for (const curve of chart.curves)
       disc(across(chart.now[i]), upwards(curve.now[i]), 4.5, curve.color, "#ffffff", 1);
