@@ -215,7 +215,7 @@ def moving(text: str, file: str, commands: Sequence[str], count: int, look: Look
     return checks, film(text, file, count, look, checks)
 
 
-def slow(text: str, file: str, names: dict[str, Sequence[str]]) -> tuple[Any, Any, dict[str, float]]:
+def slow(text: str, file: str, names: Mapping[str, Sequence[str]]) -> tuple[Any, Any, dict[str, float]]:
     """Results and findings of commands that take long, and how long the results took [s].
 
     Parameters

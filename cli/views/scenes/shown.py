@@ -311,9 +311,8 @@ def _shown(design: Any, fraction: Reals, maker: Maker, frame: Frame,
         (behind if wish.what == "ghosts" else before).extend(parts)
         marks += words
         keys += key
-    parts = (*behind, *scene.parts, *before)
     own = len(behind), len(behind) + len(scene.parts), len(scene.marks)
-    return replace(scene, parts=parts, marks=tuple(marks), keys=tuple(keys), own=own)
+    return replace(scene, parts=(*behind, *scene.parts, *before), marks=tuple(marks), keys=tuple(keys), own=own)
 
 
 def _reach(scene: Scene) -> float:
