@@ -375,7 +375,7 @@ def write_chart(
     def make() -> Figure:
         return settled(draw(chart, table, curves, marked))
 
-    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi))
+    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi, quiet=options.quiet))
     return path
 
 

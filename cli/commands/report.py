@@ -163,8 +163,11 @@ def _as_pdf(
     loaded: LoadedFile, kind: Kind, spec: Any, options: Options, changes: Difference | None
 ) -> tuple[list[Report], bytes]:
     from gearlink.cli.commands.diff import lines_of
+    from gearlink.cli.views.figures.write import tell_of_boxes
     from gearlink.cli.views.page.pdf import document
 
+    if not options.quiet:
+        tell_of_boxes(spec.name)
     designs = FileDesigns(kind, spec)
     found = (_built(loaded, kind, spec, options, designs, command) for command in _commands(kind, spec))
     parts = [part for part in found if part is not None]

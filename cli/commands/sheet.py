@@ -128,7 +128,7 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
             style.stamp(figure, f"fails: {failed}")
         return settled(figure)
 
-    write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi))
+    write_atomically(path, lambda stream: save(draw, spec.name, stream, ending, options.dpi, quiet=options.quiet))
     return path
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
@@ -110,7 +112,7 @@ def write_residuals(name: str, found: Sequence[Vibration], options: Options) -> 
             axes.set_xlabel(unit)
         return settled(figure)
 
-    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi))
+    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi, quiet=options.quiet))
     return path
 
 
@@ -122,15 +124,54 @@ def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:
 
     x = np.linspace(0.0, 1.0, _POINTS)
     panels.heading(axes[0], heading)
+    infinite: Counter[tuple[float, bool]] = Counter()
     for law, look in zip(laws, _looks(len(laws)), strict=True):
         for each, values in zip(axes, law.evaluate(x, 3), strict=True):
             each.plot(x, values, linewidth=1.2, label=law.name, **look)
+        _mark_infinite(axes[-1], law, look["color"], infinite)
     for each, label in zip(axes, _AXES, strict=True):
         style.curves(each, "", label)
         each.set_xlim(0.0, 1.0)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
+    if infinite:
+        axes[-1].plot([], [], marker="^", linestyle="", color=style.GREY, label="infinite: the acceleration jumps")
     axes[-1].set_xlabel("x, fraction of the time")
     panels.legend_below(axes[-1], 2, labelled=True)
+
+
+def _mark_infinite(axes: Axes, law: Law, color: str, taken: Counter[tuple[float, bool]]) -> None:
+    """A triangle at the edge of the panel wherever the jerk of a law is infinite, below those of other laws there."""
+    for x, jump in acceleration_jumps(law):
+        up = jump > 0.0
+        below = _NEXT * taken[x, up]
+        at, marker = (1.0 - below, "^") if up else (below, "v")
+        taken[x, up] += 1
+        axes.plot([x], [at], marker=marker, color=color, markersize=7, linestyle="", clip_on=False, zorder=5,
+                  transform=axes.get_xaxis_transform(), label="_infinite")  # fmt: skip
+
+
+def acceleration_jumps(law: Law) -> list[tuple[float, float]]:
+    """Where the acceleration of a law jumps, with the jump; at the ends against an acceleration of zero.
+
+    Example
+        >>> from gearlink.core.parts.cams.laws import law
+        >>> [(x, round(jump, 3)) for x, jump in acceleration_jumps(law("simple-harmonic"))]
+        [(0.0, 4.935), (1.0, 4.935)]
+    """
+    if math.isfinite(law.peak_jerk):
+        return []
+
+    def at(x: float) -> float:
+        return float(law.evaluate(x, 2)[2])
+
+    found = [(0.0, at(0.0)), *((x, at(x + _BESIDE) - at(x - _BESIDE)) for x in law.joints), (1.0, -at(1.0))]
+    return [(x, jump) for x, jump in found if abs(jump) > 1e-6 * law.peak_acceleration]
+
+
+_NEXT = 0.05
+"""Of the height of the panel, from one triangle to the next."""
+_BESIDE = 1e-9
+"""So far beside a joint its two pieces are compared; a continuous acceleration changes by no more than 1e-9 jerk."""
 
 
 def _looks(count: int) -> list[dict[str, Any]]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
+from gearlink.cli.printable import visible
 from gearlink.cli.quiet import without_notes
 from gearlink.cli.views.figures.drawing.placing import Places, settled
 from gearlink.core.base.kind import load
@@ -84,16 +87,24 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
     path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
     name = design.spec.name
     write_atomically(
-        path, lambda stream: save(lambda: draw(command, design, checks), name, stream, ending, options.dpi)
+        path,
+        lambda stream: save(
+            lambda: draw(command, design, checks), name, stream, ending, options.dpi, quiet=options.quiet
+        ),
     )
     return path
 
 
-def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, dpi: int = DPI) -> None:
+def save(
+    make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, dpi: int = DPI, *, quiet: bool = True
+) -> None:
     """Write the figure that `make` draws, in fonts that have the letters of `name`, as png, svg or pdf.
 
-    The same figure gives the same bytes; `dpi` counts for png alone.
+    The same figure gives the same bytes; `dpi` counts for png alone. Unless `quiet`, letters that no font has are told
+    of on standard error; an svg has its text as text.
     """
+    if not quiet and ending != "svg":
+        tell_of_boxes(name)
     with fonts_of(name):
         made = make()
         resolution = dpi if ending == "png" else DPI  # else that of its first canvas, whatever the figure's own
@@ -112,6 +123,23 @@ def fonts_of(name: str) -> Iterator[None]:
     with matplotlib.rc_context(style), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         yield
+
+
+@cache
+def tell_of_boxes(name: str) -> None:
+    """Say once which letters of a name are drawn as boxes, and which fonts have Chinese ones."""
+    if name.isascii():
+        return
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    have: set[int] = set()
+    for family in families(name):
+        have |= set(get_font(findfont(FontProperties(family=[family]))).get_charmap())
+    lacking = "".join(dict.fromkeys(letter for letter in name if ord(letter) not in have and not letter.isspace()))
+    if lacking:
+        fonts = f"{', '.join(_ASIAN_FONTS[:-1])} or {_ASIAN_FONTS[-1]}"
+        print(f"note: no installed font has {visible(lacking)}: boxes in the figure; with Chinese: {fonts}",
+              file=sys.stderr)  # fmt: skip
 
 
 def families(name: str) -> list[str]:

@@ -76,6 +76,28 @@ def test_no_two_laws_look_alike(count: int) -> None:
     assert all(one != other for one, other in combinations(looks, 2))
 
 
+def test_infinite_jerk_is_marked_where_the_acceleration_jumps() -> None:
+    from gearlink.core.parts.cams.laws import law
+
+    constant = {"scca": [0, 1, 0, 0]}  # two halves of constant acceleration, +4 and -4
+    found = np.array(motion_laws.acceleration_jumps(law(constant)))
+    assert found == pytest.approx(np.array([(0.0, 4.0), (0.5, -8.0), (1.0, 4.0)]), rel=1e-12)
+    assert motion_laws.acceleration_jumps(law("modified-sine")) == []
+    figure, axes = style.figure(4.0, 4.0, "laws"), []
+    for k in range(4):
+        axes.append(figure.add_subplot(4, 1, k + 1))
+    motion_laws._column(axes, "", [law("simple-harmonic"), law("cycloidal"), law(constant)])
+    marks = [
+        (float(line.get_xdata()[0]), float(line.get_ydata()[0]), line.get_marker())
+        for line in axes[-1].lines
+        if line.get_label() == "_infinite"
+    ]
+    first, second = 1.0, 1.0 - motion_laws._NEXT
+    assert marks == [
+        (0.0, first, "^"), (1.0, first, "^"), (0.0, second, "^"), (0.5, 0.0, "v"), (1.0, second, "^"),
+    ]  # fmt: skip
+
+
 @pytest.mark.slow
 def test_arrows_of_a_press_are_as_thick_in_every_resolution() -> None:
     """In dots they were 1.8 times as thick in a PDF, and a third in a picture of 400 dots an inch."""

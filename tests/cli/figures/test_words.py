@@ -11,6 +11,7 @@ from factory import design, worked
 from sheets import curve, labels, panel, sheet, words
 
 from gearlink.cli.commands.chart import draw
+from gearlink.cli.views.figures import write
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.cli.views.figures.geared_five_bar import _gears
@@ -116,6 +117,17 @@ def test_a_title_stays_on_the_page(name: str) -> None:
     assert box.x0 >= 0.99 * style.MARGIN * figure.dpi
     assert 7.0 <= figure._suptitle.get_fontsize() <= 12.0  # type: ignore[attr-defined]
     assert ("\n" in figure._suptitle.get_text()) == (len(name) > 70)  # type: ignore[attr-defined]
+
+
+def test_letters_that_no_font_has_are_told_of_once(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(write, "_ASIAN_FONTS", ("No Such Font", "Nor This"))
+    for name in ("feed", "Vorschub für 5 °", "停歇 A 停", "停歇 A 停"):
+        write.tell_of_boxes(name)
+    assert capsys.readouterr().err == (
+        "note: no installed font has 停歇: boxes in the figure; with Chinese: No Such Font or Nor This\n"
+    )
 
 
 def test_curvature_is_shown_as_far_as_it_goes() -> None:

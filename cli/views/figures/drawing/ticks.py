@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 from gearlink.cli.views.figures.drawing import style
 
@@ -45,10 +45,26 @@ class RoundNumbers(MaxNLocator):
 
 
 def powers_of_ten(axis: Axis) -> None:
-    """Powers of ten along a logarithmic axis as plain text; matplotlib's own formatter writes formulas, which take it
-    thirty times as long."""
-    axis.set_major_formatter(FuncFormatter(_power))
-    axis.set_minor_formatter(NullFormatter())
+    """Numbers along a logarithmic axis as plain text: powers of ten, of an axis of few decades 1, 2 and 5 times those.
+
+    matplotlib's own formatter writes formulas, which take it thirty times as long.
+    """
+
+    def few() -> bool:
+        low, high = sorted(axis.get_view_interval())
+        return bool(high < _FEW * low)
+
+    def between(value: float, _: int) -> str:
+        first = f"{value:.0e}"[0]
+        return f"{value:g}" if few() and first in "25" else ""
+
+    axis.set_major_formatter(FuncFormatter(lambda value, k: f"{value:g}" if few() else _power(value, k)))
+    axis.set_minor_formatter(FuncFormatter(between))
+    axis.set_tick_params(which="minor", labelsize=axis.get_tick_params("major").get("labelsize"))
+
+
+_FEW = 10.0**2.7
+"""An axis whose ends are nearer than this ratio would have two or three powers of ten."""
 
 
 def _power(value: float, _: int) -> str:
