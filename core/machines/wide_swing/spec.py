@@ -390,7 +390,11 @@ class WideSwingSpec(TolerancedSpec):
     @model_validator(mode="after")
     def _sections_agree(self) -> WideSwingSpec:
         if self.slider is None and self.inertia == 0.0:
-            _refuse("inertia", "inertia must be above 0 where no slider carries the mass", "GL108")
+            _refuse(
+                "inertia",
+                "inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0, or add slider",
+                "GL108",
+            )
         if self.cycle is not None and self.cycle_angle is not None:
             _refuse("cycle_angle", "cycle_angle and cycle exclude each other\ngive one")
         if self.drive is not None:

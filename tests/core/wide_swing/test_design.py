@@ -269,7 +269,7 @@ class TestCombined:
         ({"drive": DRIVE, "cycle_angle": None, "cam": CAM | {"rocker_radius": 70.0}}, "omit cam.rocker_radius"),
         ({"slider": SLIDER, "layout": "twin-rocker"}, "layout must be twin-cam"),
         ({"slider": SLIDER, "cam": CAM | {"rocker_radius": 70.0}}, "omit cam.rocker_radius"),
-        ({"inertia": 0.0}, "inertia must be above 0"),
+        ({"inertia": 0.0}, r"inertia: 0 \(limit > 0\)"),
         ({"swing": 341.0}, "less than or equal to 340"),
         ({"unloader": SPRING | {"stretch_ratio": -0.1}}, "greater than or equal to 0"),
         ({"unloader": SPRING | {"closed_length": 90.0, "stretch_capacity": 1.5}}, "exclude each other"),
