@@ -157,9 +157,15 @@ def shapes_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[list[Sh
     """The types that a value at a path may have, and the data there."""
     shapes: list[Shape] = [(model, ())]
     for step in path:
-        shapes = [inner for shape, _ in shapes for inner in _inside(shape, step, data)]
+        shapes = [inner for shape, said in shapes for inner in _inside(_meant(shape, said, data), step, data)]
         data = _child(data, step)
     return shapes, data
+
+
+def _meant(shape: Any, said: Iterable[Any], section: Any) -> Any:
+    """The model that a section is read by where its key chooses one by what the section says, as motion laws do."""
+    chosen = (each.model_of(section) for each in said if hasattr(each, "model_of"))
+    return next((model for model in chosen if model is not None), shape)
 
 
 def _child(node: Any, step: str | int) -> Any:

@@ -147,10 +147,7 @@ def _number(path: KeyPath, value: float, unit: str, factor: float, shapes: Any, 
     constraints = tuple(each for shape, found in shapes if shape in (int, float) for each in found)
     least, above = bound(constraints, ("ge", "gt"), max, -LARGEST_SIZE)
     most, below = bound(constraints, ("le", "lt"), min, LARGEST_SIZE)
-    unknown = not kinds and not choices  # to the schema: its sign is kept, and that it is whole
-    if unknown and value > 0.0:
-        least, above = 0.0, True
-    whole = isinstance(value, int) if unknown else float not in kinds
+    whole = float not in kinds and bool(kinds or choices)
     step = 1.0 if whole else _step(value, unit, factor)
     name = format_path(path)
     bounds = least / factor, most / factor, (above, below)

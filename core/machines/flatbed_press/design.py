@@ -781,6 +781,12 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         """Whether the motion of the bed exists, for which a cam that the file has must have its lift."""
         return self.spec.cam is None or self.cams.follows
 
+    @property
+    def gear_distance(self) -> float:
+        """Distance of the axes A and G of gears 1 and 2 [mm]; 0 without `input_gears`."""
+        gears, bed = self.spec.input_gears, self.spec.bed
+        return 0.0 if gears is None else math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
+
     @cached_property
     def gear_pair(self) -> GearPair:
         """Gears 1 and 2 on the axes A and G, equal, with as many teeth as fit unshifted (TY-460 report 1.1)."""
@@ -789,8 +795,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
             raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
         from gearlink.core.parts.gears.from_spec import pair_at
 
-        bed = self.spec.bed
-        distance = math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
+        distance = self.gear_distance
         # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.
         transverse = gears.module / math.cos(math.radians(gears.helix_angle))
         teeth = math.floor(distance / transverse * (1.0 + 1e-12))

@@ -238,11 +238,10 @@ class _Press:
         """The links from gear 1 to the cylinder."""
         chain, section = self.design.motion.cylinder, self.section
         four = chain.linkage
-        pair = None if self.design.spec.input_gears is None else self.design.gear_pair
         coupler, rocker = turns(four, chain.initial_angle - phi, order, velocity=-1.0)
         toward = _unit(section.gear_1_direction, 90.0)
         half_turn = 0.0 if self.side > 0.0 else math.pi
-        g = fixed(0j if pair is None else pair.center_distance * toward, phi, order=order)
+        g = fixed(self.design.gear_distance * toward, phi, order=order)
         crank = steady(phi, -1.0, chain.initial_angle + half_turn, order=order)
         links["gear1"] = Link(g, crank, {"G": 0.0, "H": four.crank})
         links["HM"] = Link(links["gear1"].at("H"), from_start(coupler, -half_turn), {"H": 0.0, "M": four.coupler})

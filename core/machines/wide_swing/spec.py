@@ -392,7 +392,7 @@ class WideSwingSpec(TolerancedSpec):
         if self.slider is None and self.inertia == 0.0:
             _refuse(
                 "inertia",
-                "inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0, or add slider",
+                "inertia: 0 (limit > 0): no slider carries a mass\nset inertia above 0",
                 "GL108",
             )
         if self.cycle is not None and self.cycle_angle is not None:

@@ -19,6 +19,12 @@ class _LawNames:
         )
         return core_schema.no_info_wrap_validator_function(_validated, handler(source), serialization=written)
 
+    def model_of(self, value: Any) -> type[BaseModel] | None:
+        """The model that a mapping with a type is read by."""
+        from gearlink.core.parts.cams.shaped_spec import MODELS
+
+        return MODELS.get(str(value.get("type"))) if isinstance(value, dict) else None
+
     def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
         from gearlink.core.parts.cams.laws import REST_TO_REST, REST_TO_SPEED
 

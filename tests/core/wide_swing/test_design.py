@@ -313,7 +313,7 @@ class TestLoops:
         report = made.report("swing")
         failing = [check for check in report.checks if check.status == "fail"]
         assert [check.code for check in failing] == ["GL505"]
-        assert "cycle angle to 113.19 deg" in failing[0].message
+        assert "cycle angle to 113.19 deg" in failing[0].fix
         names = {quantity.name for quantity in report.quantities}
         assert {"phase_angle", "rocker_radius", "start_curvature_radius"} <= names
         absent = {"transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end"}
@@ -449,7 +449,7 @@ def test_remedy_in_the_message_holds(made: WideSwingDesign, check: str) -> None:
     assert failing
     for index, found in failing:
         assert found.remedy
-        assert found.fix.endswith(remedy_words(found.remedy))
+        assert found.fix.removesuffix(" (relaxes the requirement)").endswith(remedy_words(found.remedy))
         repaired = WideSwingDesign(changed(made.spec, found.remedy))
         assert statuses(repaired, check)[index] != "fail"
 
