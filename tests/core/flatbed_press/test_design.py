@@ -514,7 +514,7 @@ TURNS_BACK = "the bed reverses at input angle 224 deg, before the synchronous zo
             "sync.length",
             "at most 164.4 mm, where cam.transition_end",
         ),
-        ({"cam__return_angle": 300.0}, "sync.length", "at most 283.5 mm"),
+        ({"cam__return_angle": 300.0}, "sync.length", "at most 164.4 mm, where cam.transition_end"),
         ({"cam__transition_end": 315.0}, "sync.length", "at most 283.5 mm$"),
         ({"cam__transition_end": 350.0}, "sync.length", "at most 283.5 mm$"),
         ({"sync__end": 300.0}, "sync.end", "at most 168.8 deg, where cam.transition_end"),

@@ -313,7 +313,7 @@ class TestLoops:
         report = made.report("swing")
         failing = [check for check in report.checks if check.status == "fail"]
         assert [check.code for check in failing] == ["GL505"]
-        assert "cycle angle to 113.19 deg" in failing[0].fix
+        assert "cycle angle to 113.1 deg" in failing[0].advice
         names = {quantity.name for quantity in report.quantities}
         assert {"phase_angle", "rocker_radius", "start_curvature_radius"} <= names
         absent = {"transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end"}
