@@ -257,7 +257,7 @@ def _outputs(spec: PlanarSpec) -> Iterator[Fault]:
         point, _, rest = name.rpartition("_")
         if rest != "radius" or point not in spec.frame:
             shafts = [f"{each}_radius" for each in spec.frame]
-            yield "GL111", f"shafts.{name}", f"a shaft is at a point of the frame: {_near(name, shafts)}"
+            yield "GL111", f"shafts.{name}", f"{name}: a shaft is at a point of the frame\n{_near(name, shafts)}"
 
 
 def _hanging(spec: PlanarSpec) -> Iterator[Fault]:

@@ -99,6 +99,12 @@ def test_an_unknown_key_anywhere_is_found(path: Path) -> None:
         elif section == ("start",) and data["kind"] == "planar-mechanism":  # by the names of its own links
             with pytest.raises(ValidationError, match="no link or slide is called 'nonsense'"):
                 KINDS["planar-mechanism"].spec_model().model_validate(broken)
+        elif section == ("shafts",) and data["kind"] == "planar-mechanism":  # by the names of points of its frame
+            with pytest.raises(ValidationError, match="nonsense"):
+                KINDS["planar-mechanism"].spec_model().model_validate(broken)
+        elif section[:1] == ("compare",) and data["kind"] == "geneva-drive":  # the keys of another kind
+            with pytest.raises(ValidationError, match="nonsense"):
+                KINDS["geneva-drive"].spec_model().model_validate(broken)
         elif data["kind"] == "machine" and (section[2:3] == ("design",) or section == ("register", "chain")):
             with pytest.raises(ValidationError, match=r"design\n|no member 'nonsense'"):  # of any kind, or of its own
                 KINDS["machine"].spec_model().model_validate(broken)
