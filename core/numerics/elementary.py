@@ -23,7 +23,7 @@ class Elementary:
         sin, cos, tan, asin, acos, atan, sqrt, hypot, atan2, copysign, floor : as in `math`
         turn : exp(i angle); phase : direction of a complex number
         round : to so many decimals
-        minimum, maximum : of two; where : the second where the first holds, else the third
+        least, greatest : of two; where : the second where the first holds, else the third
     """
 
     sin: One = math.sin

@@ -36,7 +36,7 @@ def descend(
         x : (K, N) array - starts
         steps : int - at most; fewer once no row gains
         damping : (K,) array or float - to begin with; it falls with each gain and rises with each loss
-        minimum, most : floats - bounds of it
+        least, most : floats - bounds of it
     Returns
         x : (K, N) array; state : as given, there; damping : (K,) array; taken : int - steps that were tried
     Source

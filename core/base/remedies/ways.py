@@ -149,7 +149,7 @@ def can_be_built(spec: Any, remedy: Remedy, greatest: float) -> bool:
     """Whether the lengths of a remedy suit the machine.
 
     Parameters
-        maximum : float [mm] - that of the file: no length becomes greater by more than four times, and greater than it
+        greatest : float [mm] - that of the file: no length becomes greater by more than four times, and greater than it
     """
     for path, value in remedy:
         old = number_at(spec, path)

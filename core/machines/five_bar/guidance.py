@@ -41,7 +41,7 @@ class Task:
         start : PathFiveBar - of the file; its frame and ratio count, and the links that are kept
         keep : keys of the file that stay
         free : bool - the frame may lie anywhere
-        minimum : float [rad] - transmission angle
+        least : float [rad] - minimum transmission angle
     """
 
     places: Points

@@ -21,7 +21,7 @@ class StructuralError:
     """How far a five-bar is from a function.
 
     Fields
-        maximum : float [rad] - largest magnitude, the output gear set on its shaft as is best
+        greatest : float [rad] - maximum magnitude, the output gear set on its shaft as is best
         zero : float [rad] - psi0, output angle at which the function starts, so set
         places : tuple of float - shares of the input's swing at which the error is extreme, ends included
         errors : tuple of float [rad] - there

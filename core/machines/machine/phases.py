@@ -24,7 +24,7 @@ class Tie(NamedTuple):
     Fields
         one, two : str - members on the main shaft whose phases are free, "" for all that stands fast
         offset : float [deg]
-        minimum : float [deg] - x - minimum is a margin
+        least : float [deg] - x - least is a margin
         most : float [deg] - most - x is a margin; infinite where there is none
         text : str - the relation
     """

@@ -279,7 +279,7 @@ def backlash_check(least: float, greatest: float, limit: float, module: float, j
     """GL208 of a theoretical normal backlash; below 0 there is none.
 
     Parameters
-        minimum, maximum, limit, module : float [mm]
+        least, greatest, limit, module : float [mm] - minimum and maximum backlash, limit of the minimum
         jammed : str - what it means where there is none
     """
     aside, fix = f"maximum {short(greatest)} mm", "thin the teeth (allowances)"

@@ -78,7 +78,6 @@ class Conditions:
         reduced_mass : float or None [kg/mm]
         contacts : (float, float) - load contacts per revolution
         shaft, misalignment, modification : of the face load factor; F_betax in um
-        face_given : bool - the file says something of the face
         long_life : float - factor at 1e10 load cycles
         pitting_allowed : bool
         mean_stress : (float, float) or None - Y_M; None: 0.7 of idlers, else 1
