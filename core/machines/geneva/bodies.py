@@ -64,17 +64,25 @@ class Outlines:
 
     @property
     def _arc_half(self) -> float:
-        """Half of the wheel's angle that its locking arc takes of the circle through the corners [rad]."""
+        """Half of the wheel's angle that its locking arc takes of the circle through the corners [rad].
+
+        Raises
+            NoSolution - where the disc covers the whole wheel
+        """
         if self.depth <= 0.0:
             return 0.0
         distance, tip = self.drive.distance, self.tip
+        if self.locking >= distance + tip:
+            message = f"the locking disc of radius {short(self.locking)} mm covers the whole wheel"
+            fix = f"choose locking_radius below {safely_below(self.drive.crank - self.pin)} mm"
+            raise NoSolution(message, key="locking_radius", fix=fix)
         return math.acos((distance**2 + tip**2 - self.locking**2) / (2.0 * distance * tip))
 
     def wheel_half(self) -> list[Piece]:
         """From the bottom of a slot on the x axis to the middle between two slots.
 
         Raises
-            NoSolution - where the locking arcs reach the bottoms of the slots
+            NoSolution - where slots run into each other, or the locking arcs reach their bottoms
         """
         drive, s, pin = self.drive, self.drive.sign, self.pin
         bottom, mouth, middle = drive.distance - s * drive.crank, drive.wheel, math.pi / drive.slots
