@@ -308,7 +308,7 @@ class GenevaDrive(RealSpeed, Design):
 
     @staticmethod
     def _held(outlines: Outlines, lip: float) -> Iterator[Check]:
-        """Whether the disc reaches into the wheel at all, and lets the lips beside a driven slot pass where it has any."""
+        """Whether the disc reaches into the wheel at all, and lets the lips beside a driven slot pass, if any."""
         depth, deeper = outlines.depth, "choose a larger locking_radius"
         status: Status = "fail" if depth <= 0.0 else "pass"
         what, overlap = "depth of the locking disc in the wheel", "gap between locking disc and wheel"

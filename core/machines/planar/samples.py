@@ -185,7 +185,7 @@ class PlanarSamples:
     def _part(self, columns: Mapping[str, Any], names: Sequence[str]) -> Evaluated:
         many = _Many(self, columns)
         design, quantities = many.design, {}
-        for name in names:
+        for name in sorted(names, key=lambda name: name == "closure_error"):  # that of all places that were sought
             found = many.value(name)
             unit = design.unit_for(design.spec, name)
             quantities[name] = np.degrees(found) if unit == "deg" else found
@@ -201,7 +201,7 @@ class PlanarSamples:
         return Evaluated(quantities, findings, np.zeros(many.count, dtype=np.intp), (), many.unsure)
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
-        """By how much the first output, a link, is turned against the nominal design [rad]; (K, N)."""
+        """By how much the first output, a link, is turned against the nominal design [rad]; (K, N), NaN if unsure."""
         course = self.nominal.course
         body = self.nominal.structure.numbers[self.nominal.spec.shown[0]]
         q, jets = course.walked(input_angle), course.jets(input_angle, 0)
@@ -209,9 +209,11 @@ class PlanarSamples:
         rows = []
         for some in self._parts(columns):
             many = _Many(self, some)
-            off = np.array([many.closed(q[k], np.tile(y[k], (many.count, 1)))[0][:, 3 * body - 1] - y[k, 3 * body - 1]
-                            for k in range(q.size)])  # fmt: skip
-            rows.append(np.where(many.unsure, math.nan, off))
+            off = np.empty((q.size, many.count))
+            for k in range(q.size):
+                found, open_ones = many.closed(q[k], np.tile(y[k], (many.count, 1)))
+                off[k] = np.where(many.unsure | open_ones, math.nan, found[:, 3 * body - 1] - y[k, 3 * body - 1])
+            rows.append(off)
         return np.concatenate(rows, axis=1)
 
 
@@ -226,7 +228,6 @@ class _Many:
     def __init__(self, samples: PlanarSamples, columns: Mapping[str, Any]) -> None:
         nominal = samples.nominal
         self.samples, self.count = samples, len(next(iter(columns.values())))
-        self.gap: Reals = np.zeros(self.count)
         plays = {key.removeprefix(_PIN): values for key, values in columns.items() if key.startswith(_PIN)}
         sizes = {key: values for key, values in columns.items() if not key.startswith(_PIN)}
         structure = Structure(nominal.spec, plays, sizes)
@@ -237,6 +238,8 @@ class _Many:
         self.system = System(len(structure.bodies), pins_of(structure), rows)
         vars(self.system)["blocks"] = nominal.course.system.blocks
         self.unsure: Mask = self._uncertain()
+        q, first = samples._grid[0][:2]
+        self.gap: Reals = self._gaps(self.closed(q, np.tile(first, (self.count, 1)))[0], np.full(self.count, q))
 
     def _uncertain(self) -> Mask:
         """Samples of which the theorem does not say that they run beside the nominal design."""
@@ -269,6 +272,10 @@ class _Many:
             if not (np.abs(step).max(axis=1) > _REST * 100.0)[~self.unsure].any():
                 break
         return y, far
+
+    def _gaps(self, y: Reals, q: Reals) -> Reals:
+        """By how much the joints are open [mm]."""
+        return np.asarray(np.abs(self.system.values(Jets.of(y), 0, q)).max(axis=1) * self.design.structure.size)
 
     @cached_property
     def _numbers(self) -> dict[str, Coefficient]:
@@ -312,8 +319,7 @@ class _Many:
                 break
         y, open_ones = self.closed(q, y)
         here = self.system.onward(Jets.of(y), q, order)
-        gaps = np.abs(self.system.values(Jets.of(y), 0, q)).max(axis=1) * course.structure.size
-        self.gap = np.maximum(self.gap, gaps)
+        self.gap = np.maximum(self.gap, self._gaps(y, q))
         self.unsure = self.unsure | far | open_ones
         return course.derivatives(of, here, order)[order], course.unwalked(q)
 
@@ -332,7 +338,8 @@ class _Many:
 
     @property
     def _standing(self) -> Reals:
-        """Minimum angle at some inputs of dyads whose angle stands still in the nominal design; inf without any."""
+        """Minimum angle at some inputs of dyads whose angle stands still in the nominal design; inf without any, NaN
+        where the sample does not close."""
         samples, least = self.samples, np.full(self.count, math.inf)
         course = samples.nominal.course
         still = [key for key in samples.nominal.dyad_keys if key not in samples._humps]
@@ -341,9 +348,9 @@ class _Many:
         for k in range(q.size):
             assert jets is not None
             near = joined(jets.x[0][k : k + 1], jets.t[0][k : k + 1])
-            y, _ = self.closed(float(course.walked(q)[k]), np.tile(near, (self.count, 1)))
+            y, open_ones = self.closed(float(course.walked(q)[k]), np.tile(near, (self.count, 1)))
             angles = [folded(self._numbers[name](Jets.of(y), 0)) for name, _ in still]
-            least = np.minimum(least, np.min(angles, axis=0))
+            least = np.where(open_ones, math.nan, np.minimum(least, np.min(angles, axis=0)))
         return least
 
     @cached_property
