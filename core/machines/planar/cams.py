@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 _DEGREE = math.pi / 180.0
 _STEP = 1e-6  # of the maximum velocity: what laws that meet leave
-_SQUARE = 1e-9
+_SQUARE = 1e-9  # cosine of a right angle
 _OUTLINE, _BEYOND = 721, 0.1
 
 
@@ -123,7 +123,8 @@ class CamJoint:
             (at, bodies[each.cam][pin]) for pin, at in bodies[bearer].items() if pin in bodies[each.cam]
         )
         self.point = bodies[each.follower][each.point]
-        self.zero = structure.start_of(slid or each.follower) or 0.0
+        self._started = slid or each.follower
+        self.zero = structure.start_of(self._started) or 0.0
         shared = (pin for pin in bodies[bearer] if pin in bodies[each.follower])
         self._pivot = None if slid else next((bodies[bearer][pin], bodies[each.follower][pin]) for pin in shared)
         self.sense, self.phase = each.sense, math.radians(each.phase)
@@ -185,15 +186,15 @@ class CamJoint:
             NoSolution - where none of both ways does
         """
         if self.slide is not None:
-            reach = (self._start * cmath.exp(-1j * self.slide.line.direction)).real
+            reach, size = (self._start * cmath.exp(-1j * self.slide.line.direction)).real, abs(self._start)
         else:
             assert self._pivot is not None
             pivot = self._pivot[0] - self.axis
             toward = self._start if self.given.face is None else self._face(pivot)[0]
-            reach = -(pivot.conjugate() * toward).imag
-        if reach == 0.0:
+            reach, size = -(pivot.conjugate() * toward).imag, abs(pivot) * abs(toward)
+        if abs(reach) <= _SQUARE * size:
             what = f"in the start position {self.given.point} does not move away from the axis of the cam"
-            raise NoSolution(what, key=self.key, fix=f"change start.{self.given.follower}")
+            raise NoSolution(what, key=self.key, fix=f"change start.{self._started}")
         return math.copysign(1.0, reach)
 
     def _face(self, pivot: complex) -> tuple[complex, float]:
@@ -260,7 +261,7 @@ class CamJoint:
         offset = (normal.conjugate() * (self._start - pivot)).real
         if offset + abs(pivot) * math.sin(abs(angle)) <= 0.0:
             what = "the face leaves no base circle at lift 0, the axis of the cam lies beyond it"
-            raise NoSolution(what, key=self.key, fix=f"change start.{self.given.follower}")
+            raise NoSolution(what, key=self.key, fix=f"change start.{self._started}")
         return rocking_face(self.motion, abs(angle), abs(pivot), cmath.phase(pivot), offset, side, self.sense)
 
     @property

@@ -193,6 +193,18 @@ def test_cams_that_cannot_be(change: dict[str, Any], key: str) -> None:
     assert refused.value.key == key
 
 
+@pytest.mark.parametrize("way", [0.0, 45.0, 90.0])
+def test_a_roller_square_beside_the_axis_moves_neither_way(way: float) -> None:
+    """Where its slide begins, 50 mm beside the axis, in directions whose cosines are rounded."""
+    file, _ = _slid(False, way, 1)
+    foot = -50j * np.exp(1j * math.radians(way))
+    file["slides"]["guide"]["through"], file["start"] = [foot.real, foot.imag], {"guide": 0.0}
+    made = PlanarSpec.model_validate({"kind": "planar-mechanism", "name": "x", "drive": {"link": "cam"}, **file})
+    with pytest.raises(NoSolution, match="does not move away") as refused:
+        _ = PlanarMechanism(made).structure.cams["main"].away
+    assert refused.value.fix == "change start.guide"
+
+
 def test_a_cam_counts_as_one_constraint() -> None:
     file = {"kind": "planar-mechanism", "name": "x", "drive": {"link": "cam"}, **CASES["slid roller"][0]}
     assert PlanarMechanism(PlanarSpec.model_validate(file)).structure.freedoms == 1
