@@ -5,6 +5,7 @@ Points are complex numbers in mm in the coordinates of the motion; derivatives a
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
@@ -86,9 +87,11 @@ def place_of(mechanism: Mechanism, name: str) -> Place:
     if at and link in mechanism.links:
         try:
             x, _, y = text.partition("/")
-            return Place(link, complex(float(x), float(y)))
+            arm = complex(float(x), float(y))
         except ValueError:
-            pass
+            arm = complex(math.nan, math.nan)
+        if cmath.isfinite(arm):
+            return Place(link, arm)
     raise UnknownPoint(name, known)
 
 
