@@ -248,10 +248,11 @@ def _cosine_step(start: float, end: float) -> float:
 class Generated(NamedTuple):
     """A linkage that goes through a function at three places.
 
-    start, zero : float [rad] - crank and rocker angle at the first x, without offsets
-    pairs : three of (phi, psi) [rad]
-    error : float [rad] - maximum structural error; inf where the linkage opens
-    place : float - share of the crank's swing at which it is
+    Fields
+        start, zero : float [rad] - crank and rocker angle at the first x, without offsets
+        pairs : three of (phi, psi) [rad]
+        error : float [rad] - maximum structural error
+        place : float - share of the crank's swing at which it is
     """
 
     start: float
@@ -268,7 +269,7 @@ _LAST_STEP = math.radians(0.01)
 
 
 def generated(wanted: Wanted, start: float, zero: float, least: float) -> Generated | None:
-    """The linkage of frame 1 through a function from a start on; None where there is none.
+    """The linkage of frame 1 through a function from a start on; None where there is none, or where it opens.
 
     Parameters
         start, zero : float [rad] - crank and rocker angle at the first x
@@ -297,8 +298,11 @@ def generated(wanted: Wanted, start: float, zero: float, least: float) -> Genera
         meant = np.exp(1j * (zero + bar.rocker_offset + wanted.output(s)))
         return np.angle((joint - 1.0) / meant), across / (bar.coupler * bar.rocker)
 
-    error, sine = angles(np.linspace(0.0, 1.0, 41))
-    if not np.all(np.isfinite(error)) or float(sine.min()) < math.sin(least):
+    # the sine is least at an end of the swing, or where the crank lies along the frame
+    first, swing = start + bar.crank_offset, wanted.input_swing
+    low, high = sorted((first / math.pi, (first + swing) / math.pi))
+    along_frame = [(math.pi * k - first) / swing for k in range(math.ceil(low), math.floor(high) + 1)]
+    if not float(np.min(angles(np.array([0.0, 1.0, *along_frame]))[1])) >= math.sin(least):
         return None
     worst = maximum_over(lambda s: np.abs(angles(s)[0]), 0.0, 1.0, samples=129)
     return Generated(start, zero, pairs, worst.value, worst.place)

@@ -17,8 +17,15 @@ from sweeps import mostly_slow
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.machines.crank_rocker.design import DeadCenters
-from gearlink.core.machines.crank_rocker.synthesis import best_ratios, half_angles, ratios_of, through_pairs
+from gearlink.core.machines.crank_rocker.synthesis import (
+    best_ratios,
+    generated,
+    half_angles,
+    ratios_of,
+    through_pairs,
+)
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+from gearlink.core.parts.linkages.functions import Wanted
 
 SWING: dict[str, Any] = {"kind": "crank-rocker", "name": "swing", "swing": {"angle": 80.0, "quick_return_ratio": 1.1}}
 FUNCTION: dict[str, Any] = {
@@ -316,3 +323,27 @@ def test_a_function_that_is_not_whole_is_refused(function: dict[str, Any], key: 
     with pytest.raises(ValidationError) as refused:
         KINDS["crank-rocker"].spec_model().model_validate({"kind": "crank-rocker", "name": "f", "function": function})
     assert [error["ctx"]["key"] for error in refused.value.errors()] == [key.removeprefix("function.")]
+
+
+@pytest.mark.parametrize(
+    ("name", "swings", "starts"),
+    [
+        ("log", (3.763324517839, -1.624010050627), (1.221940073920, 4.673235800935)),
+        ("exp", (4.323858013395, 2.114375998472), (6.137629004227, 3.113970782700)),
+    ],
+)
+def test_a_linkage_that_opens_for_less_than_a_fortieth_of_the_swing_is_none(
+    name: Any, swings: tuple[float, float], starts: tuple[float, float]
+) -> None:
+    """Where the crank lies along the frame, its pin is beyond the reach of coupler and rocker."""
+    wanted = Wanted(name, (1.0, 2.0), *swings)
+    assert generated(wanted, *starts, 0.0) is None
+    places = [0.5 - 0.5 * math.cos(math.radians(30.0 * k)) for k in (1, 3, 5)]
+    pairs = [(starts[0] + s * swings[0], starts[1] + float(wanted.output(s))) for s in places]  # type: ignore[arg-type]
+    bar = through_pairs(pairs, 1.0)
+    reach = [
+        abs(1.0 - bar.crank * cmath.exp(1j * (starts[0] + bar.crank_offset + s / 4000.0 * swings[0])))
+        for s in range(4001)
+    ]
+    opens = sum(not abs(bar.coupler - bar.rocker) <= each <= bar.coupler + bar.rocker for each in reach)
+    assert 0 < opens < 100
