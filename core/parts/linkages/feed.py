@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import RealSpeed, per_time
-from gearlink.core.base.report import Check
+from gearlink.core.base.report import Check, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import LAY_SPEED
@@ -172,7 +172,8 @@ class FeedResults(RealSpeed, Design):
         with at_key("feed.lay.distance"):
             if turned >= 2.0 * math.pi * abs(self.mean_ratio):
                 step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
-                raise NoSolution(f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more: give less")
+                what = f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more"
+                raise NoSolution(what, fix=f"set feed.lay.distance below {safely_below(step)} mm")
             if given.angle is None:
                 return gentlest(*self.running, turned)
             return way_before(*self.running, turned, math.radians(given.angle))

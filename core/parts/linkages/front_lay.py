@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.standstills import Turning
 
@@ -36,7 +37,7 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
         turned : float [rad] - of the output in that stretch
         end : float [rad] - crank angle of the arrival
     Raises
-        NoSolution - where the output turns back within it
+        NoSolution - where the output turns back within it, or it is longer than two revolutions
     """
     step, here, goal = TURN / _STEPS, end, angle(end) - turned
     for k in range(1, 2 * _STEPS):
@@ -45,7 +46,7 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
             start = bracketed_root(lambda x: angle(x) - goal, there, here)
             return _judged(speed, extremes, start, end)
         here = there
-    raise NoSolution("the way before the lay is longer than the feed of two revolutions: give less")
+    raise NoSolution("the way before the lay is longer than the feed of two revolutions", fix="give a shorter one")
 
 
 def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float) -> Lay:
@@ -54,9 +55,10 @@ def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: fl
     About a minimum of W, with equal speeds at both ends; where none has such ends, up to the maximum speed.
 
     Raises
-        NoSolution - where the output turns back within it
+        NoSolution - where the output turns back within all of them
     """
     best: Lay | None = None
+    refused: NoSolution | None = None
     for place, value in extremes:
         tops = [_next_top(extremes, place, way) for way in (-1.0, 1.0)]
         if None in tops or any(top.value < value for top in tops if top is not None):
@@ -64,11 +66,17 @@ def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: fl
         found = _about(speed, angle, place, [top for top in tops if top is not None], turned)
         if found is None:
             continue
-        judged = _judged(speed, extremes, *found)
+        try:
+            judged = _judged(speed, extremes, *found)
+        except NoSolution as error:
+            refused = error
+            continue
         if best is None or judged.greatest < best.greatest:
             best = judged
     if best is not None:
         return best
+    if refused is not None:
+        raise refused
     place = max(extremes, key=lambda each: each.value).place
     return way_before(speed, angle, extremes, turned, place)
 
@@ -107,5 +115,8 @@ def _judged(speed: Speed, extremes: Sequence[Turning], start: float, end: float)
     inside = [value for place, value in extremes if (place - start) % TURN <= end - start]
     values = [speed(start), speed(end), *inside]
     if min(values) < 0.0:
-        raise NoSolution("the sheet goes back on this way: give less, or a drive without back-step")
+        raise NoSolution(
+            f"the sheet goes back on the way before the lay, speed ratio {short(min(values))}",
+            fix="give a shorter one, or a drive without back-step",
+        )
     return Lay(start, end, max(values), speed(end))

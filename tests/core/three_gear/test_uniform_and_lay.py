@@ -14,6 +14,8 @@ from factory import design
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.uniform import window_of_family
+from gearlink.core.parts.linkages.front_lay import gentlest
+from gearlink.core.parts.linkages.standstills import Turning
 
 FEED: dict[str, Any] = {
     "kind": "three-gear-four-bar",
@@ -128,6 +130,29 @@ def test_feed_by_step() -> None:
                   feed={"radius": 40.0, "lay": {"distance": 20.0, "speed": 470.0}})  # fmt: skip
     with pytest.raises(NoSolution, match="goes back"):
         back.lay_speed  # noqa: B018
+
+
+def test_a_back_step_elsewhere_does_not_keep_the_sheet_from_the_lay() -> None:
+    """W = 1 + 0.5 sin x + 0.9 cos 2x goes below 0 about 270 deg, and has a minimum of 0.6 at 90 deg."""
+    flat = math.asin(0.5 / 3.6)
+    extremes = [Turning(x, speed(x)) for x in (0.5 * math.pi, math.pi - flat, 1.5 * math.pi, 2.0 * math.pi + flat)]
+    assert min(each.value for each in extremes) < -0.3
+    for order in (extremes, extremes[::-1]):
+        found = gentlest(speed, travel, order, 0.3)
+        assert found.start + found.end == pytest.approx(math.pi, abs=1e-9)
+        assert travel(found.end) - travel(found.start) == pytest.approx(0.3, rel=1e-9)
+        assert found.greatest == pytest.approx(speed(found.end), rel=1e-9)
+    # what is left is the way about the back-step
+    with pytest.raises(NoSolution, match=r"speed ratio -0\.4"):
+        gentlest(speed, travel, extremes[1:], 0.3)
+
+
+def speed(x: float) -> float:
+    return 1.0 + 0.5 * math.sin(x) + 0.9 * math.cos(2.0 * x)
+
+
+def travel(x: float) -> float:
+    return x - 0.5 * math.cos(x) + 0.45 * math.sin(2.0 * x)
 
 
 @pytest.mark.parametrize("data", [FEED, RING, "ring_feed"])
