@@ -74,7 +74,7 @@ class Course:
         values = sign * self.rates[order]
         top, height = float(values.max()), float(np.ptp(values))
         best = -math.inf, 0.0
-        for i in np.flatnonzero(_humps(values) & (values >= top - _NEAR * height)).tolist():
+        for i in np.flatnonzero(_humps(values, _EQUAL * height) & (values >= top - _NEAR * height)).tolist():
             low, high = self._beside(i)
 
             def rate(x: Reals) -> Reals:
@@ -202,10 +202,11 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         time_axes.in_ms(axes, 1e3 * (math.radians(1.0) if course.per == "rad" else 1.0) / course.speed)
 
 
-def _humps(values: Reals) -> Any:
-    """Whether a value is no less than those beside it."""
+def _humps(values: Reals, equal: float) -> Any:
+    """Whether a value is no less than those beside it; of a plateau its two ends alone."""
     beyond = np.concatenate([[-math.inf], values, [-math.inf]])
-    return (values >= beyond[:-2]) & (values >= beyond[2:])
+    level = (np.abs(values - beyond[:-2]) <= equal) & (np.abs(values - beyond[2:]) <= equal)
+    return (values >= beyond[:-2]) & (values >= beyond[2:]) & ~level
 
 
 def _per_angle(course: Course, order: int) -> str:
