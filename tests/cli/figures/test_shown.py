@@ -289,6 +289,19 @@ def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
         assert np.abs(y[inside]).max() <= np.degrees(found.tolerance) * (1.0 + 1e-6)
 
 
+def test_a_dwell_after_a_revolution_of_the_input_begins_where_its_axis_says() -> None:
+    """Its heading had named the angle within a revolution, beside an axis of six."""
+    made = design("mutilated_gear_press")
+    found = magnified.dwell_of(made)
+    assert found is not None
+    begins = float(np.degrees(found.start))
+    assert begins > 360.0
+    upper, _ = magnified.dwell(made).axes
+    assert upper.get_title(loc="left").endswith(f"from {begins:.5g}°")
+    low, high = upper.get_xlim()
+    assert low < begins < high
+
+
 def test_the_zone_shows_what_the_cams_make_up_for() -> None:
     made = design("ty460")
     start, end = np.degrees(made.sync_start), np.degrees(made.sync_end)

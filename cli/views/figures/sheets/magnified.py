@@ -136,8 +136,8 @@ def dwell(design: Any) -> Figure:
         axes.set_xlim(float(x[0]), float(x[-1]))
         style.stretch(axes, math.degrees(found.start), math.degrees(found.start + found.width), color="#CFE8F7",
                       linewidth=0, zorder=0)  # fmt: skip
-    panels.heading(upper, f"Within ±{tolerance:.4g} {unit} over {math.degrees(found.width):.5g}°, from "
-                          f"{math.degrees(found.start) % 360.0:.5g}°")  # fmt: skip
+    begins = math.degrees(found.start % _TURN if motion.input.turns else found.start)
+    panels.heading(upper, f"Within ±{tolerance:.4g} {unit} over {math.degrees(found.width):.5g}°, from {begins:.5g}°")
     upper.plot(x, error, color=style.BLUE, linewidth=1.5, gid="dwell")
     for side in (-1.0, 1.0):
         upper.axhline(side * tolerance, color=style.RED, linewidth=1.0, linestyle=style.DASHED)
