@@ -60,6 +60,8 @@ _COLORS = {"velocity": GREEN, "acceleration": PURPLE, "force": RED}
 _NEAR = 1e-4
 """Of the size of the drawing, less than the width of a line: a direction of the file has a few digits."""
 _OFF = complex(math.nan, math.nan)
+_IN_RADIANS = {"°": math.radians(1.0), "": TURN}
+"""Units of the first value of a scene, degrees or revolutions."""
 _DEGREES = re.compile(r"(-?\d[\d.]*(?:e[-+]?\d+)?) deg")
 
 
@@ -181,8 +183,8 @@ def _inputs(design: Any, build: Maker, scene: Scene) -> Iterator[Callable[[Reals
     """How inputs may run over the loop: over the period, as the scene's first value says, as its first gear turns."""
     given = design.moving.input
     yield lambda fraction: of_motion.inputs(given, fraction)
-    if scene.readouts and scene.readouts[0].unit == "°":
-        yield lambda fraction: np.radians(build(design, fraction).readouts[0].values)
+    if scene.readouts and (unit := _IN_RADIANS.get(scene.readouts[0].unit)):
+        yield lambda fraction: unit * build(design, fraction).readouts[0].values
     gears = [i for i, part in enumerate(scene.parts) if isinstance(part, Body) and part.pitch]
     if gears:
 
