@@ -824,6 +824,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         return {"": self.gear_data}
 
     input_speed: float = placed("motion.input_speed")
+    angular_speed: float = placed("motion.input_speed")
     turn_time: float = placed("motion.turn_time")
     zone_length: float = placed("motion.zone_length")
     slider_crank: SliderCrank = placed("motion.slider_crank")

@@ -702,6 +702,7 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
     law: SixPhaseLaw = placed("motion.law")
     linkage: GripperLinkage = placed("motion.linkage")
     shaft_speed: float = placed("motion.shaft_speed")
+    angular_speed: float = placed("motion.shaft_speed")
     turn_time: float = placed("motion.turn_time")
     main_cam: DiscCam = placed("cams.main_cam")
     return_cam: DiscCam | None = placed("cams.return_cam")

@@ -671,6 +671,11 @@ class WideSwingDesign(Design):
         return greatest_need(self.oscillating_cam)
 
     @property
+    def angular_speed(self) -> float:
+        """Speed of the input shaft [rad/s]."""
+        return self.spec.speed * 2.0 * math.pi / 60.0
+
+    @property
     def phases(self) -> Places:
         """Strokes and dwells of a whole cycle, the remainder among them [rad]."""
         return Places(**dict(zip(PHASES, self.motion.cycle_angles, strict=True)))
