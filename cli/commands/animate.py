@@ -89,6 +89,18 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
             raise wrong_show(error) from None
 
 
+def require_shown(design: Design, show: str) -> None:
+    """Refuse what cannot be shown on a mechanism, before all else is made."""
+    import numpy as np
+
+    from gearlink.cli.views.scenes import shown
+
+    try:
+        shown.build(design, np.array([0.0, 0.5]), shown.wishes(show))
+    except shown.WrongShow as error:
+        raise wrong_show(error) from None
+
+
 def wrong_show(error: Exception) -> DesignFileError:
     """What `--show` asks for and cannot be had, as an error of the command line."""
     return DesignFileError([Diagnostic("GL115", str(error), "<command line>", key="--show")])

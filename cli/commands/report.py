@@ -19,7 +19,7 @@ from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
 from gearlink.cli.quiet import without_notes
-from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import GearlinkError, NoSolution
 from gearlink.core.base.kind import FileDesigns
@@ -120,6 +120,9 @@ def run_report(source: str, options: Options, asked: Asked | None = None) -> int
     """Write NAME.html or NAME.pdf into the folder of the options; gives the worst exit status of the commands."""
     asked = asked or Asked()
     try:
+        if asked.show and asked.format == "pdf":
+            message = f"--show {asked.show} is for the animation, which a pdf has not: take --format html"
+            raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--show")])
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with patience(f"computing and drawing {spec.name}", quiet=options.quiet):
@@ -206,7 +209,9 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options, show:
         return show if i == 0 else None
 
     if show:
-        _require_shown(designs.of(commands[0]), show)
+        from gearlink.cli.commands.animate import require_shown
+
+        require_shown(designs.of(commands[0]), show)
     made = side_by_side(lambda i: _section(built(commands[i]), filmed(i)), len(commands))
     if made is None:
         parts = [built(command) for command in commands]
@@ -227,19 +232,6 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
     if getattr(spec, "register_", None) is not None and "register" in kind.commands:
         yield "register"
     yield "tolerance"
-
-
-def _require_shown(design: Design, show: str) -> None:
-    """Refuse what the film cannot show, before all else is made."""
-    import numpy as np
-
-    from gearlink.cli.commands.animate import wrong_show
-    from gearlink.cli.views.scenes import shown
-
-    try:
-        shown.build(design, np.array([0.0, 0.5]), shown.wishes(show))
-    except shown.WrongShow as error:
-        raise wrong_show(error) from None
 
 
 def _section(part: Part | None, show: str | None) -> Section | None:

@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gearlink.cli.commands.animate import checks_of, wrong_show
+from gearlink.cli.commands.animate import checks_of, require_shown
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
@@ -53,8 +53,10 @@ def run_sheet(source: str, names: Sequence[str], options: Options, asked: Asked)
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
-            made = sheets_of(whole_design(kind, spec), size, at, asked.show)
+            design = whole_design(kind, spec)
+            made = sheets_of(design, size, at, asked.show)
             chosen, paths = _chosen(made, names, spec, source), []
+            _require_vectors(asked, at, chosen, design)
             failed = failures(checks_of(kind, spec))
             for number in counted(range(len(chosen)), f"drawing {spec.name}", quiet=options.quiet):
                 paths.append(_write(made, chosen[number], spec, options, failed))
@@ -85,6 +87,22 @@ def _inputs(text: str) -> list[float]:
     raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--at")])
 
 
+def _require_vectors(asked: Asked, at: Sequence[float], chosen: Sequence[str], design: Any) -> None:
+    """Refuse what the sheet `vectors` cannot draw, and what only that one knows where it is not drawn."""
+    for key, given in (("--at", asked.at), ("--show", asked.show)):
+        if given and "vectors" not in chosen:
+            drawn = f"only {', '.join(chosen)} {'is' if len(chosen) == 1 else 'are'} drawn"
+            message = f"{key} {given} is for the sheet vectors; {drawn}"
+            raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=key)])
+    if at:
+        from gearlink.cli.views.figures.sheets.vector_sheet import beyond
+
+        if message := beyond(design, at):
+            raise DesignFileError([Diagnostic("GL115", f"--at {message}", "<command line>", key="--at")])
+    if asked.show:
+        require_shown(design, asked.show)
+
+
 def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[str]:
     """The sheets asked for, each once; `drawing` is that of every cam."""
     chosen: list[str] = []
@@ -104,7 +122,6 @@ def _chosen(made: Makers, names: Sequence[str], spec: Any, source: str) -> list[
 
 
 def _who_has() -> str:
-
     return f"the kinds with sheets are {', '.join(kinds())}"
 
 
@@ -112,16 +129,12 @@ def _write(made: Makers, name: str, spec: Any, options: Options, failed: str) ->
     from gearlink.cli.views.figures.drawing import style
     from gearlink.cli.views.figures.drawing.placing import settled
     from gearlink.cli.views.figures.write import save
-    from gearlink.cli.views.scenes.shown import WrongShow
 
     ending = options.plot_format.value
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
 
     def draw() -> Figure:
-        try:
-            figure = made[name]()
-        except WrongShow as error:
-            raise wrong_show(error) from None
+        figure = made[name]()
         if failed and _is_drawing(name):
             style.forbid(figure, f"NOT FOR MANUFACTURE: {failed}")
         elif failed:

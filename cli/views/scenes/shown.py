@@ -416,7 +416,7 @@ class Picture:
         try:
             return {point: vectors.place_of(whole, point)} if point else vectors.moving_points(whole)
         except vectors.UnknownPoint as error:
-            raise WrongShow(str(error)) from None
+            raise WrongShow(f"--show: {error}") from None
 
     def _arrows(self, what: str, tracks: Mapping[str, tuple[Points, Points]], most: float, unit: str) -> Found:
         """Arrows of one scale, the longest of the whole loop a set share of the drawing, and the key of the scale."""

@@ -156,3 +156,11 @@ def test_a_report_as_pdf_is_the_same_every_time(gearlink: Any, crank: Path, tmp_
     assert one.startswith(b"%PDF")
     assert one == other
     assert len(re.findall(rb"/Type /Page\b", one)) >= 3
+
+
+def test_a_pdf_shows_no_animation(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    """What was to be shown had been passed over."""
+    ended = gearlink("report", crank, "--format", "pdf", "--show", "velocity", "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert "--show velocity is for the animation, which a pdf has not: take --format html" in ended.err
+    assert not (tmp_path / "out").exists()

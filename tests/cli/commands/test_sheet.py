@@ -13,7 +13,7 @@ from factory import design, worked
 
 from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
-from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, workshop
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet, workshop
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),
@@ -289,3 +289,38 @@ def test_a_plateau_is_sought_at_its_ends_alone() -> None:
     assert value == 2.0
     assert place == pytest.approx(100.0, abs=0.5)
     assert len(asked) < 20
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "words"),
+    [
+        ("ty460", ("motion", "--show", "path:B"), "--show path:B is for the sheet vectors; only motion is drawn"),
+        (
+            "ty460",
+            ("motion", "timing", "--at", "30"),
+            "--at 30 is for the sheet vectors; only motion, timing are drawn",
+        ),
+        ("ty460", ("--show", "path:Q"), "--show: this mechanism has no point 'Q'; it has B, C"),
+        (
+            "five_bar_function",
+            ("vectors", "--at", "60,300"),
+            "--at 300: the input angle runs from 48.89855 to 108.8986",
+        ),
+    ],
+)
+def test_what_the_vectors_cannot_show_is_refused_before_a_sheet_is_written(
+    gearlink: Any, designs: Path, tmp_path: Path, name: str, asked: tuple[str, ...], words: str
+) -> None:
+    """It had been passed over, or drawn at an input that the mechanism does not reach."""
+    ended = gearlink("sheet", designs / f"{name}.yaml", *asked, "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert words in ended.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_input_beyond_a_revolution_is_drawn_within_it() -> None:
+    """The mechanism had stood at the end of its loop, beside the polygons of the input."""
+    one, other = (vector_sheet.draw(design("crank_rocker"), [place]).axes[0] for place in (400.0, 40.0))
+    assert one.get_title(loc="left") == other.get_title(loc="left")
+    for a, b in zip(one.lines, other.lines, strict=True):
+        np.testing.assert_allclose(a.get_xydata(), b.get_xydata(), rtol=0.0, atol=1e-9)

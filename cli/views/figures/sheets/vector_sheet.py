@@ -19,11 +19,13 @@ if TYPE_CHECKING:
 
     from gearlink.cli.views.scenes.scene import Reals
     from gearlink.core.mechanism.links import Mechanism
+    from gearlink.core.mechanism.motion import Input
 
 MOST = 4
 """Instants of one sheet."""
-_LOOKS = ((style.BLUE, "-"), (style.RED, style.LONG), (style.GREEN, style.CHAIN), (style.PURPLE, style.DOTTED),
-          (style.BLACK, "-"), (style.ORANGE, style.LONG), (style.SKY, style.CHAIN))  # fmt: skip
+_COLORS = (style.BLUE, style.RED, style.GREEN, style.PURPLE, style.BLACK, style.ORANGE, style.SKY)
+_LINES = ("-", style.LONG, style.CHAIN, style.DOTTED)
+"""Seven and four have no common factor: 28 curves, each with a look of its own."""
 _WISHES = "velocity,acceleration"
 _NAMES = ("velocity", "acceleration")
 
@@ -51,9 +53,8 @@ def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
     made = panels.page(f"{design.spec.name}: velocities and accelerations", min(1.0, 0.28 * count + 0.34))
     grid: Any = made.add_gridspec(count + 1, 1, height_ratios=[1.0] * count + [1.15])
     motion = design.moving
-    turning = motion.input.unit == "rad"
     for row, place in enumerate(places):
-        q = math.radians(place) if turning else place
+        q = _input_at(motion.input, place)
         columns = grid[row].subgridspec(1, 3, width_ratios=(1.25, 0.95, 1.15))
         _mechanism(made.add_subplot(columns[0]), design, q, wanted or _WISHES)
         for order in (1, 2):
@@ -62,6 +63,24 @@ def draw(design: Any, at: Sequence[float] = (), wanted: str = "") -> Figure:
     for order in (1, 2):
         hodographs(made.add_subplot(below[order - 1]), design, order, wanted)
     return made
+
+
+def _input_at(given: Input, place: float) -> float:
+    """The input of a place [deg, mm], within the period of one that repeats [rad, mm]."""
+    q = math.radians(place) if given.unit == "rad" else place
+    return q if given.turns is None else given.start + (q - given.start) % (given.end - given.start)
+
+
+def beyond(design: Any, at: Sequence[float]) -> str:
+    """What is wrong with inputs [deg, mm] that are beyond the range of the motion; "" where none is."""
+    given = design.moving.input
+    low, high, unit = given.start, given.end, "mm"
+    if given.unit == "rad":
+        low, high, unit = math.degrees(low), math.degrees(high), "deg"
+    room = 1e-9 * (high - low)
+    wrong = [each for each in at if given.turns is None and not low - room <= each <= high + room]
+    words = given.column.replace("_", " ")
+    return f"{wrong[0]:g}: the {words} runs from {low:.7g} to {high:.7g} {unit}" if wrong else ""
 
 
 def default_places(design: Any) -> list[float]:
@@ -191,7 +210,7 @@ def hodographs(axes: Axes, design: Any, order: int, wanted: str = "") -> None:
     asked = [wish.point for wish in shown.wishes(wanted) if wish.what == _NAMES[order - 1] and wish.point]
     chosen = {name: each for name, each in found.items() if not asked or name in asked}
     _vector_axes(axes, f"Hodographs, {_NAMES[order - 1]} [{unit(design, order)}]")
-    for (name, each), (color, line) in zip(list(chosen.items())[: len(_LOOKS)], cycle(_LOOKS), strict=False):
+    for (name, each), color, line in zip(chosen.items(), cycle(_COLORS), cycle(_LINES), strict=False):
         axes.plot(each.real, each.imag, color=color, linestyle=line, linewidth=1.3, label=name, gid=f"hodograph {name}")
         axes.plot(each.real[:1], each.imag[:1], "o", color=color, markersize=4)
         if given.unit == "rad" and given.turns == 1:
