@@ -15,6 +15,8 @@ import pytest
 import yaml
 from factory import design, each_kind
 
+from gearlink.cli.views.figures.drawing import labels
+from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, motion_sheet, tornado, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.scenes import loops, of_motion, shown
@@ -352,3 +354,19 @@ def test_vectors_are_in_real_time_where_the_sheet_of_motion_is(name: str) -> Non
     made = design(name)
     assert shown.speed_of(made) == pytest.approx(motion_sheet.courses(made)[0].speed, rel=1e-12)
     assert [vector_sheet.unit(made, order) for order in (1, 2)] == ["mm/s", "mm/s²"]
+
+
+@pytest.mark.slow
+def test_keys_stand_below_the_drawing_in_rows_of_their_own() -> None:
+    """In a flat panel the words of one had moved below the next, with a line to their sign."""
+    figure = settled(vector_sheet.draw(design("crank_rocker"), [340.0, 40.0]))
+    rows = [
+        [text.get_window_extent() for text in axes.texts if text.get_gid() == labels.KEY] for axes in figure.axes[:4:3]
+    ]
+    for first, second in rows:
+        assert first.y0 > second.y0 + 0.7 * second.height
+        assert first.x0 == pytest.approx(second.x0, abs=0.3 * first.width)
+    slides = vector_sheet.draw(design("slider_crank_tolerances")).axes[0]
+    lowest = min(float(np.min(line.get_ydata())) for line in slides.lines if line.get_linewidth() > 0.0)
+    keys = [text.xy[1] for text in slides.texts if text.get_gid() == labels.KEY]
+    assert max(keys) <= lowest + 1e-9, "below the way of the slider"

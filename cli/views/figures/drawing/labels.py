@@ -34,6 +34,8 @@ _ON_WORDS, _ON_MARKS, _OUTSIDE, _ON_CURVES, _AWAY = 60.0, 30.0, 40.0, 1.5, 0.8
 _STEP, _MOST_CURVES = 4.0, 4.0
 """Distance of points of curves [pixel], and widths of letters on curves that count at most."""
 _FREE = 0.02
+KEY = "key"
+"""Words beside the sign that they explain, which stand where they are."""
 
 
 class _Room(NamedTuple):
@@ -144,7 +146,7 @@ def _share_of_points(boxes: Reals, points: Reals, height: float) -> Reals:
 
 def _moves(text: Text, axes: Axes) -> bool:
     """Whether words belong to a point of the panel, and may stand elsewhere beside it."""
-    if not is_seen(text) or text.get_rotation() % 90.0 or axes.name != "rectilinear":
+    if not is_seen(text) or text.get_rotation() % 90.0 or axes.name != "rectilinear" or text.get_gid() == KEY:
         return False
     if not axes.axison and axes.get_aspect() == "auto":  # a table
         return False

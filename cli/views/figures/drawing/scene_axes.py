@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, style
+from gearlink.cli.views.figures.drawing import labels, panels, style
 from gearlink.cli.views.scenes.lettering import on_disc, shifts
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, Scene, placed
 
@@ -23,6 +23,8 @@ _POINTS = 0.68
 """Width of a line in points for a pixel of its width in an animation."""
 _REACH, _REACH_POINTS = 0.042, 11.5
 """Distance of letters from their points, in sizes of the drawing and in points."""
+_ROW = 0.12
+"""Height of a row of the keys, in sizes of the drawing."""
 _SHORT = 5
 """Letters that go into a circle: of more it would be as large as a gear."""
 
@@ -77,16 +79,18 @@ def _keys(axes: Axes, scene: Scene) -> None:
     points = [placed(part, 0) for part in scene.parts if isinstance(part, Body) and np.isfinite(part.place[0])]
     points += [joint for part in scene.parts if isinstance(part, Chain) for joint in part.joints]
     points += [np.asarray(part.start + part.vector) for part in scene.parts if isinstance(part, Arrow)]
+    points += [part.points for part in scene.parts if isinstance(part, Line)]
     whole = np.concatenate(points)
     whole = whole[np.isfinite(whole)]
     left, low, size = float(whole.real.min()), float(whole.imag.min()), _size(_position(scene, 0))
     for row, key in enumerate(scene.keys):
-        at = complex(left, low - 0.09 * size * (row + 1.2))
+        at = complex(left, low - _ROW * size * (row + 1.0))
         if key.length:
             style.arrow(axes, at, key.length, key.color)
         axes.plot(*_xy(at, at + key.length), color=key.color, linewidth=0.0)
         look: dict[str, Any] = {"fontsize": 7, "color": key.color, "va": "center", "annotation_clip": False}
-        axes.annotate(key.words, (at.real + key.length, at.imag), (4, 0), textcoords="offset points", **look)
+        words = axes.annotate(key.words, (at.real + key.length, at.imag), (4, 0), textcoords="offset points", **look)
+        words.set_gid(labels.KEY)
 
 
 def two_positions(axes: Axes, design: Any, build: Callable[[Any, Reals], Scene]) -> None:
