@@ -103,6 +103,18 @@ class Check:
                 return text
         return f"{text[: _MOST_CHARACTERS - 3]}..."
 
+    @property
+    def brief(self) -> str:
+        """Code, name, value and limit, for a stamp on a picture.
+
+        Example
+            >>> Check("GL303", "transmission-angle", "fail", "the angle", 31.25, 40.0, "deg").brief
+            'GL303 transmission-angle 31.25 deg (limit >= 40 deg)'
+        """
+        value, bound = self._compared(Shown(self.value, self.limit, self.unit, self.side))
+        text = f"{self.code} {self.name}" + (f" {in_unit(value, self.unit)}" if value else "")
+        return f"{text} ({bound})" if bound else text
+
     def _worded(self, aside: str) -> str:
         shown = self.shown or Shown(self.value, self.limit, self.unit, self.side)
         value, bound = self._compared(shown)

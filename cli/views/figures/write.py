@@ -17,7 +17,6 @@ from gearlink.cli.quiet import without_notes
 from gearlink.cli.views.figures.drawing.placing import Places, settled
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import FILES
-from gearlink.core.base.wording import short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,14 +54,12 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
 
 
 def failures(checks: Iterable[Check]) -> str:
-    """What fails, each check once with the first value that does: "GL402 undercut -14 mm"; "" where nothing does."""
-    found: dict[str, str] = {}
+    """What fails, each check once with the first value that does; "" where nothing does."""
+    found: dict[tuple[str, str], str] = {}
     for check in checks:
         if check.status == "fail":
-            value = "" if check.value is None else f" {short(check.value)} {check.unit}".removesuffix(" 1")
-            bound = "" if not value or check.limit is None else f" (limit {short(check.limit)})"
-            found.setdefault(f"{check.code} {check.name}", value + bound)
-    return ", ".join(name + value for name, value in found.items()).replace("^2", "²")
+            found.setdefault((check.code, check.name), check.brief)
+    return ", ".join(found.values()).replace("^2", "²")
 
 
 def panels(command: str, design: Design) -> Figure:

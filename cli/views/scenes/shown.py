@@ -593,24 +593,6 @@ def _with_faults(scene: Scene, design: Any, fraction: Reals, maker: Maker, check
     return replace(scene, parts=(*scene.parts, *parts), faults=tuple(fault for fault, _ in found), own=own)
 
 
-def fault_words(check: Check) -> str:
-    """A failing check in few words: code, name, value and limit.
-
-    Example
-        >>> from gearlink.core.base.report import Check
-        >>> fault_words(Check("GL303", "transmission-angle", "fail", "the angle", 31.25, 40.0, "deg"))
-        'GL303 transmission-angle 31.25 deg (limit >= 40 deg)'
-    """
-    from gearlink.core.base.wording import in_unit, short
-
-    words = f"{check.code} {check.name}"
-    if check.value is not None and not isinstance(check.value, str) and math.isfinite(check.value):
-        words += f" {in_unit(short(check.value), check.unit)}"
-        if check.limit is not None:
-            words += f" (limit {check.side} {in_unit(short(check.limit), check.unit)})"
-    return words
-
-
 def layouts_of(design: Any) -> Iterable[Layout]:
     """The bodies of a design, plane by plane; none of one without gears in a plane."""
     if hasattr(type(design), "layouts"):
@@ -643,7 +625,7 @@ class _Failing:
         told = {"GL301": self._clashes, "GL302": self._clashes, "GL303": self._transmission, "GL401": self._pressure}
         seen: set[str] = set()
         for check in failed:
-            words = fault_words(check)
+            words = check.brief
             if words in seen:
                 continue
             seen.add(words)
