@@ -637,10 +637,14 @@ class _Failing:
                 at = self._named_instant(check)
             yield Fault(words, at | (not at.any()), bool(at.any())), [part for _, parts in made for part in parts]
 
+    @cached_property
+    def _frame(self) -> Frame | None:
+        return frame_of(self.design, self.maker) if has_motion(self.design) else None
+
+    @cached_property
     def _inputs(self) -> Reals | None:
         """Inputs of the motion at the positions; None where the scene does not tell."""
-        frame = frame_of(self.design, self.maker) if has_motion(self.design) else None
-        return None if frame is None else frame.inputs(self.fraction)
+        return None if self._frame is None else self._frame.inputs(self.fraction)
 
     def _clashes(self) -> Told:
         """Gears and shafts that are too near, at the positions at which they are."""
@@ -663,7 +667,7 @@ class _Failing:
 
     def _transmission(self) -> Told:
         """The links in red where the transmission angle of the table over the input is below its limit."""
-        q, table = self._inputs(), self._over_input()
+        q, table = self._inputs, self._over_input()
         if q is None or table is None:
             return
         x, y = np.asarray(table.data[0], dtype=float), np.asarray(table["transmission_angle"], dtype=float)
@@ -691,14 +695,13 @@ class _Failing:
 
     def _pressure(self) -> Told:
         """A red ring about the roller where the pressure angle is above its limit."""
-        if not has_motion(self.design):
-            return
-        frame, spec = frame_of(self.design, self.maker), self.design.spec
+        frame, spec = self._frame, self.design.spec
         limits = getattr(spec, "pressure_limits", None)
         limit = max(limits()) if limits is not None else getattr(spec.limits, "pressure_angle", None)
         if frame is None or limit is None or getattr(spec, "is_flat", False):
             return
-        size, q, given = _reach(self.scene), frame.inputs(self.fraction), self.design.moving.input
+        size, q, given = _reach(self.scene), self._inputs, self.design.moving.input
+        assert q is not None, "the frame has them"
         inside = within(given, q)
         there = self.design.moving.at(np.where(inside, q, given.start), 1)
         for at, angle in vectors.pressure_angles(there).values():
@@ -710,7 +713,7 @@ class _Failing:
         if not has_motion(self.design):
             return np.zeros(self.fraction.shape, dtype=bool)
         found, words = _DEGREES.search(check.at), self.design.moving.input.column.replace("_", " ")
-        q = self._inputs() if found and (words in check.at or "input angle" in check.at) else None
+        q = self._inputs if found and (words in check.at or "input angle" in check.at) else None
         if found is None or q is None:
             return np.zeros(self.fraction.shape, dtype=bool)
         apart = np.abs((np.degrees(q) - float(found[1]) + 180.0) % 360.0 - 180.0)
