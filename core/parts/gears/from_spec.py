@@ -160,8 +160,8 @@ def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:
         try:
             found = diagonal.split(split, strength_of(data_of(spec, pair)))
         except NoSolution as error:
-            remedy = "take another criterion or x1 as a number (--candidates with shift_split: equal lists all)"
-            raise NoSolution(f"{error}; {remedy}") from error
+            fix = "take another criterion, or x1 as a number: --candidates with shift_split: equal lists all"
+            raise NoSolution(error.message, fix=error.fix or fix) from error
         return diagonal.at(found.first)
 
 

@@ -23,6 +23,7 @@ Strength = Callable[[GearPair], Pair | None]
 SPLITS = ("equal", "sliding", "tip", "root", "undercut")
 _POINTS = 60
 _WIDEST = 10.0
+_APART = 1e-3
 
 
 class Split(NamedTuple):
@@ -185,16 +186,22 @@ class Diagonal:
         """x_1 of equal root stress over what is permissible; where there is none, of the minimum greatest.
 
         Raises
-            NoSolution - where no share has root sections
+            NoSolution - where no share has root sections, or the stress still falls where a tooth becomes pointed
         Notes
-            The ratio is not monotone: none to three roots. A scan of the shares without undercut finds them; of
-            several the one of the minimum stress is taken.
+            The ratio is not monotone: none to three roots. A scan of the shares with neither undercut nor pointed teeth
+            finds them; of several the one of the minimum stress is taken.
         """
         low, high = self.without_undercut
 
+        def whole(first: float) -> bool:
+            try:
+                return min(self.at(first).tip_thickness) > 0.0
+            except NoSolution:
+                return False
+
         def stresses(first: float) -> Pair | None:
             try:
-                return strength(self.at(first))
+                return strength(self.at(first)) if whole(first) else None
             except NoSolution:
                 return None
 
@@ -208,7 +215,7 @@ class Diagonal:
 
         grid = [first for k in range(_POINTS + 1) if stresses(first := low + (high - low) * k / _POINTS) is not None]
         if not grid:
-            raise NoSolution("no share of the shift sum leaves both gears a root section that ISO 6336-3 could rate")
+            raise NoSolution("no share of the shift sum leaves both gears full tips and a root section of ISO 6336-3")
         roots = roots_on(ratio, grid)
         if roots:
             count = "the only share" if len(roots) == 1 else f"the better of {len(roots)} shares"
@@ -216,7 +223,9 @@ class Diagonal:
         best = min(range(len(grid)), key=lambda k: greatest(grid[k]))
         ends = grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]
         first, _ = maximum(lambda x: -greatest(x), *ends)
-        return Split(first, "no share of equal root stress: the smallest maximum one")
+        if not all(whole(first + off * _APART) for off in (-1.0, 1.0)):
+            raise NoSolution("no share of equal root stress: the maximum stress is least where a tooth becomes pointed")
+        return Split(first, "no share of equal root stress; this one has the lowest maximum")
 
     def split(self, name: str, strength: Strength) -> Split:
         """The share of one of SPLITS.

@@ -105,6 +105,20 @@ def test_candidates_stand_side_by_side() -> None:
     assert all(math.isclose(a + b, 0.6, rel_tol=1e-14) for a, b in zip(table.data[1], table.data[2], strict=True))
 
 
+def test_no_candidate_for_equal_roots_has_a_pointed_tooth() -> None:
+    ring = {"module": 2, "face_width": 20, "tool": [{"addendum": 1.25, "rounding": 0.25}, None]}
+    cutter = {"teeth": 25, "shift": 0.1, "addendum": 1.25, "rounding": 0.25}
+    data = design(spec([21, -67], [0.3, -0.3], **ring, cutter=cutter)).data
+    diagonal, strength = Diagonal(data.pair), strength_of(data)
+    best = diagonal.equal_roots(strength).first
+    assert min(diagonal.at(best).tip_thickness) > 0.0
+    low = diagonal.without_undercut[0]
+    shares = [diagonal.at(low + 0.02 * k) for k in range(80)]
+    whole = [max(found) for pair in shares if min(pair.tip_thickness) > 0.0 and (found := strength(pair))]
+    assert len(whole) < len(shares)  # the scan reaches pointed teeth
+    assert max(strength(diagonal.at(best))) <= min(whole) * (1.0 + 1e-9)
+
+
 def test_pressures_along_the_path() -> None:
     case = next(case for case in CASES if case["name"].startswith("hertz-along-path"))
     known = case["input"]
