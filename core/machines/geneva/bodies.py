@@ -72,10 +72,8 @@ class Outlines:
         if self.depth <= 0.0:
             return 0.0
         distance, tip = self.drive.distance, self.tip
-        if self.locking >= distance + tip:
-            message = f"the locking disc of radius {short(self.locking)} mm covers the whole wheel"
-            fix = f"choose locking_radius below {safely_below(self.drive.crank - self.pin)} mm"
-            raise NoSolution(message, key="locking_radius", fix=fix)
+        if self.locking >= distance + tip:  # the disc holds the whole circle
+            return math.pi
         return math.acos((distance**2 + tip**2 - self.locking**2) / (2.0 * distance * tip))
 
     def wheel_half(self) -> list[Piece]:

@@ -297,7 +297,7 @@ class GenevaDrive(RealSpeed, Design):
             what, overlap = "thickness of the lip between locking arc and slot", "overlap of locking arc and slot"
             fix = "take a smaller locking_radius or pin_radius"
             yield LOCKING.check(status, what, lip, 0.0, "mm", overlap=overlap, fix=fix)
-            yield from self._held(self.outlines_with(self.spec.locking_radius or 0.0), lip)
+            yield from self._held(self.outlines_with(self.spec.locking_radius or 0.0), lips=lip > 0.0)
         if self.drive.sign > 0.0:
             bottom = self.drive.distance - self.crank_radius
             web = 2.0 * (bottom * self.drive.ratio - self.spec.pin_radius)
@@ -307,13 +307,13 @@ class GenevaDrive(RealSpeed, Design):
             yield LOCKING.check(status, what, web, 0.0, "mm", overlap=overlap, fix=fix)
 
     @staticmethod
-    def _held(outlines: Outlines, lip: float) -> Iterator[Check]:
-        """Whether the disc reaches into the wheel at all, and lets the lips beside a driven slot pass, if any."""
+    def _held(outlines: Outlines, *, lips: bool) -> Iterator[Check]:
+        """Whether the disc reaches into the wheel at all, and lets the lips that it leaves beside a driven slot pass."""
         depth, deeper = outlines.depth, "choose a larger locking_radius"
         status: Status = "fail" if depth <= 0.0 else "pass"
         what, overlap = "depth of the locking disc in the wheel", "gap between locking disc and wheel"
         yield LOCKING.check(status, what, depth, 0.0, "mm", overlap=overlap, fix=deeper)
-        if depth > 0.0 and lip > 0.0 and (over := outlines.overlap) > 0.0:
+        if lips and depth > 0.0 and (over := outlines.overlap) > 0.0:
             what = "interference of the lip at a slot with the edge of the locking disc"
             yield LOCKING.check("fail", what, over, 0.0, "mm", side="<=", fix=deeper)
 
