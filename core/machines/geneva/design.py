@@ -308,7 +308,7 @@ class GenevaDrive(RealSpeed, Design):
 
     @staticmethod
     def _held(outlines: Outlines, *, lips: bool) -> Iterator[Check]:
-        """Whether the disc reaches into the wheel at all, and lets the lips that it leaves beside a driven slot pass."""
+        """Whether the disc reaches into the wheel, and lets the lips that it leaves pass beside a driven slot."""
         depth, deeper = outlines.depth, "choose a larger locking_radius"
         status: Status = "fail" if depth <= 0.0 else "pass"
         what, overlap = "depth of the locking disc in the wheel", "gap between locking disc and wheel"
