@@ -338,6 +338,10 @@ def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: 
             best = nearer
         else:
             step *= 0.5
+    offsets = through_pairs(best.pairs, 1.0)
+    turns = math.floor((best.start + offsets.crank_offset) / (2.0 * math.pi)) * (given[0] is None)
+    if turns:  # the first turn of the crank is meant
+        best = generated(wanted, best.start - 2.0 * math.pi * turns, best.zero, least) or best
     return best
 
 
@@ -458,7 +462,9 @@ class FunctionSynthesis(_Synthesis):
     @cached_property
     def found(self) -> ThroughPairs:
         """Lengths, offsets and assembly."""
-        task = section_of(self.spec, "function", "pairs (deg) and frame (mm)")
+        task = section_of(
+            self.spec, "function", "pairs (deg) and frame (mm); or name, x, input_swing, output_swing (deg) and frame"
+        )
         with at_key("function" if task.pairs is None else "function.pairs"):
             return through_pairs(self.pairs, task.frame)
 

@@ -347,3 +347,10 @@ def test_a_linkage_that_opens_for_less_than_a_fortieth_of_the_swing_is_none(
     ]
     opens = sum(not abs(bar.coupler - bar.rocker) <= each <= bar.coupler + bar.rocker for each in reach)
     assert 0 < opens < 100
+
+
+@pytest.mark.slow
+def test_a_function_starts_in_the_first_turn_of_the_crank() -> None:
+    log = {"name": "log", "x": [1, 2], "input_swing": 60, "output_swing": -60, "frame": 100}
+    found = design({"kind": "crank-rocker", "name": "f", "function": log}, command="synth function")
+    assert 0.0 <= found.raw("function_start") < 2.0 * math.pi
