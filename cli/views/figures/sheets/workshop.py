@@ -28,6 +28,8 @@ _TURN = 2.0 * math.pi
 _FACE: dict[str, Any] = {"color": style.BLACK, "solid_capstyle": "butt"}
 _EDGE, _MARGIN = 10.0, 20.0
 """Of the frame from the edges of the paper, on the left for filing [mm]; ISO 5457."""
+_PAST = 4.0
+"""From what is drawn to the ends of the centre lines [mm]."""
 _SMALL, _TEXT = 5.2, 7.0
 
 
@@ -150,9 +152,10 @@ def _view(axes: Axes, page: Page, cam: DiscCam, scale: float, shaft: float) -> N
     _line(axes, axis + scale * pitch, 0.25, linestyle=style.CHAIN, gid="pitch curve")
     roller = complex(pitch[0])
     _line(axes, axis + scale * (roller + cam.roller_radius * np.exp(1j * theta[::20])), 0.25, linestyle=style.DASHED)
-    reach = 1.06 * cam.max_radius
-    for way in (1.0, 1j):
-        _line(axes, axis + scale * reach * way * np.array([-1.0, 1.0]), 0.18, linestyle=style.CHAIN)
+    for way, ends in ((1.0, np.array([low.real, high.real])), (1j, np.array([low.imag, high.imag]))):
+        _line(
+            axes, axis + way * (scale * ends + _PAST * np.array([-1.0, 1.0])), 0.18, linestyle=style.CHAIN, gid="axis"
+        )
     _line(axes, axis + scale * np.array([0.0, 1.05 * roller]), 0.18, linestyle=style.CHAIN)
     way = roller / abs(roller)
     edge = float(np.abs(profile[int(np.argmin(np.abs(np.angle(profile / way))))]))
