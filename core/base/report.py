@@ -108,7 +108,8 @@ class Check:
         """Code, name, value and limit, for a stamp on a picture.
 
         Example
-            >>> Check("GL303", "transmission-angle", "fail", "the angle", 31.25, 40.0, "deg").brief
+            >>> rule = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
+            >>> rule.check("fail", "the angle", 31.25, 40.0, "deg").brief
             'GL303 transmission-angle 31.25 deg (limit >= 40 deg)'
         """
         value, bound = self._compared(Shown(self.value, self.limit, self.unit, self.side))

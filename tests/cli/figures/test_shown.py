@@ -141,7 +141,9 @@ def test_every_kind_shows_all_that_it_has(path: Path) -> None:
     assert all(value is None or np.isfinite(value) for part in data["parts"] for value in np.ravel(part["p"]).tolist())
 
 
-@pytest.mark.parametrize("text", ["velocities", "path", "ghosts:A", "path:Q", "path:coupler@1", "path:coupler@nan/1", "force"])
+@pytest.mark.parametrize(
+    "text", ["velocities", "path", "ghosts:A", "path:Q", "path:coupler@1", "path:coupler@nan/1", "force"]
+)
 def test_what_cannot_be_shown_is_refused(text: str) -> None:
     with pytest.raises(shown.WrongShow):
         shown.build(design("standing_feed"), np.array([0.1]), shown.wishes(text))

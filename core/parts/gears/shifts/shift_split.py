@@ -224,7 +224,9 @@ class Diagonal:
         ends = grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]
         first, _ = maximum(lambda x: -greatest(x), *ends)
         if not all(whole(first + off * _APART) for off in (-1.0, 1.0)):
-            raise NoSolution("no share of equal root stress: the maximum stress is least where a tooth becomes pointed")
+            raise NoSolution(
+                "no share of equal root stress: the maximum stress is at its minimum where a tooth becomes pointed"
+            )
         return Split(first, "no share of equal root stress; this one has the lowest maximum")
 
     def split(self, name: str, strength: Strength) -> Split:
