@@ -30,11 +30,13 @@ class Way(NamedTuple):
         step : float - grid of the values, with the sign of the way to go; 0: the keys are left out
         tie : str - what the others do: as many "steps", or they keep their "ratio" to the first, or the "sum";
             "series": each key goes along the standard modules, of which a step is one
+        growth : float - the first key changes by at most so many times its value
     """
 
     keys: tuple[str, ...]
     step: float
     tie: Literal["steps", "ratio", "sum", "series"] = "steps"
+    growth: float = _FARTHEST
 
     def remedy(self, old: list[float], count: int) -> Remedy:
         """Every key with its value `count` steps on; empty where a tooth would be split, or a gear become a ring."""
@@ -61,7 +63,8 @@ class Way(NamedTuple):
         """How many steps are tried."""
         if self.tie == "series":
             return len(_modules(old[0], self.step))
-        return 1 if self.step == 0.0 else int(_FARTHEST * abs(old[0] / self.step)) + _LEAST_STEPS
+        least = _LEAST_STEPS if self.growth == _FARTHEST else 0
+        return 1 if self.step == 0.0 else int(self.growth * abs(old[0] / self.step)) + least
 
 
 def _modules(old: float, side: float) -> tuple[float, ...]:
@@ -84,6 +87,11 @@ def _on_grid(old: float, step: float, count: int) -> float:
 def up(*keys: str, step: float = 0.1) -> Way:
     """The way to greater values."""
     return Way(keys, step)
+
+
+def wider(*keys: str) -> Way:
+    """The way to wider gears, to twice the width: far beyond it the load is carried by one end of the teeth."""
+    return Way(keys, 1.0, growth=1.0)
 
 
 def down(*keys: str, step: float = 0.1) -> Way:

@@ -22,6 +22,7 @@ from gearlink.core.base.remedies.ways import (
     refusal_ways,
     shared,
     up,
+    wider,
 )
 from gearlink.core.base.report import Check, Rule, Shown, Status, safely_above, safely_below
 from gearlink.core.base.spec_paths import changed
@@ -265,7 +266,7 @@ _LATER = (*shared("cam.transition_end", "cam.return_angle", step=0.5)[:1], down(
 _GEARS = tuple(f"input_gears.profile_shift[{gear}]" for gear in (0, 1))
 _SHIFTS = (*shared(*_GEARS, step=0.01), *either(*_GEARS, step=0.01))
 _TEETH = (*either("input_gears.pressure_angle", step=0.5), down("input_gears.addendum", step=0.01))
-_WIDER = (up("input_gears.face_width", step=1.0), Way(("input_gears.face_width[0]", "input_gears.face_width[1]"), 1.0))
+_WIDER = (wider("input_gears.face_width"), wider("input_gears.face_width[0]", "input_gears.face_width[1]"))
 _OF_TEETH = ("undercut", "tip-thickness", "involute-interference", "tooth-form", "fillet-interference", "tip-fouling")
 _WAYS = {
     **dict.fromkeys(_OF_TEETH, (*_SHIFTS, *_TEETH)),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.design import Design, Found, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.key_results import SHARED
-from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
+from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up, wider
 from gearlink.core.base.report import Check, Remedy, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
@@ -43,7 +43,9 @@ _LOWER = down("addendum", step=0.01)
 _RACK_BACK = 2.0
 """Modules of a rack below its root line where the file names no rim."""
 _DEEPER = tuple(up(f"{tool}.addendum", step=0.01) for tool in ("tool", "tool[0]", "tool[1]", "cutter"))
-_WIDER = (up("face_width", step=1.0), Way(("face_width[0]", "face_width[1]"), 1.0))
+_WIDER = (wider("face_width"), wider("face_width[0]", "face_width[1]"))
+_CARRIES = ("pitting", "bending", "damage", "face-load")
+"""Checks to which a load that is even across the face helps."""
 _THINNER = tuple(Way((f"allowances.upper[{gear}]", f"allowances.lower[{gear}]"), -0.005) for gear in (0, 1))
 
 
@@ -120,7 +122,11 @@ class GearPairDesign(GearQuantities, Design):
         return _WAYS_WITH_RING if not self.spec.rack and self.gear_pair.internal else _WAYS
 
     def candidates(self, check: str) -> Iterator[Remedy]:
-        """The shifts moved into the blocking contour, or to its line of equal sliding or root stress."""
+        """A crowned helix; the shifts moved into the blocking contour, or to its line of equal sliding or root stress."""
+        face = self.spec.rating.face if self.spec.rating else None
+        plain = face is not None and face.misalignment is None and face.modification in (None, "none")
+        if plain and check in _CARRIES:
+            yield (("rating.face.modification", "crowning"),)
         line = _LINES.get(check)
         if line is None or self.spec.rack:
             return

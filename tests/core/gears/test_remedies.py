@@ -134,3 +134,21 @@ def test_a_shift_moves_into_the_contour_rounded_to_the_safe_side(keys: Any, path
     rank = {"pass": 0, "warn": 1, "fail": 2}
     assert after["undercut"] == "pass"
     assert all(rank[after[name]] <= rank[before[name]] for name in before)
+
+
+def test_an_uneven_load_is_mended_by_crowning_and_no_width_is_more_than_doubled() -> None:
+    rating = {
+        "life": 15000,
+        "material": ["18CrNiMo7-6", "42CrMo4"],
+        "grade": 7,
+        "lubricant": {"vg": 150},
+        "face": {"shaft": {"position": "b", "span": 120, "offset": 20, "diameter": 45}},
+    }
+    given = {"kind": "gear-pair", "module": 3, "helix_angle": 12, "teeth": [23, 61], "profile_shift": [0.25, 0.1]}
+    given |= {"face_width": 32, "rating": rating}
+    fixes = {}
+    for power in (5.0, 12.0):
+        checks = design(given | {"load": {"power": power, "speed": 1450}}, command="gear").report("gear").checks
+        fixes[power] = [each.remedy for each in checks if each.code == "GL210" and each.status == "fail"]
+    assert fixes[5.0] == [(("rating.face.modification", "crowning"),)]
+    assert fixes[12.0] == [(("module", 5.0),)]
