@@ -122,7 +122,7 @@ class GearPairDesign(GearQuantities, Design):
         return _WAYS_WITH_RING if not self.spec.rack and self.gear_pair.internal else _WAYS
 
     def candidates(self, check: str) -> Iterator[Remedy]:
-        """A crowned helix; the shifts moved into the blocking contour, or to its line of equal sliding or root stress."""
+        """A crowned helix; the shifts in the blocking contour, or on its line of equal sliding or root stress."""
         face = self.spec.rating.face if self.spec.rating else None
         plain = face is not None and face.misalignment is None and face.modification in (None, "none")
         if plain and check in _CARRIES:

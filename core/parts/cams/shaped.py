@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import roots_on
@@ -359,8 +360,11 @@ def polydyne(periods: float, damping: float = 0.0) -> Law:
         D. A. Stoddart, Machine Design 25 (1953); base polynomial and damping: own derivation
     """
     if periods < _LEAST_PERIODS:
-        message = f"a polydyne law of {periods:.6g} natural periods per phase accelerates without measure: "
-        raise NoSolution(f"{message}allow at least {_LEAST_PERIODS:g}, by a longer phase or less speed", key="periods")
+        message = (
+            f"natural periods per phase of the polydyne law: {safely_below(periods)} (limit >= {_LEAST_PERIODS:g})"
+        )
+        fix = f"make phase time times frequency {safely_above(_LEAST_PERIODS / periods)} times as large"
+        raise NoSolution(message, key="periods", fix=fix)
     y = [Fraction(c) for c in (0, 0, 0, 0, 0, 126, -420, 540, -315, 70)]
     w = Fraction(_TWO_PI * periods)
     first = [*(k * c for k, c in enumerate(y) if k), Fraction(0)]

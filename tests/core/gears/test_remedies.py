@@ -142,6 +142,7 @@ def test_an_uneven_load_is_mended_by_crowning_and_no_width_is_more_than_doubled(
         "material": ["18CrNiMo7-6", "42CrMo4"],
         "grade": 7,
         "lubricant": {"vg": 150},
+        "spectrum": [{"torque": 1.2, "share": 0.1}, {"torque": 0.7, "share": 0.9}],
         "face": {"shaft": {"position": "b", "span": 120, "offset": 20, "diameter": 45}},
     }
     given = {"kind": "gear-pair", "module": 3, "helix_angle": 12, "teeth": [23, 61], "profile_shift": [0.25, 0.1]}
