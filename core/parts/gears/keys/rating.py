@@ -24,9 +24,10 @@ def _a_material(name: str) -> str:
     from difflib import get_close_matches
 
     near = get_close_matches(name, MATERIALS, 1, 0.6)
-    meant = f", did you mean {near[0]}?" if near else ":"
-    message = f"no material is called {name}{meant} known are the steels {', '.join(STEELS)}, and the classes "
-    raise PydanticCustomError("GL108", "{message}", {"message": message + ", ".join(CLASSES)})
+    meant = f"did you mean {near[0]}? " if near else ""
+    others = "another steel by the class of its heat treatment"
+    help = f"{meant}steels: {', '.join(STEELS)}; {others}: {', '.join(CLASSES)}"
+    raise PydanticCustomError("GL108", "no material is called {name}\n{help}", {"name": repr(name), "help": help})
 
 
 MaterialName = Annotated[str, AfterValidator(_a_material), Field(json_schema_extra={"enum": list(MATERIALS)})]
@@ -204,7 +205,7 @@ class RatingSpec(Spec):
     def _whole(self) -> Self:
         if self.spectrum is not None and abs(sum(row.share for row in self.spectrum) - 1.0) > _MOST_SHARE:
             total = sum(row.share for row in self.spectrum)
-            message = f"the shares of the spectrum add up to {total:.9g}, not 1\nchange one of them"
+            message = f"the shares of the spectrum add up to {total:.9g}, not 1\ngive shares whose sum is 1"
             raise PydanticCustomError("GL111", message, {"key": "spectrum"})
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
             raise PydanticCustomError(
@@ -354,5 +355,5 @@ def _require_hardness(rating: Any, by_material: bool, refuse: Any) -> None:
         hardness = one_of(rating.hardness, place) if len(names) > 1 else rating.hardness
         lacking = hardness is None or (isinstance(hardness, list) and None in hardness)
         if by_material and name in CLASSES and CLASSES[name].needs_hardness and lacking:
-            text = f"the strength of {name} depends on its hardness\ngive rating.hardness, or name a steel"
+            text = f"the strength of {name} depends on its hardness, which is missing\ngive rating.hardness"
             refuse("GL106", "rating.hardness", text)
