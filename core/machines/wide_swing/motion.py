@@ -11,6 +11,8 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.wide_swing.remedies import drive_repair, slider_repair, with_number
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from gearlink.core.machines.wide_swing.device import Device
     from gearlink.core.machines.wide_swing.law import ElasticLaw
     from gearlink.core.machines.wide_swing.oscillating_cam import CrankRockerDrive
@@ -122,6 +124,9 @@ class Motion:
     @cached_property
     def slider(self) -> SliderLaw:
         """The law of motion of rocker and slider together; a refusal at a dead centre names the angle to change."""
+        return self._slider_with(self.rocker_inertia)
+
+    def _slider_with(self, inertia: float) -> SliderLaw:
         from gearlink.core.machines.wide_swing.slider import SliderDrive, SliderLaw
 
         section = self._slider_section
@@ -130,7 +135,7 @@ class Motion:
         try:
             with at_key("slider.middle_angle"):
                 massless = SliderLaw(self.device, self.swing, drive, 1.0)
-                return SliderLaw(self.device, self.swing, drive, self._inertia_with(massless.stroke)[1])
+                return SliderLaw(self.device, self.swing, drive, self._inertia_with(inertia, massless.stroke)[1])
         except NoSolution as error:
             if error.key != "slider.middle_angle":
                 raise
@@ -142,10 +147,10 @@ class Motion:
             raise MissingSection("this needs the section slider: crank, rod, middle_angle, mass", key="slider")
         return self.spec.slider
 
-    def _inertia_with(self, stroke: float) -> tuple[float, float]:
+    def _inertia_with(self, inertia: float, stroke: float) -> tuple[float, float]:
         from gearlink.core.machines.wide_swing.slider import reference_inertia
 
-        return reference_inertia(self.spec.inertia, self._slider_section.mass, stroke, self.swing)
+        return reference_inertia(inertia, self._slider_section.mass, stroke, self.swing)
 
     @property
     def law(self) -> ElasticLaw | SliderLaw:
@@ -170,7 +175,7 @@ class Motion:
     @property
     def reference_inertia(self) -> float:
         """J_ref of rocker and slider, what stands for J in the energy parameter [kg m^2]."""
-        return self._inertia_with(self.slider.stroke)[0]
+        return self._inertia_with(self.rocker_inertia, self.slider.stroke)[0]
 
     def kinetic(self, k: Reals) -> Reals:
         """Energy of motion over J (gamma/T)^2/2: b^2, with a slider j b^2.
@@ -185,12 +190,12 @@ class Motion:
     @property
     def inertia(self) -> float:
         """J, or J_ref where there is a slider, that of a pendulum counted [kg m^2]."""
-        if self.spec.slider is not None:
-            return self.reference_inertia
-        unloader = self.spec.unloader
-        if unloader.type != "gravity":
-            return self.spec.inertia
-        return self.spec.inertia + self.hanging_mass * (1e-3 * unloader.distance) ** 2
+        return self.rocker_inertia if self.spec.slider is None else self.reference_inertia
+
+    @property
+    def rocker_inertia(self) -> float:
+        """J0 of all that turns with the rocker, that of a pendulum counted [kg m^2]."""
+        return self.spec.inertia if self.spec.unloader.type != "gravity" else self._hung(self.hanging_mass)
 
     # Pendulum
 
@@ -200,10 +205,25 @@ class Motion:
         assert unloader.type == "gravity", "needed of a pendulum alone"
         return unloader
 
+    def _hung(self, mass: float) -> float:
+        """J_0 + m s^2 [kg m^2]."""
+        return self.spec.inertia + mass * (1e-3 * self._pendulum.distance) ** 2
+
     @property
     def pendulum_rate(self) -> float:
-        """kappa = N gamma^2/(2 T^2), static moment over inertia that balances at the design speed [1/s^2]."""
-        return 0.5 * self.plain_law.energy_parameter * (self.swing / self.stroke_time) ** 2
+        """kappa = N gamma^2/(2 T^2), static moment over inertia that balances a rocker at the design speed [1/s^2]."""
+        return self._rate_of(self.plain_law)
+
+    def _rate_of(self, law: ElasticLaw | SliderLaw) -> float:
+        return 0.5 * law.energy_parameter * (self.swing / self.stroke_time) ** 2
+
+    def _moment_for(self, mass: float) -> float:
+        """kappa J, static moment that balances a rocker with this mass at the design speed, and its slider [N m]."""
+        inertia = self._hung(mass)
+        if self.spec.slider is None:
+            return self.pendulum_rate * inertia
+        law = self._slider_with(inertia)
+        return self._rate_of(law) * self._inertia_with(inertia, law.stroke)[0]
 
     @cached_property
     def hanging_mass(self) -> float:
@@ -214,6 +234,9 @@ class Motion:
     def pendulum_mass(self, whole: float) -> float:
         """m = w kappa J_0/(g s - w kappa s^2), w the static moment over the one that balances [kg].
 
+        With a slider N and J depend on the mass: m g s = w kappa J, solved. J N is a concave function of m, so that
+        there is one root.
+
         Raises
             NoSolution - where a pendulum so long is too slow
         """
@@ -223,7 +246,12 @@ class Motion:
             most = safely_below(1e3 * unloader.gravity / need)
             message = f"a pendulum this long is too slow for {self.spec.speed:g} rev/min: below {most} mm"
             raise NoSolution(message, key="unloader.distance")
-        return need * self.spec.inertia / (s * (unloader.gravity - need * s))
+        per = need / (s * (unloader.gravity - need * s))
+        if self.spec.slider is None:
+            return per * self.spec.inertia
+        section = self._slider_section
+        high = per * (self.spec.inertia + section.mass * (1e-3 * section.crank) ** 2)
+        return _only_root(lambda mass: mass * unloader.gravity * s - whole * self._moment_for(mass), high)
 
     @property
     def most_pendulum_reserve(self) -> float:
@@ -231,10 +259,9 @@ class Motion:
         return self._pendulum.gravity / (self.pendulum_rate * 1e-3 * self._pendulum.distance) - 1.0
 
     def pendulum_reserve(self, mass: float) -> float:
-        """m g s/(kappa (J_0 + m s^2)) - 1."""
+        """m g s/(kappa J) - 1, J = J_0 + m s^2."""
         unloader = self._pendulum
-        s = 1e-3 * unloader.distance
-        return mass * unloader.gravity * s / (self.pendulum_rate * (self.spec.inertia + mass * s * s)) - 1.0
+        return mass * unloader.gravity * 1e-3 * unloader.distance / self._moment_for(mass) - 1.0
 
     # Drive
 
@@ -305,3 +332,14 @@ class Motion:
         from gearlink.core.machines.wide_swing.torques import stroke_time
 
         return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)
+
+
+def _only_root(excess: Callable[[float], float], near: float) -> float:
+    """Root of a function that is negative below it and positive above."""
+    from gearlink.core.numerics.roots import bracketed_root
+
+    while excess(near) <= 0.0:
+        near *= 2.0
+    while excess(low := 0.5 * near) > 0.0:
+        near = low
+    return bracketed_root(excess, low, near)

@@ -400,8 +400,6 @@ class WideSwingSpec(TolerancedSpec):
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()
-        if self.unloader.type == "gravity" and self.slider is not None:
-            _refuse("slider", "unloader.type: gravity is for a rocker alone\nomit slider")
         if self.slider is not None and self.cam is not None:
             self._cam_with_slider(self.cam)
         return self

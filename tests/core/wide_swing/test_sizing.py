@@ -204,3 +204,28 @@ def test_chart_of_the_curvature_ratio() -> None:
     assert np.isnan(charts.curvature_ratio(np.radians([40.0]), math.radians(120.0))).all()
     spring = charts.velocity_peak(np.radians([120.0]), 3.0, stretch_ratio=0.5)
     assert spring[0] == pytest.approx(ElasticLaw(Spring(3.0, 0.5), math.radians(120.0)).velocity_peak, rel=1e-12)
+
+
+@pytest.mark.parametrize(("reserve", "inertia"), [(0.0, 0.02), (0.4, 0.0), (0.15, 1.5)])
+def test_pendulum_with_slider_swings_in_the_time_of_the_stroke(reserve: float, inertia: float) -> None:
+    """The time of a free swing, by the energy of rocker, mass and slider, whose speed is a difference of its places."""
+    design = design_of(PENDULUM | {"reserve": reserve}, speed=18.0, inertia=inertia, slider=SLIDER, swing=100.0)
+    mass, s, half = design.unloading.size.mass, 0.12, math.radians(50.0)
+
+    def place(phi: float) -> float:  # of the slider [m]
+        arm = math.radians(80.0) + phi
+        return 0.15 * math.cos(arm) + math.sqrt(0.45**2 - (0.15 * math.sin(arm)) ** 2)
+
+    def slowness(u: float) -> float:  # sin(phi/2) = sin(half/2) sin u takes the ends away
+        phi = 2.0 * math.asin(math.sin(0.5 * half) * math.sin(u))
+        rate = (place(phi + 1e-5) - place(phi - 1e-5)) / 2e-5
+        moving = inertia + mass * s * s + 6.0 * rate * rate
+        return math.sqrt(moving / (mass * 9.80665 * s)) / math.cos(0.5 * phi)
+
+    time = quad(slowness, -0.5 * math.pi, 0.5 * math.pi, epsabs=0.0, epsrel=1e-10)[0]
+    wanted = design.motion.stroke_time / math.sqrt(1.0 + reserve)
+    assert time == pytest.approx(
+        wanted, rel=1e-8, abs=0.0
+    )  # differences of 1e-5 rad: 1e-10, and the slider's 1e-16/1e-5
+    back = design_of(PENDULUM | {"mass": mass}, speed=18.0, inertia=inertia, slider=SLIDER, swing=100.0)
+    assert back.unloading.size.reserve == pytest.approx(reserve, rel=1e-12, abs=1e-12)
