@@ -488,7 +488,7 @@ class _Wording:
         wanted = f"at {'least' if most is None else 'most'} {amount(int(limit or 0), 'entry', 'entries')}"
         if length:
             wanted = f"exactly {amount(length, 'entry', 'entries')}{f', {names}' if names else ''}"
-        count = context.get("actual_length")
+        count = context.get("actual_length") or len(finding.value)  # of a mapping pydantic does not say it
         message = f"{format_path(finding.path)} must have {wanted}, not {count}"
         return self._say("GL107", finding, message, meaning_at(self.model, finding.path, self.loaded.data))
 

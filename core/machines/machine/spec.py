@@ -259,13 +259,13 @@ class MachineSpec(TolerancedSpec):
 
     kind: Literal["machine"]
     speed: Speed | None = Field(None, description="speed of the main shaft")
-    members: Annotated[dict[str, Member], Field(min_length=1, max_length=60)] = Field(
+    members: Annotated[dict[str, Member], Field(min_length=1, max_length=400)] = Field(
         description="the mechanisms by name, each {of: FILE} or {design: {...}}"
     )
-    events: Annotated[dict[str, Event], Field(max_length=200)] = Field(
+    events: Annotated[dict[str, Event], Field(max_length=2000)] = Field(
         {}, description="moments by name at which a member passes a value"
     )
-    require: Annotated[list[str], Field(max_length=200)] = Field(
+    require: Annotated[list[str], Field(max_length=2000)] = Field(
         [], description="relations: EVENT before EVENT by DEG; RUN within RUN by DEG; MEMBER.velocity at EVENT <= VALUE"
     )
     shaft: MainShaft | None = Field(None, description="the main shaft as a torsional chain")
