@@ -25,7 +25,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import within
-from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, tolerance_dwell, valley
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, valley
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     eccentricity_for_frame,
