@@ -49,10 +49,11 @@ def written(
 def _lines(
     data: Mapping[str, Any], before: str, keys: Mapping[str, SpecKey], notes: Mapping[str, str], kind: Kind
 ) -> Iterator[tuple[str, str]]:
-    """Each line of a section and the words behind it."""
+    """Each line of a section and the words behind it; keys of the kind, such as y, are not quoted."""
     indent = "  " * before.count(".")
     for name, value in data.items():
-        path, label = before + name, f"{indent}{scalar(name)}:"
+        path = before + name
+        label = f"{indent}{name if path in keys else scalar(name)}:"
         if value is None:
             continue
         words = _summary(kind) if path == "kind" else _words(keys.get(path), notes.get(path, ""))

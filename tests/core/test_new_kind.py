@@ -103,7 +103,8 @@ def test_loads(run: Any) -> None:
     [
         (("report",), ".html"),  # has sheet, animation and figure
         (("sheet", "motion"), ".png"),
-        (("animate",), ".html"),
+        (("animate",), ".gif"),
+        (("animate", "--format", "html"), ".html"),
         (("analyze", "--plot"), ".png"),
     ],
 )
