@@ -152,9 +152,10 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
         return
     message = f"`{command}` does not apply to a {kind.name}; available for this kind: {', '.join(kind.commands)}"
     from gearlink.core.base.kinds import FILES
+    from gearlink.core.base.wording import first_of
 
     serves = [name for name, other in FILES.items() if command in other.commands]
-    help = f"`{command}` serves {', '.join(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""
+    help = f"`{command}` serves {first_of(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""
     raise DesignFileError([loaded.report("GL113", message, ("kind",), help=help)])
 
 

@@ -28,6 +28,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.base.errors import GearlinkError, named
+from gearlink.core.base.wording import first_of
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def run_export(source: str, asked: Export) -> int:
     try:
         loaded, kind = open_design(source, asked.options)
         if kind.name not in (known := parts.kinds()):
-            raise wrong_kind(loaded, f"a {kind.name} has no profile to export; kinds that have one: {', '.join(known)}")
+            raise wrong_kind(loaded, f"a {kind.name} has no profile to export; kinds that have one: {first_of(known)}")
         spec = read_spec(loaded, kind, source)
         design = whole_design(kind, spec)
         with _located(loaded), patience(f"computing the profiles of {spec.name}", quiet=asked.options.quiet):

@@ -158,7 +158,7 @@ def _spelled(kind: str) -> str:
 def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:
     """What the engine refuses, at the key that it names or the nearest parent that the file has."""
     path = parse_path(error.key) or _ROOT
-    lacks = isinstance(error, MissingSection) and error.key and "`new " not in error.message
+    lacks = isinstance(error, MissingSection) and error.key and not error.fix and "`new " not in error.message
     remedy = f"`gearlink new {loaded.data.get('kind')}` shows the keys of {error.key}, with units" if lacks else ""
     return loaded.report(error.code, error.message, path, key=error.key, help=remedy or error.fix, of_several=not lacks)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 
 def amount(count: float, one: str, many: str = "", spec: str = "") -> str:
@@ -23,6 +24,18 @@ DIGITS = 4
 """Significant digits of a number in a message."""
 _TYPED, _NOISE = 6, 1e-12
 """A limit of no more digits, but for rounding, is one that somebody wrote, and is shown as it stands."""
+
+
+def first_of(names: Sequence[str], most: int = 4) -> str:
+    """Names for one line of a message: all of a few, the first of many and their number.
+
+    Example
+        >>> first_of(["cam", "loads"]), first_of(["a", "b", "c", "d", "e", "f"])
+        ('cam, loads', 'a, b, c, d and 2 others')
+    """
+    if len(names) <= most + 1:
+        return ", ".join(names)
+    return f"{', '.join(names[:most])} and {len(names) - most} others"
 
 
 def short(value: float, digits: int = DIGITS) -> str:

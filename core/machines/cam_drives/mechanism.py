@@ -166,6 +166,8 @@ def _along(rates: list[Reals], way: complex, start: float) -> Point:
 
 
 def linked_errors(_design: LinkedCams, _mechanism: Mechanism) -> Movable:
-    """Rollers: what an error of the radius of one does to the path."""
-    sizes = {f"cams.{name}.roller_radius": (Shift("cam", (f"roller_{name}",), 1.0, "normal"),) for name in ("x", "y")}
-    return Movable(sizes)
+    """Rollers and profiles: what an error of the radius of one, or of the size of its cam, does to the path."""
+    outwards = {name: (Shift("cam", (f"roller_{name}",), 1.0, "normal"),) for name in ("x", "y")}
+    profiles = {f"cams.{name}.profile": shifts for name, shifts in outwards.items()}
+    rollers = {f"cams.{name}.roller_radius": shifts for name, shifts in outwards.items()}
+    return Movable(rollers | profiles, others=dict.fromkeys(profiles, 0.0))

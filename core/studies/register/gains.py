@@ -61,7 +61,7 @@ class Moves:
         if source.key in self.errors:
             return self.errors[source.key]
         message = f"{source.key} does not move {self.words}"
-        raise NoSolution(message, key="tolerance.sources", fix="omit it of a register")
+        raise NoSolution(message, key="tolerance.sources", fix="use it in a file without register, or omit it")
 
     def is_vector(self, source: Scatter) -> bool:
         """Whether an error of it has any direction."""

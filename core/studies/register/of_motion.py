@@ -145,11 +145,10 @@ class MotionRegister(RegisterDesign):
             return 1.0
         radius = self.section.radius or self.movable.radius
         if not radius:
-            message = "the output turns"
             raise MissingSection(
-                message,
+                "the register of an output that turns needs a radius",
                 key="register.radius",
-                fix="give register.radius (mm), at which its error is measured, or --radius",
+                fix="give register.radius (mm), the radius at which its error is measured, or --radius",
             )
         return radius
 
