@@ -37,7 +37,7 @@ CASES: dict[str, tuple[str, ...]] = {
     "loaded_cycloidal": ("eccentricity", "pins.E1", "pins.A"),
     "cam_gear": ("lever.length", "centers.gears", "cam.profile", "pins.roller", "pins.B"),
     "cam_linkage": ("links.input", "links.coupler", "links.follower", "cam.profile", "pins.roller", "pins.C"),
-    "linked_cams": ("cams.x.roller_radius", "pins.O"),
+    "linked_cams": ("cams.x.roller_radius", "cams.x.profile", "pins.O"),
     "geneva_drive": ("center_distance", "pins.D", "pins.A"),
     "lift_cam": ("cam.profile", "follower.roller_radius", "follower.offset", "pins.roller", "pins.O"),
     "planar_watt": (
