@@ -14,7 +14,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gearlink.core.mechanism.dynamics import System
-from gearlink.core.mechanism.joints import Act, Column, Connection, Flank, Mesh, Pin, Toothed, meshes_of
+from gearlink.core.mechanism.joints import Act, Column, Connection, Flank, Mesh, Pin, SharedContact, Toothed, meshes_of
 from gearlink.core.mechanism.links import Link, Mechanism
 from gearlink.core.mechanism.rates import Point, Turn, cross
 from gearlink.core.numerics.arrays import Points, Reals
@@ -34,15 +34,16 @@ class Shift:
         link : str - a link, or the frame
         joints : names of joints that the link has
         way : complex - by how much they move per unit of the error; of a turned one its real part [rad]
-        frame : "link", in whose coordinates that is and which carries it along, "frame", or "normal": along that of a
-            roller on its cam, away from the cam
+        frame : "link", in whose coordinates that is and which carries it along, "frame", "normal": along that of a
+            roller on its cam, away from the cam, or "arm": along the arm of that roller, away from the origin of its
+            link
         turned : bool - they turn about the origin of the link, counter-clockwise
     """
 
     link: str
     joints: tuple[str, ...]
     way: complex = 1.0
-    frame: Literal["link", "frame", "normal"] = "link"
+    frame: Literal["link", "frame", "normal", "arm"] = "link"
     turned: bool = False
 
     def scaled(self, factor: float) -> Shift:
@@ -132,7 +133,14 @@ class Dual:
     def vector_gain(self, shift: Shift) -> Points:
         """Complex gain g of a vector v: the output moves by Re(v g)."""
         force, _ = self.force(shift.link, shift.joints)
-        turned = unit_of(self.mechanism.link(shift.link)) if shift.frame == "link" else 1.0
+        turned: Points | complex = 1.0
+        if shift.frame == "link":
+            turned = unit_of(self.mechanism.link(shift.link))
+        elif shift.frame == "arm":
+            (roller,) = (each for each in self.mechanism.connections if each.name in shift.joints)
+            assert isinstance(roller, SharedContact), "rollers stand on arms"
+            away = roller.at - origin_of(self.mechanism.link(roller.second))
+            turned = away / np.abs(away)
         return np.asarray(np.conj(force) * shift.way * turned)
 
     def play(self, mesh: str) -> Reals:

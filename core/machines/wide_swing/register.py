@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import cmath
+import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from gearlink.core.mechanism.dual import Shift, longer
-from gearlink.core.mechanism.joints import SharedContact
 from gearlink.core.mechanism.links import FRAME
-from gearlink.core.studies.register.movable import Movable
-from gearlink.core.studies.tolerance.sources import CAM_PROFILE, ROLLER_ARM
+from gearlink.core.studies.register.movable import Errors, Movable
+from gearlink.core.studies.tolerance.sources import CAM_PROFILE, RETURN_ARM, ROLLER_ARM
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
@@ -25,10 +22,6 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
     away = float(mechanism.links["rocker"].origin.value[0].real)
     farther = (Shift(FRAME, ("D",), 1.0 if away > 0.0 else -1.0),)
     outwards = (Shift("rocker", ("roller",), -1.0, "normal"),)  # as if the roller stood nearer to its cam
-    rocker = mechanism.links["rocker"]
-    (contact,) = (each for each in mechanism.connections if each.name == "roller")
-    assert isinstance(contact, SharedContact), "of a machine with a cam"
-    arm = complex(((contact.at - rocker.origin.value) * np.conj(rocker.unit))[0])
     sizes: dict[str, tuple[Shift, ...]] = {
         "cam.center_distance": farther,
         "centers.cam": farther,
@@ -37,13 +30,11 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
     }
     others = {CAM_PROFILE: 0.0}
     if design.spec.layout != "twin-rocker" or design.spec.cycle is None:  # else there are two, that point apart
-        sizes[ROLLER_ARM] = (Shift("rocker", ("roller",), arm / abs(arm)),)
+        sizes[ROLLER_ARM] = (Shift("rocker", ("roller",), 1.0, "arm"),)
         others[ROLLER_ARM] = design.cam.rocker_radius
-    if design.section.second is not None:  # each cam shaft stands at its own distance
-        sizes["cam.center_distance"] = sizes["centers.cam"] = (Shift(FRAME, ("O",), 1.0),)
-        if "return_cam" in mechanism.links:
-            toward = cmath.rect(1.0, design.shafts.roller_arm_angle)
-            sizes["cam.second.center_distance"] = (Shift(FRAME, ("O_return",), toward),)
+    if design.section.second is not None:
+        sizes |= _shafts(design, mechanism)
+        others[RETURN_ARM] = design.shafts.cams[1].rocker_radius
     if "crank" in mechanism.links:
         bar = design.motion.drive.linkage
         sizes |= longer(mechanism, {"drive.crank": ("crank", bar.crank), "drive.coupler": ("coupler", bar.coupler)})
@@ -56,6 +47,24 @@ def errors(design: WideSwingDesign, mechanism: Mechanism) -> Movable:
         radius=design.spec.output_radius or 0.0,
         places=_dwells(design),
     )
+
+
+def _shafts(design: WideSwingDesign, mechanism: Mechanism) -> Errors:
+    """Of two cam shafts: each has its own distance from the rocker's axis and its own arm with a roller."""
+    sizes: dict[str, tuple[Shift, ...]] = dict.fromkeys(
+        ("cam.center_distance", "centers.cam"), (Shift(FRAME, ("O",), 1.0),)
+    )
+    if "return_cam" not in mechanism.links:
+        return sizes
+    _, second = design.shafts.shafts
+    per_degree = 1j * math.radians(1.0) * second
+    # a longer arm is the same as a cam that stands back along it
+    return sizes | {
+        "cam.second.center_distance": (Shift(FRAME, ("O_return",), second / abs(second)),),
+        "cam.second.direction": (Shift(FRAME, ("O_return",), per_degree),),
+        ROLLER_ARM: (Shift("cam", ("roller",), -1.0, "arm"),),
+        RETURN_ARM: (Shift("return_cam", ("roller",), -1.0, "arm"),),
+    }
 
 
 def _dwells(design: WideSwingDesign) -> dict[str, tuple[float, float]]:

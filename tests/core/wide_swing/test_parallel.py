@@ -12,9 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from scipy.interpolate import CubicSpline
+from scipy.optimize import fsolve
 
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
+from gearlink.core.machines.wide_swing.mechanism import motion
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
+from gearlink.core.mechanism.joints import SharedContact
+from gearlink.core.studies.register.of_motion import MotionRegister
 
 CYLINDER = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0, "reserve": 0.24}
 CAM = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}
@@ -87,3 +92,48 @@ def test_gears_between_the_shafts() -> None:
 def test_contradictions(changes: dict[str, Any], words: str) -> None:
     with pytest.raises(ValidationError, match=words):
         design_of(**changes)
+
+
+@pytest.mark.parametrize(("geared", "sign"), [(False, 1), (True, 1), (True, -1)])
+def test_errors_of_the_second_shaft_by_a_displaced_cam(geared: bool, sign: int) -> None:
+    """The second cam, set aside by an error and turned by what its gear then turns, with the roller on its curve."""
+    names = ("cam.second.center_distance", "cam.second.direction", "links.return_roller_arm")
+    sources = {name: {"plus_minus": 0.01} for name in names}
+    more: dict[str, Any] = {"cycle": CYCLE, "output_radius": 250.0, "tolerance": {"sources": sources}}
+    design = design_of(125.0, 190.0, **more | ({"gears": {"module": 5.0}} if geared else {}))
+    phi = np.radians(np.arange(200.0, 230.0, 0.05))
+    made = motion(design).make(phi, 2, 1)
+    row, cam, rocker = 200, made.links["return_cam"], made.links["rocker"]
+    (roller,) = (each for each in made.connections if each.name == "roller")
+    assert isinstance(roller, SharedContact)
+    curve = CubicSpline(phi, np.conj(cam.unit) * (roller.at - cam.origin.value))
+    pivot, shaft = rocker.origin.value[0], cam.origin.value[0]
+    arm, toward = roller.at[row] - pivot, (shaft - pivot) / 190.0
+
+    def turned(flank: float, away: complex, longer: float) -> float:
+        spin = 0.0
+        if geared:  # the flank that carries keeps touching: its normal at the pitch point, and the way of that point
+            normal = 1j * shaft / abs(shaft) * np.exp(1j * flank * design.shafts.gears.working_pressure_angle)
+            spin = -(away * np.conj(normal)).real / (-0.5j * shaft * np.conj(normal)).real
+
+        def apart(x: Any) -> list[float]:
+            gap = shaft + away + cam.unit[row] * np.exp(1j * spin) * curve(x[0])
+            gap = gap - pivot - arm * (1.0 + longer / abs(arm)) * np.exp(1j * x[1])
+            return [gap.real, gap.imag]
+
+        return float(fsolve(apart, [phi[row], 0.0], xtol=1e-13)[1])
+
+    register: Any = MotionRegister(design.spec)
+    found = {one.source: abs(float(one.gain[0])) for one in register.contributions(phi[row : row + 1], sign)}
+    small, per_degree = 1e-3, 1j * math.radians(1.0) * (shaft - pivot)
+    shifts = dict(zip(names, ((toward, 0.0), (per_degree, 0.0), (0.0, 1.0)), strict=True))
+    ways = []
+    for flank in (1.0, -1.0):
+        gain = {
+            name: 250.0
+            * (turned(flank, small * way, small * long) - turned(flank, -small * way, -small * long))
+            / (2.0 * small)
+            for name, (way, long) in shifts.items()
+        }
+        ways.append(all(found[name] == pytest.approx(abs(each), rel=1e-5, abs=1e-9) for name, each in gain.items()))
+    assert any(ways)  # one flank of the gear carries; which one is the sign of the torque
