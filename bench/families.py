@@ -26,6 +26,7 @@ FAMILIES = {
     "samples": "samples:family",
     "yields": "yields:family",
     "loads": "loads:family",
+    "studio": "studio:family",
 }
 
 

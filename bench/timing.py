@@ -63,10 +63,16 @@ def mpmath(digits: int = 30) -> Any:
     return mpmath
 
 
-def measure(methods: Sequence[Method], reference: Callable[[], object], size: int, rounds: int) -> tuple[Row, ...]:
+def measure(
+    methods: Sequence[Method],
+    reference: Callable[[], object],
+    size: int,
+    rounds: int,
+    clock: Callable[[], float] = perf_counter,
+) -> tuple[Row, ...]:
     """Rows of the methods, timed in turn with a reference that gives `size` results."""
     runs = [reference, *(method.run for method in methods)]
-    seconds = interleaved(runs, rounds)
+    seconds = interleaved(runs, rounds, clock)
     base = seconds[0] / size
     return tuple(
         Row(method.name, method.size, 1e9 * took / method.size, method.error, took / method.size / base)
@@ -74,16 +80,18 @@ def measure(methods: Sequence[Method], reference: Callable[[], object], size: in
     )
 
 
-def interleaved(runs: Sequence[Callable[[], object]], rounds: int) -> list[float]:
+def interleaved(
+    runs: Sequence[Callable[[], object]], rounds: int, clock: Callable[[], float] = perf_counter
+) -> list[float]:
     """Median seconds of one call of each, all called in turn so that a slow spell of the machine hits them alike."""
     repeats = [_repeats(run) for run in runs]
     taken: list[list[float]] = [[] for _ in runs]
     for _ in range(rounds):
         for run, count, seconds in zip(runs, repeats, taken, strict=True):
-            start = perf_counter()
+            start = clock()
             for _ in range(count):
                 run()
-            seconds.append((perf_counter() - start) / count)
+            seconds.append((clock() - start) / count)
     return [statistics.median(seconds) for seconds in taken]
 
 

@@ -272,7 +272,7 @@ class Session:
                 await self._news.wait()
                 self._news.clear()
                 version, text = self._version, self.document.text
-                if await self._guarded(self._make(version)):
+                if await self._guarded(self.make(version)):
                     self._followed.set()
                 self._shown = version
                 self._each(lambda page, text=text: page.text(text))  # type: ignore[misc]
@@ -309,8 +309,13 @@ class Session:
         while self._shown < version:
             await asyncio.sleep(0.002)
 
-    async def _make(self, version: int) -> bool:
-        """The numbers of the text, and its quick results."""
+    async def make(self, version: int | None = None) -> bool:
+        """The numbers of the text, and its quick results; those of further commands unless the text has changed.
+
+        Parameters
+            version : of the text; None is the present one
+        """
+        version = self._version if version is None else version
         text = self.document.text
         self._read(text)
         study = await asyncio.to_thread(Study, text, str(self.document.path))

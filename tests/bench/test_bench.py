@@ -30,14 +30,14 @@ FAMILY = Family(
 
 
 def test_unloading_family_shows_the_errors_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
+    monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
     error = {row.method: row.error for row in measured("unloading", quick=True).rows}
     assert error["quadrature, 16 nodes"] < 1e-15 < error["quadrature, 4 nodes"] < 1e-6
     assert 1e-4 < error["the dissertation's iteration, 20 steps"] < 1e-3  # the figure of its docstring: 8e-4
 
 
 def test_loads_family_shows_what_the_textbook_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
+    monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
     monkeypatch.setattr("bench.loads.KINDS", ("loaded_feed",))
     error = {row.method: row.error for row in measured("loads", quick=True).rows}
     exact = ("three-gear-four-bar: all forces", "flywheel, exact with J(phi)", "motor, periodic by Newton")
@@ -105,7 +105,7 @@ def test_errors_are_in_units_of_the_last_place() -> None:
 
 @pytest.mark.slow
 def test_yields_family_shows_what_scrambled_points_are_worth(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
+    monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
     error = {row.method: row.error for row in measured("yields", quick=True).rows}
     for name, share in (("four-branch", 0.00222), ("RP22", 0.00421)):
         textbook = math.sqrt((1.0 - share) / (share * 2**14))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
@@ -56,9 +57,10 @@ def quiet_end(family: Family) -> float:
     return high - margin if family.ring else low + margin
 
 
-def turnings(drive: PlanetLinkage) -> list[Turning]:
+@lru_cache(8)
+def turnings(drive: PlanetLinkage) -> tuple[Turning, ...]:
     """Extremes of the speed ratio over the turn."""
-    return standstills.turnings(drive.speed, drive.acceleration)
+    return tuple(standstills.turnings(drive.speed, drive.acceleration))
 
 
 def back_step(drive: PlanetLinkage) -> BackStep | None:
@@ -164,6 +166,7 @@ def solved(
     return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)
 
 
+@lru_cache(8)
 def filling(family: Family, tolerance: float) -> float | None:
     """The frame whose back-step fills the band of a tolerance: the dwell is longest; None where none steps back so far.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -85,7 +85,7 @@ def turnings(speed: Function, acceleration: Function, grid: list[float] = GRID) 
     return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration, grid)]
 
 
-def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> list[float]:
+def standstills(speed: Function, extremes: Sequence[Turning], tolerance: float) -> list[float]:
     """Crank angles at which the speed ratio is zero, touching zeros among them.
 
     Parameters

@@ -432,6 +432,20 @@ def test_a_tolerance_that_no_back_step_fills_is_met_the_better() -> None:
         assert dwell.crank_angle > math.radians(65.87), frame
 
 
+def test_frames_end_where_the_window_becomes_too_short() -> None:
+    """At the far change point this output rests about one extreme for as long: the frames before it do not meet it."""
+    links = {"coupler": 72.936, "rocker": 64.056}
+    data = {"gears": {"module": 2.0, "planet": 56, "ring": 63}, "links": links}
+    found = made("dwell", data, dwell={"window": 37.27, "tolerance": 0.0839})
+    low, high = found.frame_length_interval
+    for frame in np.linspace(low + 1e-6, high - 1e-6, 5):
+        dwell = kernel.tolerance_dwell(found.family.drive(float(frame)), math.radians(0.0839))
+        assert dwell.crank_angle > math.radians(37.27), frame
+    dwell = kernel.tolerance_dwell(found.family.drive(high + 1e-3), math.radians(0.0839))
+    assert math.degrees(dwell.crank_angle) < 37.27
+    assert high == pytest.approx(66.73, abs=0.05)
+
+
 def test_frame_and_sections() -> None:
     with pytest.raises(NoSolution, match="omit it"):
         made("momentary-dwell", SUNS | {"links": {"coupler": 48.0, "rocker": 50.0, "frame": 20.0}}).linkage  # noqa: B018
