@@ -65,10 +65,10 @@ def family(quick: bool) -> Family:
         "reading and validating the file of the feed",
         rows,
         (
-            "processor time of the process: what a quiet machine takes, on a busy one as well",
+            "processor time of the process, which hardly depends on what else the machine does",
             "key results: the text changed, read, its numbers, the results of all quick commands, handed to the page",
-            f"findings and animation of {PICTURES} pictures: computed in a process beside, while the next input is read",
-            "without the browser, which adds some 15 ms (tests/cli/studio/test_browser.py measures both)",
+            f"findings and animation of {PICTURES} frames: in a second process, while the next input is read",
+            "without the browser (tests/cli/studio/test_browser.py measures the whole way)",
         ),
     )
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from bench.families import FAMILIES, measured
-from bench.page import as_markdown, duration, write_pictures
+from bench.page import as_markdown, curves, duration, write_pictures
 from bench.pictures import WAITS
 from bench.timing import Family, machine
 
@@ -21,47 +23,43 @@ PEERS = ROOT / "bench" / ".venv" / "bin" / "python"
 
 _HEAD = """# Run time against error
 
-Written by `make bench` (`python -m bench` prints the tables alone). Every time is a median of rounds in which all
-methods of a table take their turn, so ratios within a table hold even on a busy machine; single times do not.
-Errors are against 30 digits and more on a sample.
+This page is written by `make bench`. `.venv/bin/python -m bench` prints the tables;
+`.venv/bin/python -m bench.write_page FAMILY` measures one table again.
+
+* A time is the median of several rounds. In each round all methods of a table are measured one after the other, so the
+  ratios within a table also hold on a busy machine; single times do not.
+* An error is the maximum difference from results with 30 digits or more, on a sample of the inputs.
+* A numpy pass is one sine, cosine, arc tangent and square root of each number.
 """
 _REASONS = """## Where a goal is missed, and why
 
-* **Small arrays.** A numpy call costs 0.3 to 1 us whatever its size, and the sweep makes some seventy: up to a few
-  hundred positions the scalar kernel or the textbook form is the faster one. The program takes the scalar kernel
-  (2 to 3 us) for single positions.
-* **Times in ns and ms**, and those against pylinkage, are goals for an idle machine with AVX-512, where numpy's sine,
-  cosine, arc tangent and square root take eight numbers at a time; AVX-512 and load are said under Machine. With it the
-  same code reached 0.98 passes for the four-bar, 0.031 of pylinkage's time, 8.7 ns for the inverse involute, 19 ns for
-  the frame, 2.7 ms for the press and 1.43 passes for the cam profile. Without it those functions take three to five
-  times as long, and a goal in ns is not to be had from them; what numba compiles does not lose as much. Compare the
-  ratios to the numpy pass.
-* **Momentary frame.** The goal is that of a call that stands alone; in this table, between others, the caches are cold
-  and the arrays of results are new pages each time. phi13 has no goal: what studies use takes some Newton steps inside
-  a bracket and freezes each design that rests, so that its last bit does not depend on its neighbours.
-* **Cam profile.** Points alone take less than a pass. The whole profile in one go writes seven columns (two complex,
-  three real) where the pass writes four into arrays that are there: new pages from the system, not arithmetic, are
-  the remainder. In blocks it stays in the cache, at constant memory.
-* **Start-up.** Plain command lines are read without Typer, pydantic's search for plug-ins is switched off, and its
-  models are built when a file needs them; what remains is the import of pydantic (which Typer's own floor includes, and
-  which is two thirds of a scalar command), of numpy for sweeps, and of rich for tables on a terminal.
-* **Pictures, reports, films.** Of `cam --plot`, the imports of matplotlib and numpy are a third, drawing a fifth (half
-  of it words), making the panels an eighth and their layout a tenth; words are measured once, and stand where they were
-  measured. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour, a tenth of its
-  time: some two thousand roots and forty thousand values of pairs, as arrays. A report computes and draws its commands
-  in as many processes as there are processors, each the next that none has taken. A film of a machine with true teeth
-  spends its time on polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are
-  processors.
-* **All examples.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
-  press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
-* **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
-  results and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) and 1.6 ms (synthesis with its meshes, dwell and
-  extremes) a design in Python. What cannot refuse a pair of gears, as its measures over pins, is computed where it is
-  shown alone. The program takes a second process from 0.15 s of work on.
-  Two processes are 1.5 to 1.7 times as fast as one, on small designs and on presses, on a busy machine no faster at
-  all: forking, sending results back and the caches that both cores share are the rest. Where the output
-  shows findings alone (everything but JSON and `--out`), quantities are computed, since they tell whether there is a
-  mechanism at all, but put into no words, and no table is computed.
+* **Small arrays.** A numpy call costs 0.3 to 1 us for any size, and the sweep of a four-bar makes about seventy. Up to
+  some hundred positions the scalar kernel is faster; the program uses it for single positions (2 to 3 us).
+* **Times in ns and ms** are goals for an idle machine with AVX-512, where numpy evaluates sine, cosine, arc tangent and
+  square root for eight numbers at a time. Such a machine reached 0.98 passes for the four-bar, 0.031 of the time of
+  pylinkage, 8.7 ns for the inverse involute, 19 ns for the frame, 2.7 ms for the press and 1.43 passes for the cam
+  profile. Without AVX-512 these functions take three to five times as long; code that numba compiles does not slow down
+  as much. Compare the ratios to the numpy pass.
+* **Frame of the instantaneous dwell.** The goal holds for a call on its own. In this table it runs between other
+  methods: the caches are cold, and the arrays of results are new memory pages each time.
+* **Cam profile.** The points alone take less than a pass. The whole profile writes seven columns (two complex, three
+  real), the pass four columns into arrays that exist. In blocks the profile stays in the cache, at constant memory.
+* **Start-up.** Simple command lines are read without Typer, the search of pydantic for plug-ins is switched off, and
+  its models are built when a file needs them. The remainder is the import of pydantic (two thirds of a scalar command),
+  of numpy for sweeps and of rich for tables on a terminal.
+* **Figures, reports, animations.** In `cam --plot` the imports of matplotlib and numpy take a third, drawing a fifth
+  (half of it texts), making the panels an eighth and their layout a tenth. `gear --plot` draws six panels with symbols
+  in mathematical type and the blocking contour. A report computes and draws its commands in as many processes as there
+  are processors. An animation with real teeth takes some 10 ms a frame for polygons, colours and encoding, in as many
+  processes as there are processors.
+* **All examples.** The folder contains searches, studies and loads of one or two seconds each (the function of a
+  five-bar, a press with joint forces, a study of gripper cams). A folder of complete designs takes milliseconds each.
+* **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms (libyaml and pydantic-core are compiled). Results
+  and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) or 1.6 ms (synthesis with meshes, dwell and extremes). A
+  second process is used from 0.15 s of work on. Two processes are 1.5 to 1.7 times as fast as one, and no faster on a
+  busy machine: forking, sending results back and shared caches take the rest.
+* **Studio.** The key results are shown first, findings and animation follow from a second process, sheets when the
+  slider rests. Results of commands that take more than 40 ms (loads, register, many searches) follow with the findings.
 """
 
 
@@ -125,7 +123,7 @@ def goals(wide_vectors: bool) -> list[Goal]:
             "x",
             _row("four-bar", vectors),
         ),
-        Goal("its error", 4.0, "eps", _row("four-bar", vectors, "error")),
+        Goal("four-bar: error", 4.0, "eps", _row("four-bar", vectors, "error")),
         Goal("four-bar, N = 1, scalar", 5000.0, "ns", _row("four-bar", "closed form, scalar", "nanoseconds", 1)),
         Goal(
             "inverse involute, 1e5 values",
@@ -133,7 +131,7 @@ def goals(wide_vectors: bool) -> list[Goal]:
             "ns",
             _row("involute", "rational start, one Newton step", "nanoseconds"),
         ),
-        Goal("its error", 2.0, "ulp", _row("involute", "rational start, one Newton step", "error")),
+        Goal("inverse involute: error", 2.0, "ulp", _row("involute", "rational start, one Newton step", "error")),
         Goal("momentary frame, 1e5 designs", 20.0, "ns", _row("dwell", "frame: closed form", "nanoseconds")),
         *(
             Goal(
@@ -166,6 +164,20 @@ def goals(wide_vectors: bool) -> list[Goal]:
         *start,
         *waits,
         *seconds,
+        *(
+            Goal(
+                f"studio, {what}: to the key results",
+                limit,
+                "ns",
+                _row("studio", f"{what}: key results", "nanoseconds"),
+            )
+            for what, limit in (
+                ("feed, links.crank", 50e6),
+                ("feed, dwell.window, idler chosen", 50e6),
+                ("two gears, dwell.window, teeth given", 50e6),
+                ("press, bed.rod", 120e6),
+            )
+        ),
         Goal(
             "1000 designs in a batch over reading their files", 2.0, "x", _row("batch", "batch, as the program chooses")
         ),
@@ -189,12 +201,16 @@ def peer_goals(peers: dict[str, Any]) -> list[Goal]:
 
 def goals_table(found: dict[str, Family], wanted: list[Goal]) -> str:
     """The goals as Markdown."""
-    lines = ["## Goals", "", "| what | goal | reached | |", "|---|---:|---:|---|"]
-    for goal in wanted:
-        value = goal.value(found)
-        shown = [duration(x) if goal.unit == "ns" else f"{x:.3g} {goal.unit}" for x in (goal.limit, value)]
-        lines.append(f"| {goal.what} | {shown[0]} | {shown[1]} | {'met' if value <= goal.limit else 'missed'} |")
-    return "\n".join(lines)
+    return "\n".join([*_GOALS_HEAD, *(f"| {goal.what} | {_goal_cells(goal, found)}" for goal in wanted)])
+
+
+_GOALS_HEAD = ("## Goals", "", "| what | goal | reached | |", "|---|---:|---:|---|")
+
+
+def _goal_cells(goal: Goal, found: dict[str, Family]) -> str:
+    value = goal.value(found)
+    shown = [duration(x) if goal.unit == "ns" else f"{x:.3g} {goal.unit}" for x in (goal.limit, value)]
+    return f"{shown[0]} | {shown[1]} | {'met' if value <= goal.limit else 'missed'} |"
 
 
 def peers_table(peers: dict[str, Any], found: dict[str, Family]) -> str:
@@ -218,14 +234,43 @@ def peers_table(peers: dict[str, Any], found: dict[str, Family]) -> str:
     return "\n".join(lines)
 
 
+def renewed(page: str, found: dict[str, Family], wanted: list[Goal], here: dict[str, str]) -> str:
+    """A page with the tables, goals and pictures of some families measured anew, and the texts as they are now."""
+    blocks = ("\n" + page).split("\n## ")[1:]
+    parts = {block.partition("\n")[0]: f"## {block.strip()}" for block in blocks}
+    goals_then = dict(re.findall(r"^\| (.+?) \| (\S.*\|)$", parts["Goals"], re.MULTILINE))
+    lines = []
+    for goal in wanted:
+        with suppress(KeyError):
+            goals_then[goal.what] = _goal_cells(goal, found)
+        if goal.what in goals_then:
+            lines.append(f"| {goal.what} | {goals_then[goal.what]}")
+    rest = [what for what in goals_then if what not in {goal.what for goal in wanted} | {"what"}]
+    lines += [f"| {what} | {goals_then[what]}" for what in rest if not what.startswith("-")]
+    parts["Goals"] = "\n".join([*_GOALS_HEAD, *lines])
+    reasons = _REASONS.strip()
+    parts[reasons.partition("\n")[0].removeprefix("## ")] = reasons
+    own = as_markdown(list(found.values()), here, {name: f"bench-{name}.png" for name, f in found.items() if curves(f)})
+    parts |= {block.partition("\n")[0]: f"## {block.strip()}" for block in own.split("\n## ")[1:]}
+    return "\n\n".join([_HEAD.strip(), *parts.values()]) + "\n"
+
+
 def main() -> None:
-    """Measure, write, say where."""
+    """Measure all families, or those of the command line; write the page."""
     quick = "--quick" in sys.argv[1:]
+    names = [name for name in sys.argv[1:] if name in FAMILIES]
     found = {}
-    for name in FAMILIES:
+    for name in names or FAMILIES:
         print(f"measuring {name} ...", file=sys.stderr)
         found[name] = measured(name, quick)
     here = machine()
+    if names:
+        page = renewed(
+            (DOCS / "benchmarks.md").read_text(encoding="utf-8"), found, goals(here["AVX-512"] == "yes"), here
+        )
+        _write(page, json.loads((DOCS / "benchmarks.json").read_text(encoding="utf-8")), found)
+        write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
+        return
     pictures = write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
     wanted = goals(here["AVX-512"] == "yes")
     parts = [_REASONS]
@@ -237,11 +282,15 @@ def main() -> None:
         parts.append(peers_table(peers, found))
     parts = [_HEAD, goals_table(found, wanted), *parts]
     parts.append("## Machine\n\n" + as_markdown(list(found.values()), here, pictures))
-    (DOCS / "benchmarks.md").write_text("\n\n".join(part.strip() for part in parts) + "\n", encoding="utf-8")
-    record = {
+    _write("\n\n".join(part.strip() for part in parts) + "\n", {}, found)
+
+
+def _write(page: str, record: dict[str, Any], found: dict[str, Family]) -> None:
+    record |= {
         name: {f"{row.method}, {row.size}": float(f"{row.ratio:.4g}") for row in family.rows}
         for name, family in found.items()
     }
+    (DOCS / "benchmarks.md").write_text(page, encoding="utf-8")
     (DOCS / "benchmarks.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     print(f"wrote {DOCS / 'benchmarks.md'} and benchmarks.json", file=sys.stderr)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import four_bar, timing
+from bench import four_bar, studio, timing, write_page
 from bench.__main__ import main
 from bench.families import measured
 from bench.page import as_markdown, as_text, curves, duration, write_pictures
@@ -111,3 +112,30 @@ def test_yields_family_shows_what_scrambled_points_are_worth(monkeypatch: pytest
         textbook = math.sqrt((1.0 - share) / (share * 2**14))
         assert 0.5 * textbook < error[f"{name}, random points"] < 2.0 * textbook
         assert error[f"{name}, scrambled points"] < textbook
+
+
+def test_one_family_is_renewed_on_the_page_and_all_else_stays() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+    rows = tuple(Row(f"{what}: key results", 1, 60e6, math.nan, 9.0) for what in studio.SLIDERS)
+    own = Family("studio", "Studio: from the input of a slider to what the page shows", "none", "reading", rows)
+    found = write_page.renewed(page, {"studio": own}, write_page.goals(wide_vectors=True), {})
+    lines = {line for line in page.splitlines() if line.startswith("| ") and "key results" not in line}
+    assert {line for line in lines if "animation" not in line or "animate" in line} <= set(found.splitlines())
+    assert found.count("| 50 ms | 60 ms | missed |") == 3
+    assert found.count("| 120 ms | 60 ms | met |") == 1
+    assert found.count("\n## ") == page.count("\n## ")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", studio.SLIDERS)
+def test_studio_times_the_numbers_of_another_design_each_time(what: str) -> None:
+    name, key, values = studio.SLIDERS[what]
+    loop = asyncio.new_event_loop()
+    session = studio.session_of(loop, studio.designs() / name)
+    shown = []
+    for value in values:
+        session.move(next(number.path for number in session.state.numbers if number.name == key), value)
+        assert loop.run_until_complete(session.make())
+        shown.append({name: [r.quantity.value for r in found] for name, found in session.state.results.items()})
+    loop.close()
+    assert shown[0] != shown[1]
