@@ -199,7 +199,7 @@ def _roomy(own: Reach) -> Reach:
 def step_back() -> None:
     """Let the page go first: what is computed beside it takes the processors that it leaves."""
     if parent_process() is not None and hasattr(os, "nice"):
-        os.nice(10)
+        os.nice(4)
 
 
 @lru_cache(2)
