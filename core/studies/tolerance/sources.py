@@ -160,7 +160,8 @@ def is_play(key: str) -> bool:
 def is_of_parts(key: str, entry: ToleranceSource) -> bool:
     """Whether a source names a part and not a key of the file: play, runout, a centre distance, a cam's profile."""
     runout = key.startswith("gears.") and entry.form in ("grade", "eccentricity")
-    return is_play(key) or runout or key.startswith("centers.") or key in (CAM_PROFILE, ROLLER_ARM, RETURN_ARM)
+    profile = key == CAM_PROFILE or (key.startswith("cams.") and key.endswith(".profile"))
+    return is_play(key) or runout or key.startswith("centers.") or profile or key in (ROLLER_ARM, RETURN_ARM)
 
 
 def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatter:
