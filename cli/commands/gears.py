@@ -14,8 +14,7 @@ from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Table
-    from gearlink.core.parts.gears.shifts.carrying import Carried
-    from gearlink.core.parts.gears.shifts.search import PairTask
+    from gearlink.core.parts.gears.shifts.search import Carried, PairTask
 
 
 Torque = Annotated[float | None, typer.Option("--torque", min=1e-6, max=1e9, help="of gear 1, N m: rated for it")]
@@ -106,7 +105,7 @@ def gears(
 def _carried(torque: float, speed: float, life: float, material: str, *rest: Any) -> Carried:
     """What the pairs carry; a material by its name, or one for each gear."""
     from gearlink.core.parts.gears.rating.materials import CLASSES, MATERIALS, STEELS
-    from gearlink.core.parts.gears.shifts.carrying import Carried
+    from gearlink.core.parts.gears.shifts.search import Carried
 
     names = [name.strip() for name in material.split(",")]
     for name in names:
@@ -168,7 +167,7 @@ def _first(table: Table, count: int) -> Table:
 
 def _rated(task: PairTask, carried: Carried, sought: bool) -> Table:
     """The table of the pairs that carry the load, at the given centre distance or the smallest one."""
-    from gearlink.core.parts.gears.shifts.carrying import carrying, rated_table, smallest
+    from gearlink.core.parts.gears.shifts.search import carrying, rated_table, smallest
 
     return rated_table(smallest(task, carried)[1] if sought else carrying(task, carried))
 

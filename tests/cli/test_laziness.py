@@ -117,14 +117,13 @@ def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str],
 _SEARCHES = {"studies.explore", "studies.study", "studies.tolerance", "studies.tolerance_study"}
 _DATA = {
     "parts.gears.measures.backlash",
-    "parts.gears.mesh.ring_interference",
+    "parts.gears.mesh.ring_cutter",
     "parts.gears.drawing",
     "parts.gears.measures.allowances",
 }
 _RINGS = {
     "parts.gears.mesh.ring_cutter",
-    "parts.gears.mesh.ring_interference",
-    "parts.gears.outline.mesh_phase",
+    "parts.gears.outline.mesh_geometry",
 }
 _TOOLS = {"parts.gears.tooth.tools", "parts.gears.tooth.root_fillet", "parts.gears.data", "parts.gears.rating.load"}
 _TRAINS = {

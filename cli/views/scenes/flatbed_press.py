@@ -35,7 +35,7 @@ from gearlink.cli.views.scenes.scene import (
     wheel,
 )
 from gearlink.core.machines.flatbed_press.mechanism import bare
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.design import FlatbedPress

@@ -9,8 +9,7 @@ import numpy as np
 from gearlink.cli.views.scenes.colors import BLUE, ORANGE
 from gearlink.cli.views.scenes.gears import gear, holes_for
 from gearlink.cli.views.scenes.scene import TURN, Mark, Readout, Reals, Scene, track
-from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry, driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.design import GearPairDesign

@@ -27,7 +27,7 @@ from gearlink.cli.views.scenes.scene import (
     standing,
     track,
 )
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 from gearlink.core.parts.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from gearlink.cli.views.scenes.colors import BLACK, BLUE, ORANGE
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.views.scenes.scene import TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker

@@ -25,7 +25,7 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.machines.six_bar.mechanism import output, pins
 from gearlink.core.machines.six_bar.spec import LINKS
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.design import GearedSixBar

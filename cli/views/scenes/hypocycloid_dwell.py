@@ -25,7 +25,7 @@ from gearlink.cli.views.scenes.scene import (
     loop,
     standing,
 )
-from gearlink.core.parts.gears.outline.mesh_phase import ring_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import ring_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell

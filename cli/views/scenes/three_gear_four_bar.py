@@ -12,7 +12,7 @@ from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.views.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
 from gearlink.core.machines.three_gear.mechanism import OUTPUT
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.design import ThreeGearFourBar

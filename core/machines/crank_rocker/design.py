@@ -17,8 +17,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, transmission_chec
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
-from gearlink.core.parts.linkages.output_rates import OutputRates
-from gearlink.core.parts.linkages.standstills import Turning, turnings
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
 
 if TYPE_CHECKING:
     from gearlink.core.machines.crank_rocker.spec import CrankRockerSpec

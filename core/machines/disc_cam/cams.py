@@ -16,12 +16,24 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.spec import ROLLER_SHARE, OscillatingFlat, OscillatingRoller, TranslatingRoller
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
-from gearlink.core.parts.cams import least_cam, profile
+from gearlink.core.parts.cams import profile
 from gearlink.core.parts.cams.disc_cam import SAMPLES, DiscCam
 from gearlink.core.parts.cams.flat_cam import FlatCam, rocking_face, sliding_face
 from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
 from gearlink.core.parts.cams.profile import RollerPath
-from gearlink.core.parts.cams.size import RockingRoller, smallest_cam_of_rollers
+from gearlink.core.parts.cams.size import (
+    Line,
+    Rocking,
+    RockingRoller,
+    first_from_which,
+    flat_base_radius,
+    height_at,
+    height_for_curvature,
+    most_in_strokes,
+    nearest,
+    smallest_cam_of_rollers,
+    wedge,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.spec import CamBody, DiscCamSpec, ReturnRoller
@@ -124,33 +136,33 @@ class FollowerCams:
     def _sliding_place(self) -> Place:
         follower, cam = self.follower, self.spec.cam
         if not isinstance(follower, TranslatingRoller):
-            radius = cam.base_radius or least_cam.flat_base_radius(self.motion, self._least_radius())
+            radius = cam.base_radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
                 message = f"the minimum base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
         if cam.prime_radius is not None:
             return Place(cam.prime_radius, float(follower.offset))
-        lines = least_cam.wedge(self.motion, self.limits, self.sense)
+        lines = wedge(self.motion, self.limits, self.sense)
         roller, whole = self.spec.return_roller, sum(self.lifts)
-        back: list[least_cam.Line] = []
+        back: list[Line] = []
         if (
             roller is not None
         ):  # its own height is L - y0, by default y0 + the sum of both lifts; its offset counts back
-            found = least_cam.wedge(self._returning, self._limits_of_return, self.sense)
-            back = [least_cam.Line(line.height - whole, -line.slope) for line in found]
+            found = wedge(self._returning, self._limits_of_return, self.sense)
+            back = [Line(line.height - whole, -line.slope) for line in found]
         equal = roller is not None and roller.distance is None
         both = [*lines, *back] if equal else lines
-        offset = least_cam.nearest(both).offset if follower.offset == "best" else float(follower.offset)
-        height = least_cam.height_at(both, offset)
-        height = max(height, least_cam.height_for_curvature(self.motion, self._least_radius(), offset, self.sense))
+        offset = nearest(both).offset if follower.offset == "best" else float(follower.offset)
+        height = height_at(both, offset)
+        height = max(height, height_for_curvature(self.motion, self._least_radius(), offset, self.sense))
         if roller is not None:
             least = self._least_radius(roller.radius)
-            curved = least_cam.height_for_curvature(self._returning, least, -offset, self.sense) - whole
+            curved = height_for_curvature(self._returning, least, -offset, self.sense) - whole
             if equal:
                 height = max(height, curved)
             else:
-                self._require_distance(height + max(curved, least_cam.height_at(back, offset)) + whole)
+                self._require_distance(height + max(curved, height_at(back, offset)) + whole)
         if height + self.lifts[0] <= 0.0:
             message = "these limits require no cam, the motion being so slow"
             raise NoSolution(message, key="cam.size", fix="give cam.prime_radius")
@@ -175,7 +187,7 @@ class FollowerCams:
             return self._found_pivot(follower)
         if cam.prime_radius is not None:
             return self._triangle(follower.arm, follower.center_distance, cam.prime_radius)
-        rocker = least_cam.Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
+        rocker = Rocking(self.motion, follower.arm, follower.center_distance, self.sense, follower.side)
         low, high = rocker.start_angles(self.limits)
         roller = self.spec.return_roller
         if roller is not None:
@@ -184,7 +196,7 @@ class FollowerCams:
             if low > high:
                 message = "no start angle keeps the pressure angle of both rollers"
                 raise NoSolution(message, key="cam.size", fix="raise the limit, or change return_roller.angle")
-        start = least_cam.first_from_which(
+        start = first_from_which(
             lambda psi: self._room(psi, follower.center_distance),
             low,
             high,
@@ -213,10 +225,10 @@ class FollowerCams:
         side, arm = self.follower.side, roller.arm or 0.0
         ahead = side * math.remainder(math.radians(roller.angle or 0.0), 2.0 * math.pi)
         if ahead > 0.0:
-            other = least_cam.Rocking(self._returning, arm, distance, self.sense, -side)
+            other = Rocking(self._returning, arm, distance, self.sense, -side)
             low, high = other.start_angles(self._limits_of_return)
             return ahead - high, ahead - low
-        low, high = least_cam.Rocking(self.motion, arm, distance, self.sense, side).start_angles(self.limits)
+        low, high = Rocking(self.motion, arm, distance, self.sense, side).start_angles(self.limits)
         return low + ahead, high + ahead
 
     def _room(self, start: float, distance: float | None) -> float:
@@ -256,14 +268,14 @@ class FollowerCams:
             place = placed(share)
             return self._room(place.start, place.distance)
 
-        return placed(least_cam.first_from_which(room, 1.0, _WIDEST, "cam.size"))
+        return placed(first_from_which(room, 1.0, _WIDEST, "cam.size"))
 
     def _rocking_face_place(self, follower: OscillatingFlat) -> Place:
         distance, offset = follower.center_distance, follower.face_offset
         low, high = self.lifts
         given = self.spec.cam.base_radius
         if given is None:
-            start = least_cam.first_from_which(
+            start = first_from_which(
                 lambda psi: self._face_room(psi, follower),
                 max(1e-9, 1e-9 - low),
                 0.5 * math.pi - high - 1e-9,
@@ -390,7 +402,7 @@ class FollowerCams:
         """Maximum magnitude of the pressure angle in rises (+1), returns (-1) or dwells (0) [rad]."""
         cams = (self.flat,) if self.spec.is_flat else tuple(c for c in (self.main, self.back) if c)
         found = [
-            least_cam.most_in_strokes(self.motion, lambda phi, cam=cam: np.abs(cam.pressure_angle(phi)), sense)  # type: ignore[misc]
+            most_in_strokes(self.motion, lambda phi, cam=cam: np.abs(cam.pressure_angle(phi)), sense)  # type: ignore[misc]
             for cam in cams
         ]
         return max((value for value in found if value is not None), default=None)

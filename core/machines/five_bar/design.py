@@ -28,9 +28,8 @@ from gearlink.core.numerics.lm import State, descend
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.numerics.quasi_random import halton
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import Meshed, named
+from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, named, train_ways
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quantity
-from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
 from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at

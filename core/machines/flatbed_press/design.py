@@ -26,8 +26,7 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQ
 from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
-from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
+from gearlink.core.parts.linkages.slider_crank.position import SLIDER_QUANTITIES, SliderCrank, SliderCrankQuantities
 
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam

@@ -39,9 +39,13 @@ from gearlink.core.parts.gears.data import MAGNITUDES
 from gearlink.core.parts.gears.drawing_checks import FilletMeasure, fillet_measured, width_of_span
 from gearlink.core.parts.gears.drawing_names import PLACES
 from gearlink.core.parts.gears.from_spec import both
-from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs, PathsOfContact
-from gearlink.core.parts.gears.mesh.ring_sweep import InternalInterferences, RingPairs
-from gearlink.core.parts.gears.mesh.tip_corner_sweep import TipCorners
+from gearlink.core.parts.gears.mesh.pair_sweep import (
+    GearPairs,
+    InternalInterferences,
+    PathsOfContact,
+    RingPairs,
+    TipCorners,
+)
 
 _DOMAIN = {
     "module": (1e-6, 1e6, 1.0),

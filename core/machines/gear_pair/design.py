@@ -168,8 +168,7 @@ class GearPairDesign(GearQuantities, Design):
         """The mesh of a gear on a rack; None for two gears."""
         if not self.spec.rack:
             return None
-        from gearlink.core.parts.gears.rack.mesh import RackMesh
-        from gearlink.core.parts.gears.rack.rating import RackData
+        from gearlink.core.parts.gears.rack.mesh import RackData, RackMesh
 
         data = self.data
         assert isinstance(data, RackData)

@@ -18,14 +18,12 @@ from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.gears.checks import GEAR_CHECKS
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import Meshed
-from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
+from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.output_rates import OutputRates
-from gearlink.core.parts.linkages.standstills import Turning, turnings
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
 from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 

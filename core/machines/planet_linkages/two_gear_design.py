@@ -19,25 +19,22 @@ from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import Meshed
+from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.output_rates import OutputRates
-from gearlink.core.parts.linkages.standstills import BackStep, Turning
+from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
 from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.two_gear_frames import Family
     from gearlink.core.machines.planet_linkages.two_gear_spec import TwoGearFourBarSpec
-    from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
-    from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+    from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell
 
 
 def _motion_table(design: TwoGearFourBar, samples: int | None = None) -> Table:

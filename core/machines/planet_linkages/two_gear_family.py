@@ -22,8 +22,7 @@ from gearlink.core.machines.planet_linkages.two_gear_frames import (
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.parts.linkages import standstills
-from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
-from gearlink.core.parts.linkages.band_dwell import ToleranceDwell, Valley, least_band, longest_in_band
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, Valley, least_band, longest_in_band
 from gearlink.core.parts.linkages.standstills import BackStep, Turning
 
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens

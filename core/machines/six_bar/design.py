@@ -30,8 +30,7 @@ from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.parts.linkages.output_rates import OutputRates
-from gearlink.core.parts.linkages.standstills import Turning, standing
+from gearlink.core.parts.linkages.standstills import OutputRates, Turning, standing
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, seat_checks, shaft_checks
 from gearlink.core.studies.clearance.reach import Reach, constant, reaches

@@ -13,8 +13,12 @@ from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank, slider
-from gearlink.core.parts.linkages.slider_crank.quantities import SLIDER_QUANTITIES, SliderCrankQuantities
+from gearlink.core.parts.linkages.slider_crank.position import (
+    SLIDER_QUANTITIES,
+    SliderCrank,
+    SliderCrankQuantities,
+    slider,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.slider_crank.racks import RackDrive

@@ -22,9 +22,8 @@ from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
-from gearlink.core.parts.gears.train.meshed import Meshed, named
+from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, named, train_ways
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
-from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, train_ways
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check, window_judged
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults

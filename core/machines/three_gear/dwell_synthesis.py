@@ -25,8 +25,7 @@ from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.families import Family
-    from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
-    from gearlink.core.parts.linkages.band_dwell import Valley
+    from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, Valley
 
 MARGIN = 0.01
 PLAIN_TOLERANCE = 1.0
@@ -197,7 +196,7 @@ class DwellTask(FamilyTask):
 
     def _about_one_standstill(self, always: AlwaysStepping, train: GearTrain, refusal: NoSolution) -> float:
         """The frame, with the asked transmission angle if any; a request that all frames miss is refused."""
-        from gearlink.core.parts.linkages.always_stepping import flattest_of, keeping
+        from gearlink.core.parts.linkages.band_dwell import flattest_of, keeping
 
         self.searched = True
         b, c = (abs(sum(pair)) for pair in pairwise(self.radii(train.idler)))
@@ -292,7 +291,7 @@ def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
         0.455302
     """
     from gearlink.core.machines.three_gear.families import back_step_of
-    from gearlink.core.parts.linkages.always_stepping import AlwaysStepping
+    from gearlink.core.parts.linkages.band_dwell import AlwaysStepping
 
     if family.low is None or family.low != family.least or family.least == 0.0:
         return None

@@ -1,21 +1,331 @@
-"""Motion laws of cams: from rest to rest, and from rest to a constant speed."""
+"""Motion laws of cams: from rest to rest, and from rest to a constant speed.
+
+First half of the SCCA laws: sine, constant and cosine acceleration, then constant velocity.
+
+The first half of a symmetric motion law, and its mirror image.
+
+A symmetric law is known from its first half: a `Piece` gives the integral of the rise, the rise and its first
+derivatives up to the piece's end. The same code serves a float and a float64 array.
+"""
 
 from __future__ import annotations
 
 import difflib
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.numerics.roots import roots_on
-from gearlink.core.parts.cams.first_half import FirstHalf, Piece
 from gearlink.core.parts.cams.motion_law import Law as Law
-from gearlink.core.parts.cams.scca import scca
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from gearlink.core.parts.cams.shaped import Phase
+
+
+# (x, low, high) -> derivatives low..high, counted from -1: the integral of the rise, wanted where a velocity
+# follows the law.
+Piece: TypeAlias = Callable[[Any, int, int], tuple[Any, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class FirstHalf:
+    """The first half of a symmetric rest-to-rest law: its pieces with their ends, and its peak values.
+
+    Attributes
+        pieces : ((end, piece), ...) - ends ascending to 1/2; a piece serves x < end, the last one x = 1/2 too
+        peak_velocity, peak_acceleration, interior_jerk, peak_power : float - largest v, |a|, |j| (beside the
+            jumps of a) and v a
+        end_jumps, middle_jumps : bool - the acceleration is not zero at 0, or jumps before or at 1/2
+    """
+
+    pieces: tuple[tuple[float, Piece], ...]
+    peak_velocity: float
+    peak_acceleration: float
+    interior_jerk: float
+    peak_power: float
+    end_jumps: bool = False
+    middle_jumps: bool = False
+
+    def derivatives(self, x: Any, low: int, high: int) -> tuple[Any, ...]:
+        """Derivatives low to high over the whole law, its second half by s(x) = 1 - s(1 - x)."""
+        if not isinstance(x, float):
+            return self._of_array(x, low, high)
+        if x <= 0.5:
+            return self._piece_at(x)(x, low, high)
+        y = 1.0 - x
+        first = self._piece_at(y)(y, low, high)
+        return tuple(_mirrored(k, value, x) for k, value in enumerate(first, start=low))
+
+    def _piece_at(self, y: float) -> Piece:
+        for end, piece in self.pieces:
+            if y < end:
+                return piece
+        return self.pieces[-1][1]
+
+    def _of_array(self, x: NDArray[np.float64], low: int, high: int) -> tuple[NDArray[np.float64], ...]:
+        import numpy as np
+
+        upper = x > 0.5
+        y = np.where(upper, 1.0 - x, x)
+        first = _by_piece(self.pieces, y, low, high)
+        return tuple(np.where(upper, _mirrored(k, value, x), value) for k, value in enumerate(first, start=low))
+
+
+def _by_piece(
+    pieces: tuple[tuple[float, Piece], ...], y: NDArray[np.float64], low: int, high: int
+) -> tuple[NDArray[np.float64], ...]:
+    if len(pieces) == 1:
+        return pieces[0][1](y, low, high)
+    import numpy as np
+
+    index = np.searchsorted([end for end, _ in pieces[:-1]], y, side="right")
+    values = tuple(np.empty_like(y) for _ in range(high - low + 1))
+    for number, (_, piece) in enumerate(pieces):
+        here = index == number
+        if here.any():
+            for value, part in zip(values, piece(y[here], low, high), strict=True):
+                value[here] = part
+    return values
+
+
+def _mirrored(k: int, value: Any, x: Any) -> Any:
+    if k == -1:
+        return value + (x - 0.5)
+    if k == 0:
+        return 1.0 - value
+    return 0.0 - value if k % 2 == 0 else value
+
+
+_Parts: TypeAlias = tuple[Callable[[], Any], ...]
+
+
+def scca(a: float, b: float, c: float, d: float) -> FirstHalf:
+    """First half of the SCCA law with the shares a (sine), b (constant), c (cosine), d (no acceleration).
+
+    1/A = 2 [(a^2/pi)(1/2 - 1/pi) + a b/(2 pi) + b^2/8 + (a/pi + b/2) c/2 + c^2/pi^2 + ((a + c)/pi + b/2) d/2]
+
+    Parameters
+        a, b, c, d : float - shares of the whole rise, >= 0, sum 1 (to 1e-9; they are then divided by their sum)
+    Returns
+        first_half : FirstHalf - peak_velocity = A ((a + c)/pi + b/2), peak_acceleration = A
+    Raises
+        NoSolution - a negative share, a sum other than 1, or no acceleration at all (d = 1)
+    Notes
+        Each piece starts from the end where its rise is flat, so the rise keeps its relative accuracy near 0
+        and reaches 1/2 exactly in the middle. Cosine differences are written as squares of half-angle sines.
+    Example
+        >>> round(scca(0.25, 0.5, 0.25, 0.0).peak_acceleration, 12)
+        4.888123762813
+
+    Source
+        own derivation: the acceleration integrated piece by piece
+    """
+    a, b, c, d = _checked_shares(a, b, c, d)
+    peak = 0.5 / (
+        a * a / math.pi * (0.5 - 1.0 / math.pi)
+        + a * b / (2.0 * math.pi)
+        + b * b / 8.0
+        + (a / math.pi + b / 2.0) * c / 2.0
+        + (c / math.pi) ** 2
+        + ((a + c) / math.pi + b / 2.0) * d / 2.0
+    )
+    cruise = peak * ((a + c) / math.pi + b / 2.0)
+    before = peak * (a / math.pi + b / 2.0)
+    swings = [share for share in (a, c) if share > 0.0]
+    return FirstHalf(
+        pieces=_pieces(a, b, c, d, peak, cruise),
+        peak_velocity=cruise,
+        peak_acceleration=peak,
+        interior_jerk=peak * math.pi / min(swings) if swings else 0.0,
+        peak_power=_peak_power_scca(peak, before, peak * c / math.pi),
+        end_jumps=a == 0.0,
+        middle_jumps=c == 0.0,
+    )
+
+
+def _checked_shares(a: float, b: float, c: float, d: float) -> tuple[float, float, float, float]:
+    shares = (a, b, c, d)
+    if not all(share >= 0.0 for share in shares):
+        raise NoSolution(f"scca shares {list(shares)} must not be negative", fix="give four shares >= 0 with sum 1")
+    total = math.fsum(shares)
+    if not abs(total - 1.0) <= 1e-9:
+        raise NoSolution(
+            f"scca shares {list(shares)} sum to {total:.6g}, not 1", fix=f"change one by {1.0 - total:+.9g}"
+        )
+    if d >= 1.0:
+        raise NoSolution("scca share d = 1 leaves no time to accelerate", fix="keep d below 1 (0.2 to 0.5 is usual)")
+    return a / total, b / total, c / total, d / total
+
+
+def _peak_power_scca(peak: float, before: float, gain: float) -> float:
+    # v a grows up to the cosine piece, where v = before + gain sin(z) and a = peak cos(z).
+    sine = 2.0 * gain / (before + math.sqrt(before * before + 8.0 * gain * gain))
+    return peak * math.sqrt((1.0 - sine) * (1.0 + sine)) * (before + gain * sine)
+
+
+def _pieces(a: float, b: float, c: float, d: float, peak: float, cruise: float) -> tuple[tuple[float, Piece], ...]:
+    end_sine, end_constant, end_cosine = a / 2.0, (a + b) / 2.0, (1.0 - d) / 2.0
+    found: list[tuple[float, Piece]] = []
+    start = (0.0, 0.0, 0.0)
+    if a > 0.0:
+        found.append((end_sine, _sine_piece(a, peak)))
+        r = a / math.pi
+        start = (
+            peak * r**3 * (math.pi**2 / 8.0 - 1.0),
+            peak * r * r * (math.pi / 2.0 - 1.0),
+            peak * r,
+        )
+    if b > 0.0:
+        constant = _parabola(end_sine, (*start, peak))
+        found.append((end_constant, constant))
+        start = constant(end_constant, -1, 1)
+    rise_cosine = 0.5 - cruise * d / 2.0
+    area_cosine = start[0]
+    if c > 0.0:
+        if end_constant == 0.0:
+            found.append((c / 4.0, _harmonic_piece(c, peak)))
+        w, r = c / 2.0, c / math.pi
+        area_cosine += rise_cosine * w - cruise * w * w / 2.0 + peak * r**3 * (math.pi**2 / 8.0 - 1.0)
+        found.append((end_cosine, _cosine_piece(c, peak, end_cosine, area_cosine, rise_cosine, cruise)))
+    if d > 0.0 or c == 0.0:
+        # Measured from the middle, so that the rise is 1/2 there to the last bit.
+        area_middle = area_cosine + d / 4.0 - cruise * d * d / 8.0
+        found.append((0.5, _parabola(0.5, (area_middle, 0.5, cruise, 0.0 if d > 0.0 else peak))))
+    return tuple(found)
+
+
+def _asked(parts: _Parts, low: int, high: int) -> tuple[Any, ...]:
+    return tuple(part() for part in parts[low + 1 : high + 2])
+
+
+def _sine_piece(a: float, peak: float) -> Piece:
+    r = a / math.pi
+
+    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        z = x / r
+        half = _sin(0.5 * z)
+        parts: _Parts = (
+            lambda: peak * r**3 * _square_excess(z),
+            lambda: peak * r * r * _sine_defect(z),
+            lambda: 2.0 * peak * r * half * half,
+            lambda: peak * _sin(z),
+            lambda: peak / r * (1.0 - 2.0 * half * half),
+        )
+        return _asked(parts, low, high)
+
+    return piece
+
+
+def _parabola(origin: float, at_origin: tuple[float, float, float, float]) -> Piece:
+    area, rise, velocity, acceleration = at_origin
+
+    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        t = x - origin
+        parts: _Parts = (
+            lambda: area + t * (rise + t * (0.5 * velocity + t * (acceleration / 6.0))),
+            lambda: rise + t * (velocity + t * (0.5 * acceleration)),
+            lambda: velocity + t * acceleration,
+            lambda: acceleration + 0.0 * t,
+            lambda: 0.0 * t + 0.0,
+        )
+        return _asked(parts, low, high)
+
+    return piece
+
+
+def _harmonic_piece(c: float, peak: float) -> Piece:
+    r = c / math.pi
+
+    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        z = x / r
+        half = _sin(0.5 * z)
+        parts: _Parts = (
+            lambda: peak * r**3 * _sine_defect(z),
+            lambda: 2.0 * peak * r * r * half * half,
+            lambda: peak * r * _sin(z),
+            lambda: peak * (1.0 - 2.0 * half * half),
+            lambda: -peak / r * _sin(z),
+        )
+        return _asked(parts, low, high)
+
+    return piece
+
+
+def _cosine_piece(c: float, peak: float, end: float, area: float, rise: float, velocity: float) -> Piece:
+    r = c / math.pi
+
+    def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
+        w = end - x
+        z = w / r
+        half = _sin(0.5 * z)
+        parts: _Parts = (
+            lambda: area - w * (rise - 0.5 * velocity * w) - peak * r**3 * _square_excess(z),
+            lambda: rise - velocity * w + peak * r * r * _sine_defect(z),
+            lambda: velocity - 2.0 * peak * r * half * half,
+            lambda: peak * _sin(z),
+            lambda: -peak / r * (1.0 - 2.0 * half * half),
+        )
+        return _asked(parts, low, high)
+
+    return piece
+
+
+def _sin(x: Any) -> Any:
+    """Sine of a float (by math) or of an array (by numpy, imported only then)."""
+    if isinstance(x, float):
+        return math.sin(x)
+    import numpy as np
+
+    return np.sin(x)
+
+
+def _sine_defect(z: Any) -> Any:
+    """z - sin z without cancellation."""
+    return _near_zero(
+        z, 1.0, lambda z: z**3 / 6.0, (20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0), lambda z: z - _sin(z)
+    )
+
+
+def _square_excess(z: Any) -> Any:
+    """z^2/2 - 1 + cos z without cancellation."""
+    return _near_zero(
+        z,
+        1.0,
+        lambda z: z**4 / 24.0,
+        (30.0, 56.0, 90.0, 132.0, 182.0, 240.0, 306.0),
+        lambda z: 0.5 * z * z - 2.0 * _sin(0.5 * z) ** 2,
+    )
+
+
+def _near_zero(
+    z: Any,
+    limit: float,
+    leading: Callable[[Any], Any],
+    divisors: tuple[float, ...],
+    direct: Callable[[Any], Any],
+) -> Any:
+    def series(z: Any) -> Any:
+        y = z * z
+        value = 1.0 - y / divisors[-1]
+        for divisor in reversed(divisors[:-1]):
+            value = 1.0 - y / divisor * value
+        return leading(z) * value
+
+    if isinstance(z, float):
+        return series(z) if z < limit else direct(z)
+    import numpy as np
+
+    near = z < limit
+    if not near.any():
+        return direct(z)
+    return series(z) if near.all() else np.where(near, series(np.minimum(z, limit)), direct(z))
+
 
 # First halves of the polynomial laws, with closed forms of their peaks
 

@@ -23,7 +23,7 @@ from gearlink.core.parts.gears.drawing_names import GEARS, Roles
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.pair import GearPair
-    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
 
 class GearQuantities:

@@ -20,7 +20,7 @@ from gearlink.core.parts.gears.tooth.tools import RackTool
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.measures.backlash import Backlash
-    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
     from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated
     from gearlink.core.parts.gears.rating.true_root import TrueRoot
@@ -98,7 +98,7 @@ class GearData:
         """The interferences of a pinion in a ring; None for an external pair."""
         if not self.pair.internal:
             return None
-        from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+        from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
         return InternalInterference(self.pair)
 

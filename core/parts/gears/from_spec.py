@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.keys.material import MaterialSpec
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
-    from gearlink.core.parts.gears.rack.rating import RackData
+    from gearlink.core.parts.gears.rack.mesh import RackData, RackMesh
     from gearlink.core.parts.gears.rating.conditions import Conditions
 
 _MOST_SHIFT = 5.0
@@ -218,7 +217,7 @@ def required_of(limits: Any) -> Required:
 
 
 def _rack_data() -> type[RackData]:
-    from gearlink.core.parts.gears.rack.rating import RackData
+    from gearlink.core.parts.gears.rack.mesh import RackData
 
     return RackData
 

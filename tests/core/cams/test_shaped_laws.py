@@ -25,8 +25,7 @@ from scipy.optimize import linprog
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics import bernstein
 from gearlink.core.parts.cams.laws import Law, law
-from gearlink.core.parts.cams.least_torque import least_torque
-from gearlink.core.parts.cams.optimal import Optimum, Wish, bound_of_all_laws, greatest_residual, optimum
+from gearlink.core.parts.cams.optimal import Optimum, Wish, bound_of_all_laws, greatest_residual, least_torque, optimum
 from gearlink.core.parts.cams.shaped import ASSUMED_DAMPING, Drive, Phase, polydyne, residuals, shaped_law
 from gearlink.core.studies.loads import vibration
 

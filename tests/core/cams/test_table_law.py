@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.cams.laws import law
-from gearlink.core.parts.cams.shaped import Phase
-from gearlink.core.parts.cams.table_law import TableSpline
+from gearlink.core.parts.cams.shaped import Phase, TableSpline
 
 GRID = np.linspace(0.0, 1.0, 501)
 

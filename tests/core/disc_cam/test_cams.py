@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.cams import least_cam
+from gearlink.core.parts.cams import size
 from gearlink.core.parts.cams.follower_motion import motion_of
 from gearlink.core.parts.cams.motion_spec import Segment
 
@@ -199,7 +199,7 @@ def test_start_angles_of_a_rocker_by_trying_all(swing: float) -> None:
     """A fast stroke towards the cam's motion asks for more than any start angle gives: c cos(alpha) < -f."""
     segments = [Segment(to=60.0, lift=swing), Segment(to=360.0, lift=0.0)]
     motion, limit = motion_of(segments, unit=math.radians(1.0)), math.radians(40.0)
-    rocker = least_cam.Rocking(motion, 60.0, 70.0, 1, -1)
+    rocker = size.Rocking(motion, 60.0, 70.0, 1, -1)
     phi, start = np.linspace(0.0, 2.0 * math.pi, 1441), np.linspace(0.005, math.pi - 0.005, 2001)
     s, s1 = motion.evaluate(phi, 1)
     psi = start[:, None] + s

@@ -21,13 +21,13 @@ from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.measures.backlash import MeshPlay
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
 from gearlink.core.parts.gears.rating.flank_strength import FlankStrength
 from gearlink.core.parts.gears.rating.load import Load, Material
-from gearlink.core.parts.gears.rating.root_strength import RootSection
+from gearlink.core.parts.gears.rating.root_stress import RootSection
 from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 from gearlink.core.parts.gears.tooth.tools import RackTool
 

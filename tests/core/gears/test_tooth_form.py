@@ -14,7 +14,7 @@ from factory import design
 from gearlink.core.base.spec import GearLimits
 from gearlink.core.parts.gears.checks import gear_check
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
 ANGLE = math.radians(20.0)
 WIDEST = math.pi / (4.0 * math.tan(ANGLE))

@@ -23,7 +23,7 @@ from gearlink.core.machines.planet_linkages.two_gear_frames import Family
 from gearlink.core.machines.three_gear.dwell_synthesis import always_stepping as three_gear_frames
 from gearlink.core.machines.three_gear.families import with_crank
 from gearlink.core.machines.three_gear.motion import GearTrain
-from gearlink.core.parts.linkages.always_stepping import AlwaysStepping, keeping
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, keeping
 
 STEP = 0.5  # deg
 GRID = np.radians(np.arange(0.0, 720.0, STEP))

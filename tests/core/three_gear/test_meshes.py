@@ -17,7 +17,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell import ByRoots
 from gearlink.core.machines.three_gear.samples import ThreeGearSamples
 from gearlink.core.parts.gears.data import PLACES
-from gearlink.core.parts.gears.train.ways import TRAIN_QUANTITIES
+from gearlink.core.parts.gears.train.meshed import TRAIN_QUANTITIES
 
 GEARS = {"module": 2.5, "crank": 24, "idler": 28, "output": 60}
 DRAWN = {

@@ -14,7 +14,7 @@ from factory import design
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.uniform import window_of_family
-from gearlink.core.parts.linkages.front_lay import gentlest
+from gearlink.core.parts.linkages.feed import gentlest
 from gearlink.core.parts.linkages.standstills import Turning
 
 FEED: dict[str, Any] = {

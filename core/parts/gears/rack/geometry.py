@@ -24,7 +24,7 @@ class RackGeometry:
     Returns
         Properties: points in mm, angles in rad.
     Example
-        >>> from gearlink.core.parts.gears.rack.rating import RackData
+        >>> from gearlink.core.parts.gears.rack.mesh import RackData
         >>> from gearlink.core.parts.gears.mesh.pair import GearPair
         >>> mesh = RackGeometry(RackMesh(RackData(pair=GearPair.from_shift(2.0, (20, 10_000)))))
         >>> round(abs(mesh.contact_end - mesh.contact_start) / mesh.base_pitch - mesh.rack.contact_ratio, 12)

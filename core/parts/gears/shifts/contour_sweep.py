@@ -14,11 +14,14 @@ from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.gears.checks import FILLET_NOISE
 from gearlink.core.parts.gears.data import GearData
-from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs, PathsOfContact
-from gearlink.core.parts.gears.mesh.ring_sweep import InternalInterferences, RingPairs
-from gearlink.core.parts.gears.mesh.tip_corner_sweep import TipCorners
-from gearlink.core.parts.gears.rating.root_strength import RootSection
-from gearlink.core.parts.gears.rating.root_stress import RootStress
+from gearlink.core.parts.gears.mesh.pair_sweep import (
+    GearPairs,
+    InternalInterferences,
+    PathsOfContact,
+    RingPairs,
+    TipCorners,
+)
+from gearlink.core.parts.gears.rating.root_stress import RootSection, RootStress
 from gearlink.core.parts.gears.shifts.candidates import strengths
 from gearlink.core.parts.gears.shifts.contour_lines import Line
 

@@ -2,6 +2,8 @@
 
 A design with one mesh gives its quantities by their plain names, one with several puts the name of the mesh before
 them, `crank_idler.span_measurement`.
+
+What every mesh inside a machine gives: quantities, checks, and the ways to change a file where one fails.
 """
 
 from __future__ import annotations
@@ -12,11 +14,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
+from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity
-from gearlink.core.parts.gears.codes import AT_LIMITS
-from gearlink.core.parts.gears.drawing_names import DERIVED, GEARS, RATING, Roles, lacking
+from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity, gear_ways
+from gearlink.core.parts.gears.codes import AT_LIMITS, BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, GEARS, PLACES, RATING, Roles, lacking
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.single_mesh import (
     MESH_CHECKS,
@@ -25,7 +28,6 @@ from gearlink.core.parts.gears.train.single_mesh import (
     mesh_checks,
     mesh_quantity,
 )
-from gearlink.core.parts.gears.train.ways import TRAIN_CHECKS, TRAIN_QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -33,6 +35,49 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.data import GearData
     from gearlink.core.parts.gears.rating.load import Required
     from gearlink.core.parts.gears.train.meshes import Place, Train
+
+
+_OF_EVERY_MESH = "tip_fouling_margin"
+TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
+TRAIN_CHECKS = tuple(name for name in DRAWING_CHECKS if name != TIP_FOULING.name)
+
+
+_THINNER = -0.005
+
+
+def train_ways(gears: int, *teeth: Way) -> dict[str, tuple[Way, ...]]:
+    """Ways for every check of a mesh: shifts and tools where the file gives them, teeth, lower teeth last.
+
+    Parameters
+        gears : int - as many entries have the lists of the section
+        teeth : the ways to more teeth
+    """
+    shifts = [f"gears.profile_shift[{i}]" for i in range(gears)]
+    moved = (
+        *(way for i in range(gears - 1) for way in shared(shifts[i], shifts[i + 1], step=0.01)),
+        *either(*shifts, step=0.01),
+    )
+    lower = down("gears.addendum", step=0.01)
+    ways = {name: (*moved, *others, lower) for name, others in gear_ways(*teeth).items()}
+    wider = (
+        up("gears.face_width", step=1.0),
+        up(*(f"gears.face_width[{i}]" for i in range(gears)), step=1.0),
+        modules("gears.module")[0],
+    )
+    thinner = tuple(
+        Way((f"gears.allowances.upper[{i}]", f"gears.allowances.lower[{i}]"), _THINNER) for i in range(gears)
+    )
+    fewer = tuple(Way(way.keys, -way.step, way.tie) for way in teeth)
+    return ways | {
+        ROOT_CLEARANCE.name: (up("gears.clearance", step=0.01), up("gears.tool.addendum", step=0.01)),
+        FILLET.name: (down("gears.tool.rounding", step=0.01), *moved, *teeth, lower),
+        BACKLASH.name: (*thinner, down("gears.center_distance_allowance", step=0.001), *moved),
+        **dict.fromkeys(AT_LIMITS, (down("gears.center_distance_allowance", step=0.001), *moved)),
+        TIP_FOULING.checks[1]: (*moved, *teeth, *fewer, lower),
+        PITTING.name: (*wider, *moved, *teeth),
+        BENDING.name: (*wider, up("gears.tool.rounding", step=0.01), *moved, *teeth),
+    }
+
 
 QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
 _OF_MESHES, _OF_PAIRS = frozenset(QUANTITIES), frozenset(MESH_QUANTITIES)

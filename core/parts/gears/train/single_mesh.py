@@ -17,11 +17,10 @@ from gearlink.core.parts.gears.checks import (
 )
 from gearlink.core.parts.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
 from gearlink.core.parts.gears.drawing_names import GEARS, Roles
-from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pair_limits import least_ring
+from gearlink.core.parts.gears.mesh.pair import GearPair, least_ring
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
 MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
 RING_TIPS = FILLET.checks[1]
@@ -43,7 +42,7 @@ def mesh_quantity(mesh: GearPair, name: str) -> Any:
 
 
 def _interference(mesh: GearPair) -> InternalInterference:
-    from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 
     return InternalInterference(mesh)
 

@@ -2,6 +2,8 @@
 
 Frame: crank pivot D = (0, 0), crank pin E = r (cos psi, sin psi), slider F below on the line x = -e (the offset e
 is positive where the line passes to the left of D); the depth of the slider is h = -y_F.
+
+Quantities of a slider-crank that machines with one have.
 """
 
 from __future__ import annotations
@@ -10,10 +12,23 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.elementary import SCALARS, Elementary
+
+SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
+
+
+class SliderCrankQuantities:
+    """Quantities of a design that has a `slider_crank`."""
+
+    crank_length: float = placed("slider_crank.crank_length")
+    quick_return_ratio: float = placed("slider_crank.quick_return_ratio")
+    dead_center_extended: float = placed("slider_crank.dead_center_extended")
+    dead_center_folded: float = placed("slider_crank.dead_center_folded")
+    max_stroke: float = placed("slider_crank.max_stroke")
 
 
 def max_stroke(rod: float, offset: float = 0.0) -> float:

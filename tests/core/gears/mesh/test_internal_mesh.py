@@ -12,7 +12,7 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.ring_interference import InternalInterference
+from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
 from gearlink.core.parts.gears.tooth.involute import involute
 
 

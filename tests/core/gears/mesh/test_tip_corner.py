@@ -16,9 +16,8 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Points
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs
+from gearlink.core.parts.gears.mesh.pair_sweep import GearPairs, TipCorners
 from gearlink.core.parts.gears.mesh.tip_corner import TipCorner
-from gearlink.core.parts.gears.mesh.tip_corner_sweep import TipCorners
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile

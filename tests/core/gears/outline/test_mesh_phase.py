@@ -13,8 +13,7 @@ import pytest
 from matplotlib.path import Path
 
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.parts.gears.outline.mesh_phase import driven_turn, ring_turn
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry, driven_turn, ring_turn
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
 

@@ -12,9 +12,7 @@ import gearlink
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.rack.geometry import RackGeometry
-from gearlink.core.parts.gears.rack.mesh import RackMesh
-from gearlink.core.parts.gears.rack.rating import RackData
-from gearlink.core.parts.gears.rack.tip_corner import CornerInRack
+from gearlink.core.parts.gears.rack.mesh import CornerInRack, RackData, RackMesh
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 

@@ -19,11 +19,9 @@ from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.measures.iso_1328 import ToothTolerances
-from gearlink.core.parts.gears.rating.conditions import Point
-from gearlink.core.parts.gears.rating.fatigue import LimitLine, damage, limit_line, safety_of
-from gearlink.core.parts.gears.rating.load_factors import dynamic_constants, run_in
+from gearlink.core.parts.gears.rating.conditions import LimitLine, Point, damage, limit_line, safety_of
 from gearlink.core.parts.gears.rating.materials import CLASSES, STEELS, Endurance, gear_steel
-from gearlink.core.parts.gears.rating.rated import size_factor, slip_layer, surface_factor
+from gearlink.core.parts.gears.rating.rated import dynamic_constants, run_in, size_factor, slip_layer, surface_factor
 from gearlink.core.parts.gears.rating.scuffing import contact_ratio_factor
 
 PAIR: dict[str, Any] = {

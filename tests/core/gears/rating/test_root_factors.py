@@ -12,8 +12,7 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.parts.gears.rating.root_strength import RootSection
-from gearlink.core.parts.gears.rating.root_stress import deep_tooth_factor, rim_factor
+from gearlink.core.parts.gears.rating.root_stress import RootSection, deep_tooth_factor, rim_factor
 
 LOADED: dict[str, Any] = {
     "kind": "gear-pair",

@@ -18,10 +18,8 @@ from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
-from gearlink.core.parts.gears.outline import root_contour
-from gearlink.core.parts.gears.outline.root_contour import RootContour
-from gearlink.core.parts.gears.rating.plane_stress import HalfContour, panels
-from gearlink.core.parts.gears.rating.true_root import TrueRoot
+from gearlink.core.parts.gears.rating import true_root
+from gearlink.core.parts.gears.rating.true_root import HalfContour, RootContour, TrueRoot, panels
 from gearlink.core.parts.gears.tooth.tools import PinionCutter
 
 PAIR: dict[str, Any] = {
@@ -136,9 +134,9 @@ def test_the_factor_of_another_program(keys: dict[str, Any], gear: int, referenc
 def test_shorter_panels_change_little(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     coarse = made(**RINGS[name]).data.true_roots[1].tension.factor
     for places in ("_FILLET", "_LAND", "_FLANK"):
-        given_places = getattr(root_contour, places)
+        given_places = getattr(true_root, places)
         halves = sorted({*given_places, *(0.5 * (a + b) for a, b in pairwise(given_places))})
-        monkeypatch.setattr(root_contour, places, tuple(halves))
+        monkeypatch.setattr(true_root, places, tuple(halves))
     assert made(**RINGS[name]).data.true_roots[1].tension.factor == pytest.approx(coarse, rel=0.01)
 
 
