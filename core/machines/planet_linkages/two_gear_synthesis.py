@@ -17,7 +17,13 @@ from gearlink.core.machines.planet_linkages.two_gear_frames import (
     momentary_frame,
 )
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, flattest_of, keeping
+from gearlink.core.parts.linkages.band_dwell import (
+    AlwaysStepping,
+    ToleranceDwell,
+    flattest_of,
+    keeping,
+    least_band,
+)
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 
 _MARGIN = 0.01

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
-from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up
+from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up, wider
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity, gear_ways
@@ -59,9 +59,9 @@ def train_ways(gears: int, *teeth: Way) -> dict[str, tuple[Way, ...]]:
     )
     lower = down("gears.addendum", step=0.01)
     ways = {name: (*moved, *others, lower) for name, others in gear_ways(*teeth).items()}
-    wider = (
-        up("gears.face_width", step=1.0),
-        up(*(f"gears.face_width[{i}]" for i in range(gears)), step=1.0),
+    stronger = (
+        wider("gears.face_width"),
+        wider(*(f"gears.face_width[{i}]" for i in range(gears))),
         modules("gears.module")[0],
     )
     thinner = tuple(
@@ -74,8 +74,8 @@ def train_ways(gears: int, *teeth: Way) -> dict[str, tuple[Way, ...]]:
         BACKLASH.name: (*thinner, down("gears.center_distance_allowance", step=0.001), *moved),
         **dict.fromkeys(AT_LIMITS, (down("gears.center_distance_allowance", step=0.001), *moved)),
         TIP_FOULING.checks[1]: (*moved, *teeth, *fewer, lower),
-        PITTING.name: (*wider, *moved, *teeth),
-        BENDING.name: (*wider, up("gears.tool.rounding", step=0.01), *moved, *teeth),
+        PITTING.name: (*stronger, *moved, *teeth),
+        BENDING.name: (*stronger, up("gears.tool.rounding", step=0.01), *moved, *teeth),
     }
 
 
