@@ -39,6 +39,7 @@ def rows_of(name: str, command: str = "analyze") -> list[dict[str, Any]]:
     return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("name", "command", "keys", "quantity"),
     CASES,
@@ -54,6 +55,7 @@ def test_rows_are_designs_of_their_own(name: str, command: str, keys: dict[str, 
         assert row[quantity] == own.quantity(quantity).value
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "command"), [(case[0], case[1]) for case in CASES])
 def test_the_own_design_is_among_them(name: str, command: str) -> None:
     found, own = rows_of(name, command), design(name, command=command)
@@ -63,6 +65,7 @@ def test_the_own_design_is_among_them(name: str, command: str) -> None:
     assert same, "the file as it stands"
 
 
+@pytest.mark.slow
 def test_the_rods_of_every_rule() -> None:
     found = {row["rod"]: row for row in rows_of("hypocycloid_slider")}
     assert {"tangent-circle", "osculating", "minimax", "least-ripple"} <= set(found)

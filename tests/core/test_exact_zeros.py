@@ -20,6 +20,7 @@ SWINGS = (
 )
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", SWINGS)
 def test_a_rocker_stands_still_at_the_ends_of_its_swing(name: str) -> None:
     motion = design(name)
@@ -28,6 +29,7 @@ def test_a_rocker_stands_still_at_the_ends_of_its_swing(name: str) -> None:
     assert motion.quantity("rocker_speed_max").value > 1.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["loaded_swing_slider", "loaded_wide_swing", "loaded_swing_cycle"])
 def test_a_rocker_that_stands_still_has_no_inertia_for_its_cam(name: str) -> None:
     assert design(name, command="loads").quantity("reflected_inertia_min").value == 0.0

@@ -200,6 +200,7 @@ def test_a_kind_without_shifts_hears_nothing_of_them(gearlink: Any, tmp_path: An
     assert "shift" not in " ".join(check["fix"] for check in ended.json["checks"] if check["status"] == "fail")
 
 
+@pytest.mark.slow
 def test_cams_that_a_remedy_makes_possible_keep_their_own_checks() -> None:
     """Before it they are refused, so that nothing of theirs failed: one that then comes into its shaft is no remedy."""
     rollers = {"roller": {"arm": 190.7, "angle": 35.4, "radius": 12}, "return_roller": {"arm": 178.9, "angle": 70.4}}
@@ -253,6 +254,7 @@ def spec_of(name: str, **keys: Any) -> Any:
     return KINDS[data["kind"]].spec_model().model_validate(data)
 
 
+@pytest.mark.slow
 def test_a_remedy_breaks_no_command_that_another_class_serves() -> None:
     """The spring that keeps the roller on its cam presses the other one beyond what the file's loads allow."""
     made = KINDS["swing-gripper"].design(
@@ -367,6 +369,7 @@ def test_a_change_of_what_is_asked_for_comes_last_and_says_so() -> None:
     assert check.remedy[0][0] == "rod"
 
 
+@pytest.mark.slow
 def test_no_part_greater_than_the_machine() -> None:
     """A pressure angle of a degree asks for cams of metres."""
     for limit, radius in ((5.0, 245.3), (1.0, None)):
@@ -375,6 +378,7 @@ def test_no_part_greater_than_the_machine() -> None:
         assert ("set cam.base_radius" in check.fix) is (radius is not None)
 
 
+@pytest.mark.slow
 def test_teeth_move_between_the_gears_of_a_six_bar() -> None:
     """The link under them keeps its length."""
     data = factory.worked("geared_six_bar")

@@ -90,6 +90,7 @@ def test_pressure_angle_by_the_force_in_the_groove(data: dict[str, Any], on: str
         assert np.tan(found.groove.pressure_angle(INSIDE)) == pytest.approx(tangent, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_extremes_are_those_of_fine_rows() -> None:
     found = design(GEAR)
     theta = np.radians(np.linspace(0.0, 360.0, 36_001))[:-1]

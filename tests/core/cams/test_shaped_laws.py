@@ -63,6 +63,7 @@ def test_end_values_are_met(values: list[float], form: str) -> None:
     assert found.derivatives(1.0, 0, count - 1) == pytest.approx(end, abs=1e-11 * size)
 
 
+@pytest.mark.slow
 @given(st.lists(SMALL, min_size=6, max_size=6), st.sampled_from(["polynomial", "harmonic"]))
 @settings(max_examples=8, deadline=None)
 def test_derivatives_integrate_and_peaks_bound(values: list[float], form: str) -> None:
@@ -167,6 +168,7 @@ SIMULATED: list[tuple[Any, float, float]] = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("definition", "periods", "damping"), SIMULATED, ids=lambda each: str(each)[:40])
 def test_residuals_are_those_of_a_simulated_follower(definition: Any, periods: float, damping: float) -> None:
     found = law(definition)
@@ -219,6 +221,7 @@ def test_residuals_are_those_of_the_loads() -> None:
 # Optimal laws
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("wish", "value", "lower"), WISHES, ids=lambda each: str(each)[:60])
 def test_optimal_laws_against_a_programme_of_fixed_places(wish: Wish, value: float, lower: float) -> None:
     found = optimum(wish)
@@ -273,6 +276,7 @@ def test_optimal_laws_against_another_programme(wish: Wish) -> None:
     assert programme_of_scipy(wish) <= found.value * (1.0 + 1e-6)
 
 
+@pytest.mark.slow
 def test_nothing_is_gained_by_asymmetry() -> None:
     for wish in (WISHES[0][0], WISHES[3][0]._replace(degree=11), WISHES[5][0]._replace(degree=11)):
         both = optimum(wish._replace(symmetric=False)), optimum(wish)
@@ -316,6 +320,7 @@ def test_limits_that_no_law_keeps() -> None:
     assert refused({"type": "nothing"}) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wish", "least"),
     [

@@ -197,6 +197,7 @@ def test_radius_named_in_place_of_a_bare_axis_passes() -> None:
     assert design(EXAMPLE_3, shafts={"input_radius": radius}).check("shaft-clearance")[0].status == "pass"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("limit", [0.0, 3.3])
 def test_frame_that_is_named_parts_input_and_output_gear(limit: float) -> None:
     found = design(IDLER, limits__gear_gap=limit).findings("analyze", "gear-collision")

@@ -96,6 +96,7 @@ def test_greatest_forces_are_those_of_fine_rows() -> None:
     assert design(GIVEN, **FRICTION, uneven=1.5).pin_force_max == pytest.approx(1.5 * found.pin_force_max, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_backlash_is_where_the_ground_disc_meets_a_pin() -> None:
     """By the distance of the ground profile from every pin, the disc turned to and fro."""
     many = design(GIVEN, pins=40, eccentricity=0.9, pin_radius=2.0, modification={"offset": 0.01, "pin_circle": -0.02})

@@ -35,6 +35,7 @@ def slopes(one: Any, x: float, side: int, h: float = 1e-5) -> tuple[np.ndarray, 
     return (ahead - back) / (2.0 * h), (out - inside) / 2e-4
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("x", [48.0, 60.0])

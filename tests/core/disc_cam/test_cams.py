@@ -43,6 +43,7 @@ def radius_by_differences(points: Any, phi: np.ndarray, h: float = 1e-4) -> np.n
     return np.abs(d1) ** 3 / (np.conj(d1) * d2).imag
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("rocks", [False, True])
@@ -83,6 +84,7 @@ def test_published_flat_cam() -> None:
     assert design.max_pressure_angle == 0.0
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("limits", [30, [25, 45], [50, 20]])
 @pytest.mark.parametrize("offset", [0, 7.5, "best"])
@@ -194,6 +196,7 @@ def test_cams_that_cannot_be_say_at_which_key(key: str, follower: dict[str, Any]
     assert refused.value.key == key
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("swing", [170.0, 40.0])
 def test_start_angles_of_a_rocker_by_trying_all(swing: float) -> None:
     """A fast stroke towards the cam's motion asks for more than any start angle gives: c cos(alpha) < -f."""
@@ -241,6 +244,7 @@ CONJUGATE = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", list(CONJUGATE))
 def test_a_conjugate_pair_is_sized_by_both_rollers(name: str) -> None:
     """Each cam keeps the pressure angle and 0.8 of its own curvature radius; one of them stands at a limit."""

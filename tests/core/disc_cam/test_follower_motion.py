@@ -40,6 +40,7 @@ def holds_derivatives(motion: FollowerMotion) -> None:
         assert slope == pytest.approx(at[order + 1], abs=1e-6 * (1.0 + np.abs(at[order + 1]).max()))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_derivatives_of_laws(law: Any) -> None:
     motion = made({"to": 100, "lift": 20, "law": law}, {"to": 150}, {"to": 360, "lift": 0, "law": law})

@@ -41,6 +41,7 @@ def test_the_arm_points_at_the_point(n: float, share: float) -> None:
         assert np.abs((there - back) / (2.0 * h) - turn[k + 1]).max() < 1e-4 * scale
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("ratio", [0.7, 1.0, 1.02, 1.15, 1.5])
 @pytest.mark.parametrize("tolerance", [0.1, 0.5, 3.0])
 def test_windows_are_those_of_a_sliding_window(ratio: float, tolerance: float) -> None:

@@ -237,6 +237,7 @@ def test_conditions_that_are_written_in_another_way(where: str, helps: str) -> N
     assert caught.value.faults[0].help == helps
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("base", "command", "path", "values", "code"),
     [
@@ -325,6 +326,7 @@ _NEW_CHECKS = {
 }
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("code", ["GL399", "GL303"])
 @pytest.mark.parametrize("kind", _NEW_CHECKS)
 def test_a_check_that_no_array_form_knows_is_judged_by_the_class(

@@ -58,6 +58,7 @@ def garbage() -> Iterator[list[Any]]:
     gc.enable()
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", STUDIES)
 def test_no_array_of_a_chunk_waits_for_the_collector(name: str, garbage: list[Any]) -> None:
     base, command, variables, quantity = STUDIES[name]

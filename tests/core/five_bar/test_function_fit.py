@@ -89,6 +89,7 @@ def best() -> Any:
     return design("five_bar_function")
 
 
+@pytest.mark.slow
 def test_found_links_keep_what_they_promise(best: Any) -> None:
     fit = best.function_fit
     assert best.structural_error == pytest.approx(by_hand(fit.bar, fit.start, best.wanted, 2001), rel=1e-4)
@@ -220,6 +221,7 @@ def test_given_links_are_judged() -> None:
     assert made.starts_tried is None
 
 
+@pytest.mark.slow
 def test_search_without_a_result_is_refused_with_the_key() -> None:
     keys = {"target__function__output_swing": 350, "target__function__input_swing": 20}
     made = design("five_bar_function", limits__transmission_angle=85, **keys)

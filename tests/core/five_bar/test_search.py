@@ -95,7 +95,7 @@ def test_descent_reaches_a_path_that_exists():
     assert cost[0] < 1e-24
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("bar", BARS)
 def test_distance_is_that_of_the_nearest_branch(bar):
     """Points all about a path that crosses itself; the nearest place of a grid may lie on the wrong branch."""
@@ -130,6 +130,7 @@ def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known)
     assert (again.bar, again.offset) == (fit.bar, fit.offset)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("ratio", mostly_slow([Fraction(2), Fraction(-1, 2), Fraction(-3)], 2))
 def test_a_path_that_exists_is_found_whatever_the_ratio(ratio):
     true = PathFiveBar(17.0, 66.0, 60.0, 14.0, 50.0, ratio, math.radians(40.0))

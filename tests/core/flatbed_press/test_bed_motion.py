@@ -140,6 +140,7 @@ def test_positions_keep_the_chain_and_have_the_bed_besides() -> None:
     assert np.array_equal(chains["bed_acceleration"], bed.second * made.input_speed**2)
 
 
+@pytest.mark.slow
 def test_of_a_bed_whose_cam_cannot_be_nothing_is_said() -> None:
     made = factory.design("ty460", cam__transition_end=100.0)
     assert not made.bed_moves

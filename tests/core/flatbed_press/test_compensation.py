@@ -132,7 +132,7 @@ def derivatives(function, place):
     return [function(mp.mpf(place)), mp.diff(function, place), mp.diff(function, place, 2)]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ZONES)
 def test_zone_by_numerical_derivatives_over_the_cam_angle(name):
     lift = of(name, lead_in=10.0)
@@ -150,7 +150,7 @@ def zone_end_conditions(name, lift):
         return [mp.mpf(v) for v in derivatives(exact_zone(name, lift), mp.mpf(lift.cam_sync_end))]
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("start", [None, 45.0])
 @pytest.mark.parametrize("name", ZONES)
 def test_lead_in_is_the_polynomial_from_rest_that_meets_the_zone(name, start):
@@ -170,7 +170,7 @@ def test_lead_in_is_the_polynomial_from_rest_that_meets_the_zone(name, start):
         close(segment.lift(theta, 2), derivatives(lambda x, shape=shape: at(shape, x), u), size)
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("transition", ["quartic", "parabola"])
 @pytest.mark.parametrize("name", ZONES)
 def test_polynomial_transitions_are_those_of_their_ends(name, transition):
@@ -258,7 +258,7 @@ def test_quartic_lead_in_and_cycloidal_return_leave_no_step_of_acceleration(name
     assert max(abs(joint.acceleration_step) for joint in lift.joints) <= 1e-12 * peaks(lift)[2]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ZONES)
 def test_without_them_the_acceleration_jumps_by_what_the_zone_has_there(name):
     lift = of(name, transition="parabola")
@@ -343,7 +343,7 @@ def test_orders_beyond_the_asked_one_are_left_out():
     assert math.isnan(lift.evaluate(theta, 1)[0].second)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("lead_in", [0.0, 15.0])
 @pytest.mark.parametrize("name", ZONES)
 def test_extremes_of_the_lift_against_a_fine_table(name, lead_in):

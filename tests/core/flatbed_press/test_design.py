@@ -237,6 +237,7 @@ def test_no_equal_speed_and_the_shift_that_helps():
     assert press(replace(large, initial_crank_angle=angle)).report("press").checks
 
 
+@pytest.mark.slow
 def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
     short = replace(TY460, stroke=62.0)
     with pytest.raises(
@@ -377,6 +378,7 @@ def test_a_print_longer_than_the_cylinder_is_round_falls_on_itself(radius: float
     assert [check.code for check in found] == ["GL502"] * len(found)
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("start", [None, 20.0, 100.0, 350.0])
 @pytest.mark.parametrize("length", [300.0, 420.0, 540.0, 569.0, 570.0, 700.0])
 def test_a_zone_in_which_the_bed_turns_back_fails(length: float, start: float | None) -> None:
@@ -461,7 +463,7 @@ def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(strok
     assert [table.name for table in report.tables] == ["positions"]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["press", "analyze"])
 @pytest.mark.parametrize(
     ("cam", "words"),
@@ -490,6 +492,7 @@ def test_a_zone_that_cannot_be_is_refused_with_its_own_key(command):
     assert refused.value.key == "sync.end"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["press", "check"])
 def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
     design = press(cam=CAM | {"shaft_radius": 359.999})
@@ -505,7 +508,7 @@ def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
 TURNS_BACK = "the bed reverses at input angle 224 deg, before the synchronous zone ends"
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("keys", "key", "words"),
     [

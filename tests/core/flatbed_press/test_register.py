@@ -152,7 +152,7 @@ def test_the_whole_chain_is_the_one_closed_by_hand() -> None:
     assert made.sampled_errors(phi, 1, parts) == pytest.approx(wanted, abs=1e-11)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("mesh", ["mesh_12", "mesh_34", "rack_lower", "rack_upper"])
 def test_backlash_of_one_mesh_is_the_hand_formula(mesh: str, sign: int) -> None:

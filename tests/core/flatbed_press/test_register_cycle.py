@@ -90,7 +90,7 @@ def register(sources: dict[str, Any] = SOURCES, **sections: Any) -> Any:
     return factory.design("ty460", command="register", tolerance={"sources": sources}, **sections)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("phase", ANGLES)
 @pytest.mark.parametrize("keys", [SIZES, PINS], ids=["sizes", "pins"])
 def test_gains_are_the_slopes_of_the_machine_with_its_follower(keys: list[str], phase: str) -> None:
@@ -106,6 +106,7 @@ def test_gains_are_the_slopes_of_the_machine_with_its_follower(keys: list[str], 
             assert (one.gain * complex(axis)).real == pytest.approx(wanted, abs=1e-9), one.source
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("phase", ANGLES)
 def test_samples_are_the_machine_with_its_follower(phase: str) -> None:
     made, degrees = register(cam__lead_in=12.0), ANGLES[phase]
@@ -142,6 +143,7 @@ def test_racks_are_pushed_by_the_bed_itself() -> None:
     assert one.gain.tolist() == [-1.0 if bend > 0 else 1.0 for bend in bends]
 
 
+@pytest.mark.slow
 def test_without_a_cam_nothing_is_known_outside_the_zone() -> None:
     bare, full = register(cam=None), register()
     assert bare.worst == full.worst

@@ -110,7 +110,7 @@ def tangent():
         return radius_of_tangency()
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("share", [1e-3, 1e-5, 1e-7, 1e-9, 1e-11])
 def test_nearly_double_equality_is_not_stepped_over(tangent, share):
     radius, phi = tangent
@@ -162,6 +162,7 @@ def test_the_shift_that_is_named_makes_the_speeds_meet(radius, initial):
         equal_speed_angle(bed, less)
 
 
+@pytest.mark.slow
 def test_cylinder_much_too_large_is_told_so():
     with pytest.raises(
         NoSolution, match=r"the bed \(max\. 236\.6 mm/rad\) never reaches the cylinder speed"

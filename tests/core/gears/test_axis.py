@@ -148,7 +148,7 @@ def test_a_span_that_leaves_the_face_of_a_narrow_helical_gear_is_counted() -> No
     assert 0 < sum(int(each.warns.sum()) for each in found) < 24
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", STUDIES)
 @pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:
@@ -156,13 +156,14 @@ def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: i
     agree(sampled(base, "gear", variables, quantities, count))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["distance", "profile", "helix", "ring"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     base, variables, quantities = STUDIES[name]
     bits_stand_alone(sampled(base, "gear", variables, quantities, 1024))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("must_pass", ["none", ["GL201", "GL205"], ["GL210"], "all"])
 def test_a_design_is_refused_where_what_is_asked_for_needs_it(must_pass: Any) -> None:
     data = {

@@ -82,6 +82,7 @@ INSIDE = {key: value for key, value in LOADED.items() if key not in ("kind", "mo
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("data", "keys"),
     [

@@ -258,7 +258,7 @@ def turned_sections(pair: GearPair, count: int) -> list[tuple[float, float]]:
     return [(slope * h / pair.reference_radius[0], -slope * h / pair.reference_radius[1]) for h in heights]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("teeth", "shift", "beta", "goes"), PUSHED)
 def test_a_pinion_that_is_pushed_into_its_ring_fits_as_the_margin_says(
     teeth: tuple[int, int], shift: tuple[float, float], beta: float, goes: bool

@@ -146,6 +146,7 @@ def test_refusals() -> None:
             design(GIVEN, **keys)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize(("slots", "share"), [(3, 0.8), (4, 0.95), (6, 0.5), (12, 0.85)])
 def test_wheel_and_driver_turn_without_touching(sign: float, slots: int, share: float) -> None:

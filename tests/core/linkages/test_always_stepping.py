@@ -131,7 +131,7 @@ def test_the_named_ones_are_there() -> None:
     assert len(named()) == 5
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 @pytest.mark.parametrize("share", [0.03, 0.7])
 def test_no_frame_has_a_longer_window(case: Case, share: float) -> None:
@@ -149,7 +149,7 @@ def test_no_frame_has_a_longer_window(case: Case, share: float) -> None:
     assert limit - 2.0 * STEP <= scanned_window(case.output(frame), tolerance * (1.0 + 1e-6)) <= limit + 0.01
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 @pytest.mark.parametrize("window", [12.0, 50.0, 140.0])
 def test_no_frame_is_flatter(case: Case, window: float) -> None:
@@ -230,6 +230,7 @@ def test_two_gears_that_always_step_back_dwell(window: float, angle: float, kept
     assert low == case.frames.low or scanned_window(case.output(low - 0.02), tolerance) < window
 
 
+@pytest.mark.slow
 def test_two_gears_that_always_step_back_and_a_tolerance_alone() -> None:
     """The longest dwell with the transmission angle of 40 deg, and without that limit the longest of all."""
     case = two_gears(44, 69, 45.28, 72.727)
@@ -243,6 +244,7 @@ def test_two_gears_that_always_step_back_and_a_tolerance_alone() -> None:
         assert found.dwell_tolerance == pytest.approx(math.radians(0.198), rel=0.02)
 
 
+@pytest.mark.slow
 def test_two_gears_that_always_step_back_name_their_limits() -> None:
     with pytest.raises(NoSolution, match=r"the output cannot stop and stay within \+-0\.2 deg over"):
         two("dwell", RING, dwell={"window": 62.0, "tolerance": 0.2}).linkage  # noqa: B018
@@ -250,6 +252,7 @@ def test_two_gears_that_always_step_back_name_their_limits() -> None:
         two("dwell", RING, dwell={"window": 244.0}).linkage  # noqa: B018
 
 
+@pytest.mark.slow
 def test_two_gears_that_always_step_back_by_an_angle() -> None:
     """The maximum less the minimum output between the standstills, on the positions; the minimum of all is refused."""
     found = two("back-step", RING, back_step={"angle": 5.0})
@@ -266,7 +269,7 @@ def test_two_gears_that_always_step_back_by_an_angle() -> None:
         two("back-step", RING, back_step={"angle": 60.0}).linkage  # noqa: B018
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("teeth", "crank", "dwell"),
     [

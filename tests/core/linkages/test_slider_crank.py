@@ -163,7 +163,7 @@ def exact_depth(psi, crank, rod, offset):
     return mp.sqrt(mp.mpf(rod) ** 2 - (crank * mp.cos(psi) + offset) ** 2) - crank * mp.sin(psi)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("crank", "rod", "offset"), [(154.21159203908383, 520.0, 50.0), (50.0, 120.0, -30.0), (99.0, 200.0, 100.0)]
 )

@@ -46,7 +46,7 @@ STUDIES: dict[str, tuple[dict[str, Any], dict[str, Any], list[str]]] = {
 }
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", STUDIES)
 @pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:

@@ -241,7 +241,7 @@ def test_six_bars_against_the_augmented_system(name: str) -> None:
     _compare(Augmented(factory.design(SIX_BARS[name], command="loads"), 0.9))
 
 
-@pytest.mark.quick(10)
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", [*(str(case["name"]) for case in CASES if "gears" in case["spec"]), *SIX_BARS])
 @pytest.mark.parametrize("speed", [70.0, -70.0])
 def test_friction_against_the_augmented_system(name: str, speed: float) -> None:
@@ -254,7 +254,7 @@ def test_friction_against_the_augmented_system(name: str, speed: float) -> None:
     _compare(Augmented(factory.design(spec, command="loads", **keys), 1.3))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("degrees", [20.0, 80.0, 160.0, 250.0, 310.0])
 def test_friction_of_racks_against_the_augmented_system(degrees: float) -> None:
     """The pinion drives the bed and is driven by it, the lower rack likewise."""

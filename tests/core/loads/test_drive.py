@@ -134,6 +134,7 @@ def test_rms_torque_of_the_motor_is_over_time() -> None:
     assert run.rms_torque == pytest.approx(math.sqrt(squares / whole), rel=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "loaded_swing_cycle"])
 def test_all_panels_at_once_are_those_turn_by_turn(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Energies to 1e-14, rates, which cancel, to 1e-12 of the maximum; turns are taken only where that does not do."""
@@ -234,7 +235,7 @@ def test_a_motor_that_stalls_is_refused_at_its_key() -> None:
 # Pins, counterweights
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "expected"), DATA["bearings"]["expected"].items())
 def test_bearing_loads_against_the_reference(name: str, expected: dict[str, float]) -> None:
     """The reference took 4096 rows: peaks to 1e-5, the kinks of the travel to 1e-6."""

@@ -245,6 +245,7 @@ def test_input_gears_of_a_press_are_held_against_their_rating() -> None:
     assert [each.status for each in strong.check("tooth-load")] == ["pass"]
 
 
+@pytest.mark.slow
 def test_drawn_play_of_a_press_counts_in_its_zone() -> None:
     """A print that ends in the zone lets the input gears change flanks there; 25cd leaves play."""
     print_ = {"on": "cylinder", "torque": {"zones": [{"from": 34, "to": 150, "value": -120}]}}

@@ -58,6 +58,7 @@ def test_long_arrays_are_not_kept() -> None:
     assert sum(len(key[1]) // 8 for key in machine.kept) <= 200_000
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("keys", "place"),
     [
@@ -90,6 +91,7 @@ def test_refused_by_the_section(keys: dict[str, Any]) -> None:
         factory.design(FEED, command="loads", **keys)
 
 
+@pytest.mark.slow
 def test_wide_swing_refuses_such_a_frequency_too() -> None:
     with pytest.raises(GearlinkError, match="6e\\+05 times") as caught:
         factory.design("loaded_wide_swing", command="loads", loads__vibration__frequency=1e6).report("loads")
@@ -117,6 +119,7 @@ def test_a_roller_that_leaves_its_cam_is_driven_by_nothing(gearlink: Any, design
     assert alone.out.startswith("- 0.")
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("base", "section", "key"),
     [

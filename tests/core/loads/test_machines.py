@@ -109,6 +109,7 @@ def held() -> Any:
     return factory.design("loaded_press", command="loads", loads__roller=ROLLER | {"preload": 5000})
 
 
+@pytest.mark.slow
 def test_a_follower_that_changes_cams_strikes(free: Any) -> None:
     """Each change of sign of the follower's force is one."""
     rows = np.linspace(0.0, 2.0 * math.pi, 2001)
@@ -237,6 +238,7 @@ def uncollected() -> Iterator[None]:
     gc.enable()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("uncollected")
 def test_what_earlier_machines_kept_is_freed(monkeypatch: pytest.MonkeyPatch) -> None:
     """A hundred designs of 65 MB each took 6.6 GB: to the collector they were few objects."""

@@ -33,6 +33,7 @@ CASES: list[tuple[str, str, dict[str, Any]]] = [
 ]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("code", "base", "keys"), mostly_slow(CASES, 3))
 def test_remedy_makes_the_check_pass(code: str, base: str, keys: dict[str, Any]) -> None:
     design = factory.design(base, command="loads", **keys)

@@ -276,6 +276,7 @@ def test_cam_on_a_crank_rocker(assembly: int, way: str, home: bool) -> None:
     assert stroke.design.power_identity <= 1e-12
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("base", ["wide_swing_slider_cam", "wide_swing_oscillating_cam"])
 def test_device_leaves_its_reserve_alone(base: str) -> None:
     """Without other masses the cam carries the reserve's share of the device, as the closed form has it."""
@@ -285,6 +286,7 @@ def test_device_leaves_its_reserve_alone(base: str) -> None:
     assert design.contact_force_max == pytest.approx(design.design.contact_force, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_arm_at_which_both_change_sides_is_named() -> None:
     geometry = factory.design("wide_swing_slider_cam", slider__middle_angle=90)
     (found,) = geometry.findings("swing", "side-change")
@@ -296,6 +298,7 @@ HEAVY = {"type": "spring", "pivot_ratio": 4, "stretch_ratio": 0.5, "arm": 80, "r
 """A spring that pulls little at mid-swing, under which the slider's mass makes the rocker slowest there."""
 
 
+@pytest.mark.slow
 def test_a_lighter_slider_lets_both_change_sides_together() -> None:
     """Not half the mass but a fifth of it; the arm stands already where the slider is fastest."""
     heavy = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, unloader=HEAVY)

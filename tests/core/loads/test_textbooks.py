@@ -107,7 +107,7 @@ def test_rules_of_bearing_catalogues() -> None:
     assert equivalent / peak == pytest.approx((0.25 + 0.75 * 0.4**3) ** (1.0 / 3.0), rel=1e-12)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 @pytest.mark.parametrize(
     ("base", "frequency"),

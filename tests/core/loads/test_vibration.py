@@ -190,6 +190,7 @@ def backwards(spec: dict[str, Any]) -> Any:
     return factory.design({**spec, "loads": loads}, command="loads")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("frequency", [9.0, 60.0])
 def test_the_mirror_image_that_turns_the_other_way_vibrates_alike(frequency: float) -> None:
     """A ring that stands over a window, which is the same from either end; its motion has no symmetry of its own."""

@@ -121,6 +121,7 @@ def test_a_torque_that_ends_with_its_stroke_has_no_reversal_there() -> None:
     assert design.raw("torque_reversals") == np.count_nonzero(np.diff(np.sign(torque)))
 
 
+@pytest.mark.slow
 def test_a_roller_whose_profile_is_undercut_has_no_pressure() -> None:
     """The least curvature radius of the path, 7.003 mm, is less than the roller's 8: there the profile has no bend."""
     sound, undercut = (factory.design("loaded_swing_slider", command="loads", cycle_angle=angle) for angle in (150, 15))

@@ -40,6 +40,7 @@ def random_ties(seed: int, names: Sequence[str], count: int) -> list[Tie]:
     return found
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("seed", range(24))
 def test_no_phases_of_a_grid_do_better(seed: int) -> None:
     names, dial = ("a", "b"), 360.0

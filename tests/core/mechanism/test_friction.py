@@ -181,6 +181,7 @@ def test_hardly_any_friction_changes_hardly_anything() -> None:
     assert rubbing.range == pytest.approx(free.range, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_where_joints_turn_back_a_row_is_the_one_just_after() -> None:
     """At 0 and 180 deg coupler and rocker turn back against each other: the pin between them and the mesh that rolls
     on it change sides there together, and no row has one of them on the old side."""
@@ -194,6 +195,7 @@ def test_where_joints_turn_back_a_row_is_the_one_just_after() -> None:
     assert at.torque == pytest.approx(after.torque, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_how_near_it_is_to_locking_is_the_worst_of_all_turns() -> None:
     """A five-bar of three revolutions is nearest to locking in its second, between two rows of 5 deg."""
     links = {"input": 35, "coupler": 80, "follower": 75, "output": 35}

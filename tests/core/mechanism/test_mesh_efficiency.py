@@ -74,6 +74,7 @@ CHAINS: dict[str, tuple[tuple[str, str], ...]] = {
 KEYS: dict[str, dict[str, Any]] = {"ring_feed": {"links": {"crank": 23.5, "frame": 53.8}, "dwell": None}}
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("torque", [-18.0, 25.0])
 @pytest.mark.parametrize("speed", [90.0, -90.0])
 @pytest.mark.parametrize("name", CHAINS)
@@ -116,6 +117,7 @@ def test_two_meshes_in_line_have_the_square_of_one() -> None:
     assert mean[0.9] / mean[1.0] == pytest.approx(0.9**-2, rel=2e-4)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("speed", [60.0, -60.0])
 @pytest.mark.parametrize("friction", [{"meshes": 0.8}, {"joints": {"mesh_wheel": 0.8}}])
 def test_the_teeth_of_a_mutilated_gear_lose_too(speed: float, friction: dict[str, Any]) -> None:

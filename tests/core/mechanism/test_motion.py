@@ -53,6 +53,7 @@ def test_a_working_stroke_is_that_of_the_cams() -> None:
         assert alone[1] == pytest.approx(guided[1], abs=1e-11 * size)
 
 
+@pytest.mark.slow
 def test_several_threads_may_ask_at_once() -> None:
     motion: Motion = factory.design("slider_crank_tolerances").moving
     inputs = [np.array([0.001 * k]) for k in range(2000)]

@@ -28,6 +28,7 @@ def loaded(name: str, **more: Any) -> PlanarLoads:
     return PlanarLoads(made(name, loads=Section.model_validate(section)))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", LOADS)
 def test_the_torque_is_that_of_virtual_power(name: str) -> None:
     assert loaded(name).power_identity < 1e-12
@@ -56,6 +57,7 @@ def _forces(each: Any, unknown: Any) -> Iterator[tuple[complex, complex, float]]
         yield abs(value) * each.tangent * normal, point, 0.0
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", [name for name in LOADS if name != "slide-on-lever"])
 def test_every_link_is_in_equilibrium(name: str) -> None:
     """Sum of the forces of the tables on each link, with weight and loads of the file, against mass times acceleration

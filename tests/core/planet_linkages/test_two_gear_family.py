@@ -198,7 +198,7 @@ ONE_SIDED = [
 """With a tolerance [deg] of which the longest window does not fill the band with its back-step."""
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("family", "tolerance"), ONE_SIDED)
 def test_a_window_of_uneven_ends_is_longest_with_a_shorter_back_step(family: Family, tolerance: float) -> None:
     """No frame whose output stops is better in a scan; its own is by 0.007 to 0.4 deg longer than that of ripple."""
@@ -213,6 +213,7 @@ def test_a_window_of_uneven_ends_is_longest_with_a_shorter_back_step(family: Fam
     assert kernel.flattest(family, window, "this", beyond=True) == pytest.approx((frame, band), rel=1e-6)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("family", "tolerance"), ONE_SIDED)
 def test_the_longest_window_of_uneven_ends_at_thirty_digits(family: Family, tolerance: float) -> None:
     """The chain closed by circles: the window begins at the height of phi(2) and ends a band above it, or begins a band
@@ -316,6 +317,7 @@ def test_back_step_design(data: dict[str, Any]) -> None:
     assert design.check_target().status == "pass"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("data", [SUNS, RINGS])
 def test_dwell_design(data: dict[str, Any]) -> None:
     alone = made("dwell", data, dwell={"tolerance": 0.5})
@@ -341,7 +343,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     assert [check.status for check in bare.check_dwell_edge()] == ["warn"]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("data", [SUNS, RINGS])
 @pytest.mark.parametrize("tolerance", [1e-6, 0.5, 5.0])
 def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> None:

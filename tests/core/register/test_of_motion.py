@@ -107,6 +107,7 @@ def some(made: MotionRegister, count: int = 11) -> Any:
     return np.linspace(given.start, given.end, count + 2)[1:-1] + 1e-3
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("name", [pytest.param(name, marks=SLOW if name in DEAR else ()) for name in CASES])
 def test_the_whole_chain_goes_as_the_gains_but_for_squares(name: str) -> None:
     made = register(name)
@@ -233,6 +234,7 @@ def test_a_point_counts_along_a_direction() -> None:
             assert along == pytest.approx(math.cos(math.pi / 6.0) * x + 0.5 * y, abs=1e-12), source
 
 
+@pytest.mark.slow
 def test_another_output_counts_where_the_file_says_so() -> None:
     made = register("planar_quick_return", output="lever", radius=100.0)
     assert made.course.unit == "rad"

@@ -126,6 +126,7 @@ def test_loads_of_many_turns_are_not_followed_for_a_remedy() -> None:
     assert all("machine" not in vars(each.design) for each in bench._others.values() if each.design is not None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("worked", "command", "name", "keys"),
     [

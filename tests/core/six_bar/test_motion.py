@@ -178,6 +178,7 @@ def test_a_place_costs_few_steps_and_rests_by_itself(monkeypatch: pytest.MonkeyP
     assert len(asked) < 200  # one after the other, 206 places took ten thousand
 
 
+@pytest.mark.slow
 def test_the_course_is_that_of_small_steps() -> None:
     """Half a degree at a time, Newton's steps from the place before: no closing is changed."""
     bar = six_bar(FOLLOWED).bar

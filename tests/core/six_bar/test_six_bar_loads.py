@@ -44,6 +44,7 @@ def test_mean_power_is_that_of_the_load_and_friction_adds_to_it(name: str) -> No
     assert rubbing.power_identity <= 1e-12
 
 
+@pytest.mark.slow
 def test_a_trial_of_loads_counts_the_turns_of_its_period() -> None:
     """Fifty turns cost as much as fifty designs of one revolution, with friction as thousand."""
     trains = [worked(SWING)["trains"][0] | {"pins": ["E", "F", "A"], "gears": [20, 30, 40]},

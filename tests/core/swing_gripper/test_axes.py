@@ -36,6 +36,7 @@ def test_no_limit_takes_the_drum_off_the_cam_shaft() -> None:
     ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("arms", "angle", "beside"),
     [
@@ -73,6 +74,7 @@ def test_an_arm_over_the_axis_of_the_cam_rocker_is_warned_of() -> None:
     assert value == pytest.approx(between - arm, rel=1e-12)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("arm", "radius", "reaches"), [(28.0, 30.0, True), (40.0, 30.0, True), (61.0, 30.0, False)])
 def test_a_roller_over_the_axis_of_its_own_rocker_is_warned_of(arm: float, radius: float, reaches: bool) -> None:
     """On an arm shorter than its radius a roller stands round the pivot; nothing was said of it."""

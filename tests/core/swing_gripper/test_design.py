@@ -105,6 +105,7 @@ def test_the_contract_is_the_same_machine() -> None:
     assert factory.design(spec).spec == DESIGN.spec
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("angle", [30.0, -145.0])
 def test_turning_the_whole_machine_changes_nothing(angle: float) -> None:
     other = turned(angle, 12.0 + 70.0j)
@@ -259,7 +260,7 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
         machine(**changes)
 
 
-@pytest.mark.quick(7)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("changes", "code", "status", "words"),
     [

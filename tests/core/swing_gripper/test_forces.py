@@ -169,6 +169,7 @@ def test_levers_serve_in_place_of_the_torque() -> None:
     assert repaired.check_lift_off().status == "pass"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("torque", [250.0, 300.0])
 def test_the_spring_that_is_recommended_holds(torque: float) -> None:
     (check,) = machine(spring={"torque": torque}).findings("gripper", "lift-off")
@@ -227,6 +228,7 @@ def test_missing_sections_are_named() -> None:
         assert missing.value.key == key
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("command", ["gripper", "cam", "analyze"])
 @pytest.mark.parametrize(("back", "words"), [({}, "either roller"), ({"cam__return_roller": None}, "the roller")])
 def test_rollers_that_no_spring_presses_on_their_cams_are_warned_of(command: str, back: dict, words: str) -> None:

@@ -169,7 +169,7 @@ def test_a_part_of_the_turn_is_part_of_the_same_motion() -> None:
             assert two_ways(linkage, part).iterations.max() <= 4
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("direction", [137.0, 60.0, 40.0, 26.0, 24.4])
 def test_both_ways_agree_near_dead_points(direction: float) -> None:
     linkage = machine(output_direction=direction, limits={"transmission_angle": 1.0}).linkage
@@ -259,6 +259,7 @@ def test_transmission_angles_of_the_example() -> None:
     assert at_d.place == LINKAGE.law.total_swing
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("changes", "swing"),
     [

@@ -152,6 +152,7 @@ def try_designs(count: int, seed: int) -> Counter[str]:
     return statuses
 
 
+@pytest.mark.slow
 def test_no_link_over_a_shaft_is_missed_and_none_told_of_that_is_clear() -> None:
     statuses = try_designs(8, seed=1)
     assert min(statuses["warn"], statuses["pass"]) > 5
@@ -223,6 +224,7 @@ NAMED = {
 }
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(("body", "axis"), NAMED)
 def test_a_gripper_that_had_passed_every_check(body: str, axis: str) -> None:
     """Grippers whose links sweep over a shaft, of which nothing was said."""

@@ -63,6 +63,7 @@ def peaks(design: Any) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(
     ratio=st.floats(0.3, 4.0),

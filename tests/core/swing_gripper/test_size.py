@@ -58,6 +58,7 @@ def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
     assert "cam_center" not in again.outline("cam").quantities
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limit", mostly_slow([28.0, 26.0, 30.0, 35.5, 42.0], 1))
 def test_cams_that_are_sized_to_their_limit_pass_it(limit: float) -> None:
     """Rounding, some 1e-14 of the limit, fails no GL401; a hundred-millionth of a degree more does."""

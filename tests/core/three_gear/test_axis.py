@@ -290,11 +290,13 @@ def test_gaps_that_stand_at_their_limit_are_judged_at_once(
     agree(made, unsure=0.001)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", ["dwell", "window", "tolerance", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["analysis, band", pytest.param("dwell, band", marks=pytest.mark.slow), "dwell"])
 def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
     command, section, variables = TASKS[name]
@@ -303,6 +305,7 @@ def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
     agree(made, unsure=0.75 if name == "dwell, band" else 0.02, median=1e-11)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("gears", "links", "tolerance"),
     [((19, 76, 41), (7.7656, 204.2112), 23.937), ((8, 79, 24), (25.6855, 49.7373), 39.845)],
@@ -361,6 +364,7 @@ RINGS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("command", RINGS)
 def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
     section, variables = RINGS[command]
@@ -387,6 +391,7 @@ def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
     assert np.allclose(many.rows, single.rows, rtol=1e-9, atol=0.0)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("change", "served"),
     [

@@ -100,7 +100,7 @@ def test_example_3_as_printed_collides_and_says_why():
 # A second way
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_motion_table_against_the_cosine_rule(name, assembly):
@@ -122,7 +122,7 @@ def test_motion_table_against_the_cosine_rule(name, assembly):
     )
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_extremes_and_standstills_against_a_search(name, assembly):
@@ -462,6 +462,7 @@ def test_the_tolerance_of_the_request_for_a_dwell_measures_an_analysis():
     assert other.output_tolerance is None
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("key", ["dwell_tolerance", "dwell_backlash"])
 def test_a_tolerance_without_end_is_a_finding(key):
     """Half of the gain of a revolution of example 3; a play counts at the output gear's circle, r5 = 75 mm."""

@@ -139,6 +139,7 @@ def test_gains_by_duality_are_those_derived_by_hand(given: list[Any], sign: int)
         assert one.gain == pytest.approx(wanted, abs=1e-12), one.source
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("given", DRIVES)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_whole_chain_is_the_one_closed_by_hand(given: list[Any], sign: int) -> None:

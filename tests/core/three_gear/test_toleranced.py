@@ -75,7 +75,7 @@ def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> 
         assert got == pytest.approx(wanted, rel=1e-12, abs=1e-12, nan_ok=True), quantity
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", DRIVES)
 @pytest.mark.parametrize("count", COUNTS)
 def test_many_drives_at_once_are_those_computed_alone(name: str, count: int) -> None:

@@ -46,6 +46,7 @@ def longest(values: np.ndarray, rho: float) -> tuple[int, int]:
     return best, place % values.size
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("share", [0.005, 0.02, 0.1])
 @pytest.mark.parametrize("data", [FEED, RING, "candy_feed"])
 def test_even_stretch_is_that_of_a_sliding_window(data: Any, share: float) -> None:
@@ -78,6 +79,7 @@ TWO_GEARS: dict[str, Any] = {
 }
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("given", "distance"), [(FEED, 5.0), (FEED, 20.0), (FEED, 60.0), (TWO_GEARS, 20.0)])
 def test_gentlest_arrival_is_the_least_of_all(given: Any, distance: float) -> None:
     keys: dict[str, Any] = {"input_speed": 200.0}

@@ -95,6 +95,7 @@ def test_flattest_and_longest_are_inverse(i3: float, tolerance: float) -> None:
     assert symmetric.least_tolerance(i3, window) == pytest.approx(tau, rel=2e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(st.floats(-6.0, -0.3), st.floats(0.1, 5.0))
 def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
@@ -292,6 +293,7 @@ RING = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 39, "idle
 EXTERNAL = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 47, "idler": 20, "output": 47}}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("tolerance", [0.97, 0.98, 3.62])
 def test_a_tolerance_that_no_back_step_fills_is_met_the_better(tolerance: float) -> None:
     """A back-step of these gears is at most 1.948 deg: up to 0.974 deg the band can be filled."""
@@ -307,6 +309,7 @@ def test_a_tolerance_that_no_back_step_fills_is_met_the_better(tolerance: float)
         assert made.tolerance_dwell_angle > math.radians(44.5), frame
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("base", "dwell"),
     [
@@ -330,6 +333,7 @@ def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
         _ = more.linkage
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("tolerance", [10.0, 20.0, 31.0, 45.0])
 def test_the_reach_of_an_idler_rises_to_one_maximum_and_falls(tolerance: float) -> None:
     """Which the ratios that reach a window stand on: its maximum is 180 deg + 2 tau where it is not at infinity."""

@@ -92,7 +92,7 @@ def study(law: dict[str, Any], **section: Any) -> Any:
     return factory.design(CANDY | {"tolerance": given | section}, command="tolerance")
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "law",
     [{"law": "uniform"}, {"law": "triangular", "mode": 0.01}, {"cp": 1.33, "cpk": 0.8, "shift": "up"}],
@@ -185,6 +185,7 @@ def test_correlated_parts_need_finer_grades() -> None:
     assert sum(joined.data[cost]) != sum(apart.data[cost])
 
 
+@pytest.mark.slow
 def test_grades_that_no_samples_prove_are_refused() -> None:
     """The linkage fails its transmission angle whatever the grades: the slopes do not know."""
     limits = {"transmission_angle": 80.0}

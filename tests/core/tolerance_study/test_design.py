@@ -111,6 +111,7 @@ def test_where_no_corner_is_a_mechanism_there_is_no_worst_case() -> None:
     assert found["signs"] == ""
 
 
+@pytest.mark.slow
 def test_the_worst_case_of_many_sizes_is_climbed_to() -> None:
     """As if four were more than all corners are computed of."""
     few = study(CANDY, sources=FOUR, require=["dwell_swing <= 10.17 deg"], samples=16)

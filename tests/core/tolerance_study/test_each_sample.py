@@ -157,6 +157,7 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
     assert tried == {name for name, kind in KINDS.items() if "tolerance" in kind.commands}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("name", "source", "left"),
     [
@@ -191,6 +192,7 @@ def test_what_no_sample_is_judged_by_has_no_row_and_a_reason(name: str, source: 
     assert rows == judged_too
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "widths"), [("standing_feed", {"links.crank": 0.5}), ("ring_pair", {"profile_shift[0]": 0.8})]
 )
@@ -234,6 +236,7 @@ LINKS = {
 OF_DISTANCE = {"contact-ratio", "involute-interference", "root-clearance", "tip-fouling"}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", DRIVES)
 def test_teeth_of_a_drive_are_judged_at_the_distance_as_made(name: str) -> None:
     """Half a module to either side, against gear pairs of given shifts and tips at that distance."""

@@ -81,6 +81,7 @@ def study(name: str, **section: Any) -> Any:
     return factory.design(name, command="tolerance", tolerance=section)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in STUDIES]
 )
@@ -164,6 +165,7 @@ def test_a_share_of_missing_designs_is_counted() -> None:
     assert np.isfinite(made.result.spreads["stroke"].mean.value)
 
 
+@pytest.mark.slow
 def test_cams_that_a_section_brings_are_judged_as_made() -> None:
     """A shaft hardly thinner than the cam's room for it: `press` does not look at it, `analyze` does."""
     room = factory.design("ty460").quantity("min_radius").value

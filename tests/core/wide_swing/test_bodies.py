@@ -59,6 +59,7 @@ def test_a_device_round_its_own_rocker_is_warned_of() -> None:
     assert not told(factory.design("wide_swing_twin_cam", unloader__arm=8))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("drive", "words"),
     [

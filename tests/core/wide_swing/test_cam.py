@@ -119,7 +119,7 @@ def pendulum_curve(layout: Layout, swing: float, cycle: float) -> tuple[Any, Any
     return curve, phi
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("layout", "swing", "cycle"),
     [("twin-cam", 120, 120), ("twin-cam", 290, 100), ("twin-rocker", 160, 70), ("twin-rocker", 240, 150)],

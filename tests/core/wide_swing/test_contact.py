@@ -72,6 +72,7 @@ def test_no_profile_point_in_contact_is_cut_by_the_roller(case: str, layout: Lay
     assert np.all(np.abs(after[:, None] - rollers[None, :]).min(axis=1) < radius * (1 - 1e-9))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("case", "layout"), BOTH)
 def test_four_thirds(case: str, layout: Layout) -> None:
     mechanism = cam(layout)
@@ -131,6 +132,7 @@ def test_leading_order_takes_over_without_a_step(case: str, layout: Layout) -> N
         assert each.transition_zone == pytest.approx(each.transition_zone_estimate, rel=1e-7)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("share", "free"), [(0.9, True), (0.99, True), (0.9999, False)])
 def test_shorter_rocker_is_judged_to_mid_swing_where_nothing_is_cut(share: float, free: bool) -> None:
     """A smooth curve carries through mid-swing, with 90 deg there; next to (18) the standing roller still cuts it."""
@@ -148,6 +150,7 @@ def test_shorter_rocker_is_judged_to_mid_swing_where_nothing_is_cut(share: float
         assert math.degrees(shorter.max_pressure_angle) < 45.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("share", "roller"), [(0.9995, 8.0), (0.999, 8.0), (0.998, 12.0), (0.99, 30.0)])
 def test_a_smooth_bend_is_cut_before_the_roller_stands_at_mid_swing(share: float, roller: float) -> None:
     """Every place of the roller is tried, 4,000 of them: what stands at mid-swing alone leaves up to 0.002 more."""

@@ -442,6 +442,7 @@ def test_closed_form_as_given_repairs_the_finding(made: WideSwingDesign, check: 
 SAID = [(made, check) for made, check, path in MENDED if check and (made, check, path) not in UNSAID]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("made", "check"), mostly_slow(SAID, 3))
 def test_remedy_in_the_message_holds(made: WideSwingDesign, check: str) -> None:
     """What a failing finding says last, put into the file, repairs it."""
@@ -454,7 +455,7 @@ def test_remedy_in_the_message_holds(made: WideSwingDesign, check: str) -> None:
         assert statuses(repaired, check)[index] != "fail"
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("made", "check", "path"), UNSAID)
 def test_remedy_that_breaks_another_check_is_not_said(made: WideSwingDesign, check: str, path: str) -> None:
     (found,) = (each for each in made.findings("swing", check) if each.status == "fail")
@@ -524,7 +525,7 @@ class TestSections:
         assert table(made, "balance")["drive_ratio"][at_design] == close(5.0)
         assert design(shaft={"natural_frequency": 60.0}).quantity("drive_balancing_ratio") is None
 
-    @pytest.mark.quick(1)
+    @pytest.mark.slow
     @pytest.mark.parametrize(("residual", "reserve"), [(0.22, 0.3), (0.22, 0.0), (0.0, 0.1)])
     def test_drive_ratio_counts_residual_and_reserve(self, residual: float, reserve: float) -> None:
         """With 0.22 of residual and 0.25 of the links 1.25/0.47 = 2.66; the table says the same at the design speed."""

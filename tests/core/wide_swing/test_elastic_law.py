@@ -113,7 +113,7 @@ def test_long_cylinder_and_weightless_spring_are_pendulums(swing: int) -> None:
     np.testing.assert_allclose(law.invariants(k, 0)[0], pendulum_displacement(k, gamma), rtol=0, atol=LAW)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("device", "swing"),
     mostly_slow(

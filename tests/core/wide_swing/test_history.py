@@ -94,6 +94,7 @@ def test_crossing_solves_its_cubic(free: float, clearance: float, growth: float)
     assert (time - 2.0 * free) * (time + free) ** 2 == pytest.approx(6.0 * clearance / growth, rel=1e-8, abs=1e-18)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("slider", "clearance"), [(None, 0.05), (None, 0.0), (SLIDER, 0.05)])
 def test_blow_of_the_free_rocker(slider: dict[str, Any] | None, clearance: float) -> None:
     design = design_of(slider=slider, cam=CAM | {"roller_clearance": clearance, "contact_stiffness": 2e4})

@@ -138,7 +138,7 @@ def example(roller: float = 8.0, assembly: int = 1) -> OscillatingCam:
     return OscillatingCam(drive, ElasticLaw(Pneumatic(2.6), SWING), 200.0, roller)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("cam", [example(), example(assembly=-1), example(roller=2.0)])
 def test_roller_touches_the_profile_where_contact_says(cam: OscillatingCam) -> None:
     """By brute force over every place of the roller in the stroke: free where it touches, cut where it does not."""

@@ -169,6 +169,7 @@ def test_swing_range_warns_above_300() -> None:
 SLIDER_DRIVE = SliderDrive(150.0, 450.0, math.radians(80.0))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("device", [Pneumatic(2.6), Spring(3.0, 0.5)])
 def test_iteration_with_slider_meets_the_quadrature(device: Pneumatic | Spring) -> None:
     law = SliderLaw(device, math.radians(110.0), SLIDER_DRIVE, 0.3)
@@ -187,6 +188,7 @@ def test_iteration_without_slider_is_the_old_one() -> None:
     assert alike.rows[-1][3] + alike.rows[-1][4] == pytest.approx(1.0, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_iteration_that_does_not_converge() -> None:
     # an inertia that nearly vanishes at mid-swing: the rocker is fast there
     with pytest.raises(NoSolution, match="must be below 4; omit method") as error:

@@ -65,6 +65,7 @@ def test_response_by_integrating_the_differential_equation(stiffness: float, dam
     np.testing.assert_allclose(response(run.t), run.y[0], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_stiff_drive_feels_the_step_at_the_start() -> None:
     for damping in (0.0, 0.05, 0.2):
         step = 1.0 + math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))

@@ -63,6 +63,7 @@ def test_a_stroke_that_is_too_slow_names_the_key_of_the_file(cycle: dict[str, An
     assert f"reduce {key} " in message
 
 
+@pytest.mark.slow
 def test_a_roller_too_large_for_shaft_and_profile_has_one_remedy() -> None:
     design = factory.design("wide_swing_twin_cam", cam__roller_radius=300, command="swing")
     report = design.report("swing")

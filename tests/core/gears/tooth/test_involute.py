@@ -46,7 +46,7 @@ def ulps(value: float, true: mp.mpf) -> float:
     return float(abs(mp.mpf(value) - true) / mp.mpf(math.ulp(float(true))))
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("low", "high"), ANGLES)
 def test_involute_against_many_digits(low, high):
     rng = random.Random(1)
@@ -56,7 +56,7 @@ def test_involute_against_many_digits(low, high):
     assert max(ulps(float(v), exact(a)) for a, v in zip(angles, values, strict=True)) <= 2.2
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("low", "high"), DECADES)
 def test_inverse_against_many_digits(low, high):
     rng = random.Random(2)
