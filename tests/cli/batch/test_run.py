@@ -189,7 +189,7 @@ class TestFormats:
         path.write_text("".join(lines))
         assert gearlink("analyze", path).status == ExitCode.OK
 
-    @pytest.mark.quick(1)
+    @pytest.mark.slow
     @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
     def test_what_is_skipped_changes_no_finding(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
         line = ("batch", folder, "--format", form, "--out", tmp_path / ".out", "--unchanged", "skip")
@@ -224,7 +224,7 @@ class TestFormats:
         told = re.sub(r"<br>|%0A|\\n|\\s+", " ", out).replace("&apos;", "'")
         assert "unknown key 'stroek' help: did you mean 'stroke'?" in " ".join(told.split())
 
-    @pytest.mark.quick(2)
+    @pytest.mark.quick(1)
     @pytest.mark.parametrize("form", ["table", "csv", "md"])
     def test_readers(self, gearlink: Any, folder: Path, form: str) -> None:
         out = gearlink("batch", folder, "--format", form).out
@@ -411,6 +411,7 @@ def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, m
     assert not any(result.errors for result in results)
 
 
+@pytest.mark.slow
 def test_what_files_left_is_freed(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Designs know their parts and these the design: 0.3 MB of each file of wide swings stayed."""
     from gearlink.cli.batch import run

@@ -95,6 +95,7 @@ def test_every_kind_with_a_design_moves_but_for_those_that_cannot() -> None:
     assert {kind_in(path) for path in DESIGNS.glob("*.yaml")} - set(moving_kinds()) <= STANDING
 
 
+@pytest.mark.quick(6)
 @each_design
 def test_links_keep_their_length(path: Path) -> None:
     scene = build(design_of(path), np.arange(61) / 60.0)
@@ -318,7 +319,7 @@ def test_a_gif_has_the_pictures_and_the_time_asked_for(gearlink: Any, designs: P
     assert sum(times) == 2000
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("path", mostly_slow(MOVING[::9] + MOVING, len(MOVING[::9])), ids=lambda path: path.stem)
 def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -> None:
     ended = gearlink("animate", path, "--out", tmp_path, "--quiet", "--fps", 2, "--seconds", 1, "--size", "240x180")
@@ -327,6 +328,7 @@ def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -
     assert made.name.endswith("-motion.gif")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", ["gif", "html"])
 def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_path: Path, form: str) -> None:
     for folder in ("a", "b"):
@@ -336,6 +338,7 @@ def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_
     assert first.read_bytes() == second.read_bytes()
 
 
+@pytest.mark.slow
 def test_pictures_of_several_processes_are_those_of_one(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -470,6 +473,7 @@ def test_nothing_half_written_where_drawing_breaks(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "options"),
     [
@@ -492,6 +496,7 @@ def test_a_word_keeps_its_hyphen_beside_a_negative_number() -> None:
     assert raster._MINUS.sub("\u2212", "rocker from mid-swing -11.7\u00b0") == "rocker from mid-swing \u221211.7\u00b0"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "wanted"),
     [

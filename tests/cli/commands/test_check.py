@@ -37,6 +37,7 @@ def write(folder: Path, **texts: str) -> Path:
     return folder
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_processes_find_what_one_finds(
     gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, jobs: int
@@ -185,6 +186,7 @@ ITS_OWN_CHECKS = {
 """Designs with checks that no design of QUICK has."""
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize(
     "path",
     [

@@ -239,6 +239,7 @@ def test_a_key_says_unit_range_choice_and_kinds(gearlink: Any) -> None:
     assert topic["kinds"] == "flatbed-press"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("wrong", "near"), [("cam.leadin", "cam.lead_in"), ("phi_13", "phi13"), ("lead-in_", "lead_in")]
 )
@@ -248,6 +249,7 @@ def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> No
     assert near in ended.err
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("word", ["envelope", "space", "lazy tongs", "teapot", "hovercraft"])
 def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
     """Names that share some letters with it are no help."""
@@ -257,6 +259,7 @@ def test_a_word_of_its_own_has_no_nearest(gearlink: Any, word: str) -> None:
     assert "`gearlink new` the kinds" in ended.err
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("word", "near"),
     [
@@ -299,6 +302,7 @@ def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
             assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ring_pair", "rack_drive", "rated_pair"])
 def test_every_column_of_the_tables_of_a_gear_pair_has_words(name: str) -> None:
     made = design(name, command="gear")

@@ -163,6 +163,7 @@ def test_a_law_of_a_file_with_its_proof(gearlink: Any, tmp_path: Path) -> None:
     assert gearlink("analyze", str(path), "--format", "json").json["quantities"] == found["quantities"]
 
 
+@pytest.mark.slow
 def test_a_solved_law_is_saved_and_read_without_a_solver(gearlink: Any, tmp_path: Path) -> None:
     path, saved = tmp_path / "quiet.yaml", tmp_path / "solved.yaml"
     path.write_text(QUIET)

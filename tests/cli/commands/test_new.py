@@ -24,7 +24,7 @@ def each_template() -> list[Any]:
     return [pytest.param(kind, marks=pytest.mark.slow) if kind in SEARCHED else kind for kind in KINDS]
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("kind", each_template())
 def test_template_runs_as_it_stands(gearlink: Any, tmp_path: Path, kind: str) -> None:
     """Every command that the file asks for ends with status 0."""
@@ -48,7 +48,7 @@ def test_template_opens_with_the_line_that_editors_read(gearlink: Any, kind: str
     assert f"gearlink schema {kind} > {kind}.schema.json" in second
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("kind", KINDS)
 def test_template_shows_every_key(gearlink: Any, kind: str) -> None:
     """Each key stands in the design or in the comments below it."""

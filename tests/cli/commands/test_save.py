@@ -40,7 +40,7 @@ def spec_of(path: Path) -> Any:
     return validate(loaded, KINDS[loaded.data["kind"]].spec_model())
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("command", "name", "quantity"), SYNTHESES)
 def test_what_a_synthesis_found_is_analysed_without_copying(
     gearlink: Any, tmp_path: Path, command: str, name: str, quantity: str
@@ -105,6 +105,7 @@ def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -
     assert gearlink("analyze", path).status == 1
 
 
+@pytest.mark.slow
 def test_what_failed_before_it_was_rounded_seeks_no_remedy_again(
     gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -185,7 +186,7 @@ def test_a_refused_design_writes_nothing(gearlink: Any, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("line", ["analyze", "gear", "report", "check"])
 @pytest.mark.usefixtures("small_pictures")
 def test_a_file_that_asks_for_a_synthesis_serves_every_command(gearlink: Any, tmp_path: Path, line: str) -> None:

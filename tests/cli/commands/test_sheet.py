@@ -127,6 +127,7 @@ def test_extremes_at_joints_of_a_law() -> None:
     assert value == pytest.approx(-start, rel=1e-9), "half a cycloidal rise ends as it begins"
 
 
+@pytest.mark.slow
 def test_time_is_on_the_right_in_si() -> None:
     made = design(worked("ty460"))
     figure = motion_sheet.draw(made)
@@ -252,6 +253,7 @@ def test_extremes_are_named_within_their_panels() -> None:
                 assert box.x1 <= panel.x1 + 1.0, words.get_text()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "keys"), [("ty460", {}), ("swing_gripper", {"cam__shaft_radius": 40.0})])
 def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) -> None:
     """Read back in mm of paper: all within the frame, the outline as large as the cam times its scale."""
@@ -291,6 +293,7 @@ def test_a_plateau_is_sought_at_its_ends_alone() -> None:
     assert len(asked) < 20
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("name", "asked", "words"),
     [

@@ -65,6 +65,7 @@ def test_loop_is_repaired_step_by_step(gearlink: Any, loop: Path) -> None:
     assert "transition_zone" in ended.json["quantities"]
 
 
+@pytest.mark.slow
 def test_changes_put_in_by_hand_give_the_same_report(gearlink: Any, loop: Path) -> None:
     repaired = gearlink("swing", loop, "--suggest", "--format", "json").json
     overrides = [f"--set={change['path']}={json.dumps(change['new'])}" for change in repaired["suggestions"]]
@@ -259,6 +260,7 @@ def test_wrong_kind(gearlink: Any, designs: Path) -> None:
     assert ended.json["errors"][0]["code"] == "GL113"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", mostly_slow(["twin_cam", "twin_rocker", "slider", "oscillating_cam"], 1))
 def test_worked_designs_pass(gearlink: Any, designs: Path, name: str) -> None:
     path = designs / f"wide_swing_{name}.yaml"
@@ -299,6 +301,7 @@ def test_the_printed_options_repair_the_design(gearlink: Any, tmp_path: Path, co
     assert ended.out.endswith(again.out)
 
 
+@pytest.mark.slow
 def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> None:
     """No tooth of one with so large a shift can be cut: no options that would still fail, the design as it stands."""
     path = tmp_path / "ones.yaml"
@@ -309,6 +312,7 @@ def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> No
     assert gearlink("gear", path, "--suggest", "--format", "json").json["suggestions"] == []
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "line",
     mostly_slow(

@@ -90,6 +90,7 @@ def test_without_the_section_there_is_nothing_to_study(gearlink: Any, spec: Path
         assert (status, json.loads(out)["errors"][0]["code"]) == (2, "GL113")
 
 
+@pytest.mark.slow
 def test_a_batch_runs_them_on_request_alone(gearlink: Any, spec: Path) -> None:
     def commands(*more: str) -> list[str]:
         out = gearlink("batch", str(spec), "--jobs", "1", "--format", "json", *more).out

@@ -143,6 +143,7 @@ def test_a_prefix_that_no_case_has_is_refused(gearlink: Any, form: str) -> None:
     assert "ty460" in ended.out + ended.err
 
 
+@pytest.mark.slow
 def test_the_table_fits_80_columns(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     for line in (("verify",), ("verify", "--all")):

@@ -46,6 +46,7 @@ def everything(design: Any) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", mostly_slow(KEEPING, 3))
 def test_what_was_given_is_the_readers(designs: Path, name: str) -> None:
     design = gearlink.load(designs / f"{name}.yaml")

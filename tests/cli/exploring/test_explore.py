@@ -95,6 +95,7 @@ def test_the_base_may_be_a_file(gearlink: Any, written: Any, designs: Path) -> N
     assert [(e["code"], e["key"]) for e in ended.json["errors"]] == [("GL101", "of")]
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(
     ("keys", "code", "key"),
     [

@@ -122,6 +122,7 @@ def test_interrupted_it_says_how_to_continue(study: Path, tmp_path: Path) -> Non
     assert chunks(store) > 0
 
 
+@pytest.mark.slow
 def test_what_a_killed_run_leaves_on_the_disk_is_continued(
     gearlink: Any, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -281,7 +282,7 @@ def changed(finished: bytes, folder: Path, statement: str, value: Any) -> Path:
     return path
 
 
-@pytest.mark.quick(7)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("change", "value"),
     [
@@ -380,6 +381,7 @@ def test_damage_is_seen_or_changes_nothing(finished: bytes, tmp_path: Path) -> N
     assert len(found) > sum(each in refusals for each in found) > len(found) // 4, "both ends are tried"
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("seed", mostly_slow([*range(60)], 8))
 def test_a_damaged_store_is_no_fault_of_the_program(
     gearlink: Any, finished: bytes, small: Path, tmp_path: Path, seed: int
@@ -426,6 +428,7 @@ def begun_by(monkeypatch: pytest.MonkeyPatch, **other: str) -> None:
     monkeypatch.setattr(stores, "program", lambda: {**own, **other})
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["gearlink", "python", "numpy", "scipy", "cpu"])
 def test_a_store_of_another_program_is_shown_but_not_continued(
     gearlink: Any, small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str

@@ -53,7 +53,7 @@ def table(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("design", "parts"),
     [
@@ -231,7 +231,7 @@ def test_a_tolerance_out_of_range(gearlink: Any, tmp_path: Path, tolerance: str)
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [(), ("--curve", "spline"), ("--as", "svg")])
 @pytest.mark.parametrize("teeth", mostly_slow([2000, 9000], 1))
 def test_what_a_refusal_of_too_many_points_recommends_works(
@@ -282,6 +282,7 @@ def test_a_profile_that_does_not_exist(gearlink: Any, swing: Path, tmp_path: Pat
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("key", ["cam.roller_radius=60", "sync.start=20"])
 def test_a_profile_that_the_roller_cuts_is_told(gearlink: Any, tmp_path: Path, key: str) -> None:
     more = ("--set", key, "--set", "cam.lead_in=0", "--part", "main_cam", "--as", "csv")
@@ -300,6 +301,7 @@ def test_without_the_dxf_library(gearlink: Any, tmp_path: Path, monkeypatch: pyt
     assert gearlink("export", GEARS, "--as", "svg", "--as", "csv", "--tolerance", 0.1, "--out", tmp_path).status == 0
 
 
+@pytest.mark.slow
 def test_a_home_that_may_not_be_looked_into(tmp_path: Path) -> None:
     """That of a service. The administrator may look everywhere, so the system's answer is planted."""
     code = (
@@ -340,7 +342,7 @@ def test_a_file_in_the_way_of_the_folder(gearlink: Any, tmp_path: Path) -> None:
     assert "cannot write" in ended.err
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["../../x", "a--b -->", "ü漢字", "</svg>", "line\\nbreak"])
 def test_a_name_breaks_no_file(gearlink: Any, tmp_path: Path, name: str) -> None:
     formats = [word for form in ("dxf", "svg", "csv") for word in ("--as", form)]

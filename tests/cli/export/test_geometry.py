@@ -256,7 +256,7 @@ CURVES: dict[str, Any] = {
 }
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", CURVES)
 @pytest.mark.parametrize("form", CurveForm)
 def test_no_curve_is_refused_that_has_room(form: CurveForm, name: str) -> None:

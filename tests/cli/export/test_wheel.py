@@ -23,7 +23,7 @@ def outline(made: Any, form: CurveForm = CurveForm.POLYLINE) -> Any:
     return line.nodes
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("full", "group", "driven", "groups", "stops"), [
     (80, 20, 20, 1, 1), (80, 10, 20, 2, 2), (60, 15, 15, 2, 1), (48, 1, 16, 1, 16),
 ])  # fmt: skip

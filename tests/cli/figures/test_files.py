@@ -97,6 +97,7 @@ LINES = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("error", "status"), [(ValueError("min() arg"), 3), (CannotWrite("cannot write: no room"), 2)])
 @pytest.mark.parametrize("line", LINES, ids=lambda line: "-".join(line[::2]))
 def test_a_picture_that_cannot_be_made_takes_no_result_with_it(

@@ -220,6 +220,7 @@ ODD: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", mostly_slow(["crank", "press", "cam", "analyze", "gear"], 1))
 def test_every_command_draws(command: str) -> None:
     figure = placed_sheet("ty460", command).figure

@@ -27,7 +27,7 @@ def labelled(axes, label):
     return [line for line in axes.lines if line.get_label() == label]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["gear", "analyze"])
 def test_whole_gears_have_their_teeth(command):
     made, figure = sheet(DATA, command)
@@ -44,7 +44,7 @@ def test_whole_gears_have_their_teeth(command):
 LOADED = {"face_width": 25, "load": {"torque": 60}, "material": {"contact_limit": 1500, "bending_limit": 430}}
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("keys", [LOADED, {}], ids=["loaded", "plain"])
 def test_no_cell_of_a_table_runs_into_another_or_out_of_it(keys):
     """Boxes of the texts as they are drawn: words, symbols, units and numbers of a row stand apart in their table."""

@@ -55,6 +55,7 @@ def _cases() -> list[Case]:
 ODD = _cases()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "command", "keys"), mostly_slow(ODD, 1))
 def test_words_keep_clear_at_odd_proportions(name: str, command: str, keys: dict[str, Any]) -> None:
     try:

@@ -33,6 +33,7 @@ def test_feed_shows_torque_polar_loads_and_speed() -> None:
     assert np.array_equal(speed.get_ydata()[:-1], design.table("speed")["speed"])
 
 
+@pytest.mark.slow
 def test_gripper_shows_residual_over_speed_and_cams_by_pressure() -> None:
     design, figure = sheet("loaded_gripper", "loads")
     residual = _axes(figure, "Residual vibration over the speed").lines[0]
@@ -41,7 +42,7 @@ def test_gripper_shows_residual_over_speed_and_cams_by_pressure() -> None:
     assert float(profile.get_array().max()) == pytest.approx(design.hertz_pressure_max[0], rel=1e-3)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_of_a_wide_swing_shows_both_strokes(layout: str) -> None:
     design, figure = sheet("wide_swing_cycle", "loads", layout=layout, loads=LOADS)
@@ -80,6 +81,7 @@ def test_curves_of_a_panel_are_told_apart_in_grey() -> None:
         assert len({(dash, line.get_color()) for dash, line in zip(dashes, curves, strict=True)}) == len(curves)
 
 
+@pytest.mark.slow
 def test_the_rests_of_a_cycle_are_drawn_where_the_roller_presses_hardest() -> None:
     design, figure = sheet("loaded_swing_cycle", "loads")
     titles = {

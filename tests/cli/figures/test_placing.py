@@ -84,6 +84,7 @@ CLEAR = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "command"), mostly_slow(CLEAR, 1))
 def test_nothing_written_along_the_axes_meets_anything_else_written_there(name: str, command: str) -> None:
     made = settled(sheet(name, command).figure)

@@ -184,7 +184,7 @@ def test_gears_that_clash_are_red_where_they_do() -> None:
     assert len(red) == 2
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "keys"),
     [

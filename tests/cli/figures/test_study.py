@@ -85,6 +85,7 @@ def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
     assert all(words.startswith(f"design {index}: ") and "," in words for index, words in named.items())
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("objectives", [["frame_length"], ["frame_length", "back_step_angle", "gear_gap"]])
 def test_of_an_empty_front_there_is_nothing_to_draw(gearlink: Any, tmp_path: Path, objectives: list[str]) -> None:
     data = {**KEYS, "minimize": dict.fromkeys(objectives, 1), "maximize": {}, "where": ["frame_length <= 20 mm"]}

@@ -166,6 +166,7 @@ def test_steady_motion_has_no_magnified_dwell():
     assert not tagged(sheet(data(CASES[STEADY]), STEADY).figure, "magnified")
 
 
+@pytest.mark.slow
 def test_the_legend_of_a_collision_stands_clear_of_the_numbers():
     """The longest legend over the most numbers: boxes as they are drawn, rows a line apart, none below the panel."""
     given = {"module": 1.5, "crank": 40, "idler": 44, "output": 40}

@@ -39,6 +39,7 @@ def test_panels_above_others_have_a_grid_and_no_numbers() -> None:
     assert np.unique(grid.get_path().vertices[:, 0]).tolist() == list(range(0, 361, 30))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("view", "wanted"),
     [

@@ -76,6 +76,7 @@ def test_band_over_the_dwell_is_that_of_the_budget() -> None:
     assert np.asarray(line.get_ydata()) == pytest.approx(design.budgets[0].band, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
     design, figure = sheet("ty460_register", "register")
     axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("By source, each"))

@@ -86,6 +86,7 @@ def depth(points, polygon, inside):
     return gap[contained if inside else ~contained].max(initial=0.0), gap.min()
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", [name for name in DRAWN if name != "mutilated"])  # its wheel has cut teeth
 def test_drawn_teeth_touch_and_do_not_overlap(name):
     made = design(DRAWN[name])
@@ -104,6 +105,7 @@ def test_drawn_teeth_touch_and_do_not_overlap(name):
             assert least < 0.03 * MODULE
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("name", "part", "gear", "places"),
     [("sun", "gear2", 0, (0, 1)), ("ring", "gear5", 1, (0, 1)), ("rocker", "gear5", 1, (0, 1)),

@@ -39,6 +39,7 @@ def read(figure: Any, path: Path) -> tuple[np.ndarray, list[np.ndarray]]:
     return box, lines
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("reduction", [1.0, 2.0])
 def test_cam_and_bar_have_their_size_on_paper(tmp_path: Path, reduction: float) -> None:
     made = design(worked("ty460"))

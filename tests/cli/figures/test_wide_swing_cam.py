@@ -70,11 +70,13 @@ def test_a_mechanism_without_a_cam_is_drawn_in_three_positions() -> None:
     assert "stroke 259.808 mm" in {text.get_text() for text in axes.texts}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("keys", [{"slider": None}, {"slider__offset": -30.0, "unloader__pivot_ratio": 3.0}])
 def test_other_mechanisms_without_a_cam_draw(keys: dict[str, Any]) -> None:
     assert panel(drawn("slider", "swing", **keys).figure, "Mechanism at mid-swing [mm]").get_lines()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "titles"),
     [
@@ -195,6 +197,7 @@ def test_every_command_draws(command: str) -> None:
     assert f"wide-swing-twin-cam: {command}" in placed_sheet("wide_swing_twin_cam", command).figure.get_suptitle()
 
 
+@pytest.mark.slow
 def test_design_without_cam_or_profile() -> None:
     looped = {"swing": 160, "cycle_angle": 150, "unloader__stretch_ratio": 0.05, "unloader__pivot_ratio": 4}
     for name, keys in (("slider", {}), ("twin_rocker", looped), ("twin_cam", {"cam__roller_radius": 100})):

@@ -130,6 +130,7 @@ def test_letters_that_no_font_has_are_told_of_once(
     )
 
 
+@pytest.mark.slow
 def test_curvature_is_shown_as_far_as_it_goes() -> None:
     """The panel goes no farther: not up to 100 centre distances, 200 times the maximum radius."""
     _, figure = sheet("wide_swing_slider_cam", "cam")
@@ -141,6 +142,7 @@ def test_curvature_is_shown_as_far_as_it_goes() -> None:
     assert low < float(np.nanmin(radius))
 
 
+@pytest.mark.slow
 def test_stresses_along_the_path_are_of_the_nominal_load() -> None:
     """Those of the table beside them count the factors of the load."""
     made, figure = sheet("gear_pair", "gear")
@@ -202,6 +204,7 @@ def test_least_contact_torques_have_a_true_minus_sign() -> None:
     assert not [text for text in labels(panel(figure, "Torques")) if "-" in text]
 
 
+@pytest.mark.slow
 def test_a_pointed_chart_reaches_its_point() -> None:
     """Drawn by the rows of its table alone, the longest dwell of these gears would be 3 deg too short."""
     chart, curves = CHARTS["dwell-frame"], (-2.4, -1.8)

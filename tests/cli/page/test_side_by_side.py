@@ -35,6 +35,7 @@ def test_every_piece_is_made_once_and_stands_in_its_place(tmp_path: Path) -> Non
     assert sorted((tmp_path / "made").read_text().split()) == [str(i) for i in range(7)]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("which", [0, 3])
 def test_nothing_is_given_where_a_piece_is_refused(which: int) -> None:
     def make(i: int) -> int:

@@ -56,6 +56,7 @@ def _heed() -> None:
         signal.signal(getattr(signal, name), signal.SIG_DFL)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name", mostly_slow(["SIGTERM", "SIGKILL", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGABRT", "SIGPROF"], 2)
 )
@@ -249,6 +250,7 @@ def test_workers_collect_as_python_does(monkeypatch: pytest.MonkeyPatch) -> None
     assert gc.get_threshold() != pythons
 
 
+@pytest.mark.slow
 def test_this_process_collects_as_python_does_while_it_computes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(process, "_pythons", (701, 11, 9))
     before = gc.get_threshold()

@@ -89,6 +89,7 @@ def test_the_walk_finds_the_keys() -> None:
     assert {key for _, key in keys} >= {"module", "teeth[0]", "gears.i3", "tolerance.sources.x.grade", "sync.length"}
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize(
     ("kind", "key", "build"),
     mostly_slow(KEYS, 60),

@@ -473,6 +473,7 @@ def test_a_tag_that_is_also_a_key_does_not_mislead() -> None:
     assert (found.key, found.line, found.column) == ("unit.spring", 3, 3)
 
 
+@pytest.mark.slow
 def test_a_flood_of_errors_is_cut_in_time() -> None:
     text = HEAD + "".join(f"key_number_{i}: 1\n" for i in range(15_000))
     start = time.process_time()

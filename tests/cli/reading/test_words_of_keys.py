@@ -37,7 +37,7 @@ def without(data: dict[str, Any], path: str) -> dict[str, Any]:
     return changed
 
 
-@pytest.mark.quick(40)
+@pytest.mark.quick(10)
 @pytest.mark.parametrize(("kind", "meaning"), CASES, ids=[f"{kind}-{meaning.words[0]}" for kind, meaning in CASES])
 def test_a_word_names_the_key_of_its_kind(kind: str, meaning: Meaning) -> None:
     """On top of a file and in the section of the key; that the key is missing is not said as well."""
@@ -118,6 +118,7 @@ CARD = ("module", "teeth", "tooth_counts", "z1", "eccentricity", "stroke", "dwel
 CARD += ("prime_radius", "base_radius", "offset")
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("kind", FILES)
 def test_a_word_of_the_card_leads_on_in_every_kind(kind: str) -> None:
     """To keys or results of the kind, to the section that has the key, or to the kinds that have such a thing."""

@@ -18,6 +18,7 @@ def refusal(gearlink: Any, words: str, *sets: str) -> dict[str, Any]:
     return found  # type: ignore[no-any-return]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("words", "change"),
     [
