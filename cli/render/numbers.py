@@ -27,10 +27,15 @@ def number(value: object, digits: int = 7) -> str:
     if value is None:
         return "-"
     if isinstance(value, list):
-        return " ".join(number(item, digits) for item in value)
+        return _between(value).join(number(item, digits) for item in value)
     if isinstance(value, float):
         return f"{value:.{digits}g}"
     return str(value)
+
+
+def _between(values: list[Any]) -> str:
+    """What separates the entries of a list: texts have blanks of their own."""
+    return "; " if any(isinstance(each, str) and " " in each for each in values) else " "
 
 
 _DRAWN = {"mm": 3, "deg": 2}
@@ -52,7 +57,7 @@ def drawn(value: object, unit: str, digits: int | str | None = None) -> str:
         ('0.333 -', '0.3333333333333333')
     """
     if isinstance(value, list):
-        return " ".join(drawn(item, unit, digits) for item in value)
+        return _between(value).join(drawn(item, unit, digits) for item in value)
     if not isinstance(value, float):
         return number(value)
     if digits is not None:

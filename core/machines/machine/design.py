@@ -475,7 +475,7 @@ class Machine(OfMembers):
 
     def check_timing_relation(self) -> Iterator[Check]:
         """GL530: each relation."""
-        from gearlink.core.machines.machine.relations import Value
+        from gearlink.core.machines.machine.relations import Value, Within
 
         for relation, margin in self.margins:
             of_value = isinstance(relation, Value)
@@ -483,9 +483,15 @@ class Machine(OfMembers):
             status = self.status_of(relation, margin)
             unit = self._unit_of_value(relation) if of_value else "deg"
             what, limiting = f"{relation.text}, margin", self._limiting(relation, status)
-            fix = "shift a phase that is given" if self.spec.free else "shift a phase, or give phase: free"
-            note = f"no phases do better: these limit each other: {', '.join(limiting)}" if limiting else ""
-            if limiting:
+            fix, note = "shift a phase that is given" if self.spec.free else "shift a phase, or give phase: free", ""
+            if limiting == (relation.text,):
+                within = isinstance(relation, Within)
+                note = (
+                    "no phases do better: the durations of both runs decide" if within else "no free phase changes it"
+                )
+                fix = "change the duration of one of both runs" if within else fix
+            elif limiting:
+                note = f"no phases do better: these limit each other: {', '.join(limiting)}"
                 fix = "relax one of the requirements that limit each other"
             yield codes.TIMING.check(status, what, margin, limit, unit, fix=fix, note=note)
 

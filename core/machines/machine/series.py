@@ -18,6 +18,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, in_section, named
 from gearlink.core.mechanism.motion import TURN, Course, Motion
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.studies.loads.zeros import zeros_of
 
 if TYPE_CHECKING:
@@ -127,11 +128,28 @@ class OnShaft:
                 return self._whole(abs(self.ratio) * TURN / self.period)
             gained = gain(self.driver.motion, self._driving) * self._driver_periods
             if abs(gained) < _WHOLE:
+                self._require_range()
                 return self.driver.turns
             if self.period is None:
                 message = "its driver turns on and on, its own input has a range"
                 raise NoSolution(message, key="input", fix="take a driver that swings")
             return self.driver.turns * self._whole(abs(self._step * gained) / self.period)
+
+    def _require_range(self) -> None:
+        """Refuse a driver that swings beyond the range of the input.
+
+        Raises
+            NoSolution
+        """
+        if self.period is None and self.driver is not None:
+            end = TURN * self.driver.turns
+            joints = self._of_driver(self.driver.turns)
+
+            def own(angle: Reals) -> Reals:
+                return self.input(angle, 0)[0]
+
+            found = extremes_over([(own, True), (own, False)], 0.0, end, joints=joints, samples=360)
+            self._in_range(np.array([value for value, _ in found]))
 
     @property
     def _driving(self) -> Course:

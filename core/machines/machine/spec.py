@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.errors import NoSolution, named
 from gearlink.core.base.spec import Deferred, DesignSpec, Entries, Length, Ratio, Share, Spec, Speed, TolerancedSpec
 from gearlink.core.base.spec_paths import put
+from gearlink.core.base.wording import amount
 from gearlink.core.machines.machine.relations import NotARelation, parse
 
 if TYPE_CHECKING:
@@ -176,7 +177,8 @@ class MainShaft(Spec):
     def _as_many(self) -> MainShaft:
         count = len(self.inertias)
         if len(self.stiffnesses) != count - 1:
-            message = f"{count} discs have {count - 1} stiffnesses between them, not {len(self.stiffnesses)}"
+            springs = amount(count - 1, "stiffness", "stiffnesses")
+            message = f"{count} discs have {springs} between them, not {len(self.stiffnesses)}"
             raise _refuse("GL111", "stiffnesses", message)
         for name in ("members", "ratios"):
             given = getattr(self, name)

@@ -263,5 +263,19 @@ def test_of_a_section_it_is_the_key_that_the_remedy_changes() -> None:
     assert key_of(data, replace(missed, remedy=(("gears.idler", 43),))) == "links"
 
 
+def test_of_a_machine_it_is_the_key_of_the_member_or_the_relation() -> None:
+    data = {
+        "speed": 140,
+        "members": {"feed": {"design": {"kind": "crank-rocker", "links": {"crank": 30}, "input_speed": 99}}},
+        "require": ["feed.rise_end before 80", "feed.rise_end  before 90 by 2"],
+    }
+    poor = Check("GL303", "transmission-angle", "fail", "feed: minimum transmission angle")
+    assert key_of(data, poor) == "members.feed.design.links"
+    assert key_of(data, replace(poor, code="GL531", what="feed: input_speed")) == "members.feed.design.input_speed"
+    assert (
+        key_of(data, Check("GL530", "timing-relation", "fail", "feed.rise_end before 90 by 2, margin")) == "require[1]"
+    )
+
+
 def test_help_has_an_example(gearlink: Any) -> None:
     assert "Example: gearlink check" in gearlink("check", "--help").out

@@ -168,6 +168,15 @@ def test_members_in_a_circle_and_wrong_members_are_refused_at_their_key() -> Non
         assert wrong.value.key == key
 
 
+def test_a_driver_that_swings_beyond_the_range_is_refused_before_any_table() -> None:
+    """Of the rocker's whole swing, at the range of the driven crank; a range that holds all of it is taken."""
+    narrow = {**SWUNG, "range": [50, 60]}
+    with pytest.raises(GearlinkError) as refused:
+        _ = machine({"first": of(ROCKER), "second": of(narrow, input="first.output", phase=60)}).cycle_turns
+    assert refused.value.key == "members.second.range"
+    assert machine({"first": of(ROCKER), "second": of(SWUNG, input="first.output", phase=60)}).cycle_turns == 1
+
+
 def test_the_table_of_a_drive_in_place_of_a_member() -> None:
     """Over the machine angle, ratio and phase in it; as exact between rows as that of the cam alone."""
     members = {"feed": of(cam(FEED), phase=20), "arm": of(ROCKER, phase=7, ratio=-2)}
