@@ -732,7 +732,8 @@ def geneva_wheel(design: Any) -> Part:
     locking = spec.locking_radius
     arcs = "no locking arcs: the file has no locking_radius"
     if locking is not None:
-        arcs = f"locking arcs of radius {locking:.9g} mm about the crank's axis in the dwell, without running clearance"
+        arcs = f"locking arcs of radius {locking + spec.locking_clearance:.9g} mm about the crank's axis in the dwell"
+        arcs += f", {_wider(spec.locking_clearance, 'the disc')}"
     form = "inner contour, the body lies outside it; the rim is the designer's choice" if inner else "outer contour"
     return Part(
         name="wheel",
@@ -742,13 +743,18 @@ def geneva_wheel(design: Any) -> Part:
         teeth=spec.slots,
         circles=() if spec.hub_radius is None else (Circle("HUB", spec.hub_radius),),
         notes=(
-            f"{form}; slots as wide as the pin, {2.0 * spec.pin_radius:.9g} mm: add the running clearance",
+            f"{form}; slots {2.0 * spec.pin_radius + spec.slot_clearance:.9g} mm wide, "
+            f"{_wider(spec.slot_clearance, 'the pin')}",
             arcs,
             f"distance of the axes {spec.center_distance:.9g} mm",
             "frame: axis of the wheel at the origin, the middle of a slot on the x axis",
         ),
         findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),
     )
+
+
+def _wider(clearance: float, than: str) -> str:
+    return f"{clearance:.9g} mm more than {than}" if clearance else f"as {than}: add the running clearance"
 
 
 def geneva_driver(design: Any) -> Part:
@@ -766,7 +772,7 @@ def geneva_driver(design: Any) -> Part:
         notes=(
             f"pins of radius {spec.pin_radius:.9g} mm at {drive.crank:.9g} mm from the axis",
             "the crank's arm, which carries pin and disc, lies in front of the wheel and is not drawn",
-            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius; no running clearance",
+            f"cut-out: {outlines.cut_vertex:.9g} mm from the axis on the pin's radius",
             "frame: axis of the crank at the origin, a pin on the x axis",
         ),
         findings=tuple(check.message for check in design.check("locking") if check.status == "fail"),

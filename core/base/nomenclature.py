@@ -270,7 +270,7 @@ _MUTILATED = {
     "cycle_turns": Term("i_r/g", "1", "input revolutions per output cycle", "own derivation"),
     "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
     "dwell_turns": Term("", "1", "input revolutions during which the driven gear dwells", "own derivation"),
-    "motion_share": Term("n g/Z_M", "1", "share of the cycle in motion", "own derivation"),
+    "motion_share": Term("t_m/T", "1", "share of the cycle in motion", "own derivation"),
     "dwell_share": Term("1 - n g/Z_M", "1", "share of the cycle at rest", "own derivation"),
     "driven_turn": Term("n/Z_F", "1", "turns of the driven gear per group of teeth", "own derivation"),
     "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),

@@ -18,8 +18,12 @@ GENEVA = {
     "crank_radius": Term("r", "mm", "radius of the pin's circle", "thesis 4.2.1; own derivation: a sin(pi/n)"),
     "wheel_radius": Term("R", "mm", "radius of the wheel to its slots' mouths", "own derivation: a cos(pi/n)"),
     "slot_bottom_radius": Term("", "mm", "wheel axis to the bottoms of the slots"),
-    "lip_thickness": Term("", "mm", "metal between locking arc and slot", "own derivation: r - r_pin - locking_radius"),
+    "lip_thickness": Term(
+        "", "mm", "metal between locking arc and slot", "own derivation: r - b/2 - h, h radius of the arc"
+    ),
     "motion_angle": Term("2 f_0", "deg", "input angle of a step", "own derivation: 180 deg - s 360 deg/n"),
+    "wheel_backlash": Term("", "deg", "maximum angle that the wheel can turn about the pin in its slot"),
+    "locking_play": Term("", "deg", "angle that the wheel can turn in the middle of the dwell, held by the disc"),
     "locking_angle": Term("", "deg", "input angle between two steps, in which the wheel dwells"),
     "entry_acceleration_ratio": Term("tan(pi/n)", "1", "jump of the acceleration ratio at entry and exit"),
     "steps_per_minute": Term("", "1/min", "steps of the wheel in a minute: input speed times pins", "thesis 4.2.1"),

@@ -38,19 +38,21 @@ class Outlines:
 
     Fields
         drive : Geneva
-        pin, locking : float [mm] - radii of pin and locking disc
+        slot : float [mm] - half the width of a slot
+        locking, hollow : float [mm] - radii of the locking disc, and of the wheel's locking arcs
     Source
-        own derivation: the wheel's arc and the disc are the same circle about the crank's axis in the dwell
+        own derivation: the wheel's arc and the disc are circles about the crank's axis in the dwell
     """
 
     drive: Geneva
-    pin: float
+    slot: float
     locking: float
+    hollow: float
 
     @property
     def tip(self) -> float:
         """Wheel axis to the corners of a slot's mouth [mm]."""
-        return math.hypot(self.drive.wheel, self.pin)
+        return math.hypot(self.drive.wheel, self.slot)
 
     @property
     def depth(self) -> float:
@@ -69,12 +71,30 @@ class Outlines:
         Raises
             NoSolution - where the disc covers the whole wheel
         """
-        if self.depth <= 0.0:
-            return 0.0
         distance, tip = self.drive.distance, self.tip
-        if self.locking >= distance + tip:  # the disc holds the whole circle
+        if self.hollow <= abs(distance - tip):
+            return 0.0
+        if self.hollow >= distance + tip:  # the disc holds the whole circle
             return math.pi
-        return math.acos((distance**2 + tip**2 - self.locking**2) / (2.0 * distance * tip))
+        return _seen(distance, tip, self.hollow)
+
+    @property
+    def play(self) -> float | None:
+        """Angle that the wheel can turn in the middle of the dwell, from one side of the disc to the other [rad].
+
+        The corner of its arc, or the edge of the disc if that is nearer to the line of centres, stands at d from the
+        wheel's axis: 2 (acos((a^2 + d^2 - h^2)/(2 a d)) - acos((a^2 + d^2 - l^2)/(2 a d))), h and l the radii of arc
+        and disc; to first order 2 (h - l)/(a sin t), t from the line of centres at the crank's axis. None where the
+        disc holds nothing.
+        """
+        drive, a, radius = self.drive, self.drive.distance, self.locking
+        end = 0.5 * TURN / drive.pins - drive.half
+        if self.depth <= 0.0 or end <= _INSIDE or self.hollow >= a + self.tip:
+            return None
+        away = math.sqrt(a * a + radius * radius - 2.0 * drive.sign * a * radius * math.cos(end))
+        if drive.sign > 0.0 and _seen(a, self.hollow, self.tip) < end:
+            away = self.tip
+        return 2.0 * (_seen(a, away, self.hollow) - _seen(a, away, radius))
 
     def wheel_half(self) -> list[Piece]:
         """From the bottom of a slot on the x axis to the middle between two slots.
@@ -82,33 +102,33 @@ class Outlines:
         Raises
             NoSolution - where slots run into each other, or the locking arcs reach their bottoms
         """
-        drive, s, pin = self.drive, self.drive.sign, self.pin
+        drive, s, wide = self.drive, self.drive.sign, self.slot
         bottom, mouth, middle = drive.distance - s * drive.crank, drive.wheel, math.pi / drive.slots
-        axis, corner = cmath.rect(drive.distance, middle), math.asin(pin / self.tip)
+        axis, corner = cmath.rect(drive.distance, middle), math.asin(wide / self.tip)
         if corner >= middle:
             widest = drive.wheel * math.tan(middle)
-            message = f"slots for a pin of radius {short(pin)} mm run into each other at their mouths"
+            message = f"slots {short(2.0 * wide)} mm wide run into each other at their mouths"
             raise NoSolution(message, key="pin_radius", fix=f"choose pin_radius below {safely_below(widest)} mm")
         arc_from = middle - self._arc_half
         if arc_from < corner:  # no lip: the arc cuts the wall of the slot
-            mouth -= s * math.sqrt(self.locking**2 - (drive.crank - pin) ** 2)
+            mouth -= s * math.sqrt(self.hollow**2 - (drive.crank - wide) ** 2)
             if s * (mouth - bottom) <= 0.0:
-                most = math.hypot(drive.crank - pin, drive.wheel - bottom)
-                message = f"the locking arc of radius {short(self.locking)} mm reaches the bottoms of the slots"
+                most = math.hypot(drive.crank - wide, drive.wheel - bottom)
+                message = f"the locking arc of radius {short(self.hollow)} mm reaches the bottoms of the slots"
                 fix = f"choose locking_radius below {safely_below(most)} mm"
                 raise NoSolution(message, key="locking_radius", fix=fix)
         pieces = [
-            Piece("bottom", lambda t: complex(bottom) - complex(s * pin) * units(-s * t), 0.0, 0.5 * math.pi),
-            Piece("slot", partial(_straight, complex(bottom, pin), complex(mouth, pin)), 0.0, 1.0),
+            Piece("bottom", lambda t: complex(bottom) - complex(s * wide) * units(-s * t), 0.0, 0.5 * math.pi),
+            Piece("slot", partial(_straight, complex(bottom, wide), complex(mouth, wide)), 0.0, 1.0),
         ]
-        start = complex(mouth, pin)
+        start = complex(mouth, wide)
         if arc_from >= corner:
             pieces.append(Piece("tip circle", lambda t: self.tip * units(t), corner, arc_from))
             start = cmath.rect(self.tip, arc_from)
-        if self.depth > 0.0:
+        if self._arc_half > 0.0:
             inward = -s * cmath.rect(1.0, middle)
             turn = cmath.phase((start - axis) / inward)
-            arc = Piece("locking arc", lambda t: axis + self.locking * inward * units(turn * (1.0 - t)), 0.0, 1.0)
+            arc = Piece("locking arc", lambda t: axis + self.hollow * inward * units(turn * (1.0 - t)), 0.0, 1.0)
             pieces.append(arc)
         return pieces
 
@@ -170,10 +190,15 @@ class Outlines:
         """Points of the lips beside a slot while its pin drives them, seen from the crank, the pin on the x axis."""
         drive, s = self.drive, self.drive.sign
         f = np.linspace(-drive.half, drive.half, _INSTANTS)[:, None]
-        lip = np.linspace(math.asin(self.pin / self.tip), math.pi / drive.slots - self._arc_half, _PLACES)
+        lip = np.linspace(math.asin(self.slot / self.tip), math.pi / drive.slots - self._arc_half, _PLACES)
         lips = self.tip * units(np.concatenate([lip, -lip]))
         turn = (math.pi if s > 0.0 else 0.0) - s * drive.rates(f, 0)[0]
         return np.asarray(((s * drive.distance + lips * units(turn)) * units(-f)).ravel())
+
+
+def _seen(one: float, other: float, opposite: float) -> float:
+    """Angle of a triangle between two sides [rad]."""
+    return math.acos((one * one + other * other - opposite * opposite) / (2.0 * one * other))
 
 
 def _turned(curve: Callable[[Reals], Points], unit: complex, parameter: Reals) -> Points:

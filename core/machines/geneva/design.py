@@ -12,7 +12,7 @@ from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.geneva.codes import LOCKING, STEP_RATE
+from gearlink.core.machines.geneva.codes import LOCKING, PIN_ENTRY, STEP_RATE
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 TURN = 2.0 * math.pi
 SIZES = ("crank_radius", "wheel_radius", "tip_radius", "slot_bottom_radius", "lip_thickness")
+PLAYS = ("wheel_backlash", "locking_play")
 MOTION = (
     "motion_angle", "motion_share", "locking_angle", "speed_ratio_max", "acceleration_ratio_max",
     "acceleration_ratio_max_at", "entry_acceleration_ratio", "input_speed", "turn_time", "steps_per_minute",
@@ -56,12 +57,15 @@ class GenevaDrive(RealSpeed, Design):
         ),
     }
     outlines = {
-        "analyze": Outline((*SIZES, *MOTION, *FORCES), ("locking", "shaft-clearance", "step-rate"), ("motion",))
+        "analyze": Outline(
+            (*SIZES, *PLAYS, *MOTION, *FORCES), ("locking", "pin-entry", "shaft-clearance", "step-rate"), ("motion",)
+        )
     }
     extra_tables = ("comparison",)
     requirements = Design.requirements | {"slots", "type", "limits.steps_per_minute"}
     ways = {
         "locking": either("locking_radius", "pin_radius", "center_distance"),
+        "pin-entry": either("locking_clearance", "slot_clearance"),
         "shaft-clearance": either("shaft_radius", "hub_radius", "center_distance"),
     }
 
@@ -85,27 +89,48 @@ class GenevaDrive(RealSpeed, Design):
 
     @property
     def tip_radius(self) -> float:
-        """Wheel axis to the corners of a slot's mouth, as wide as the pin [mm]: sqrt(wheel^2 + r_pin^2)."""
+        """Wheel axis to the corners of a slot's mouth [mm]: sqrt(wheel^2 + (b/2)^2)."""
         return self.outlines_with(0.0).tip
 
     def outlines_with(self, locking: float) -> Outlines:
         """Wheel and driver with a locking disc of this radius [mm]."""
         from gearlink.core.machines.geneva.bodies import Outlines
 
-        return Outlines(self.drive, self.spec.pin_radius, locking)
+        return Outlines(self.drive, self._half_slot, locking, locking + self.spec.locking_clearance)
+
+    @property
+    def _half_slot(self) -> float:
+        return self.spec.pin_radius + 0.5 * self.spec.slot_clearance
 
     @property
     def slot_bottom_radius(self) -> float | None:
-        """Wheel axis to the bottom of a slot [mm], a - r - r_pin; of an internal wheel the bottoms lie outside."""
+        """Wheel axis to the bottom of a slot [mm], a - r - b/2; of an internal wheel the bottoms lie outside."""
         if self.drive.sign < 0.0:
             return None
-        return self.drive.distance - self.crank_radius - self.spec.pin_radius
+        return self.drive.distance - self.crank_radius - self._half_slot
 
     @property
     def lip_thickness(self) -> float | None:
-        """Metal between the locking arc and a slot [mm]: r - r_pin - locking_radius."""
+        """Metal between the locking arc and a slot [mm]: r - b/2 - (locking_radius + locking_clearance)."""
         locking = self.spec.locking_radius
-        return None if locking is None else self.crank_radius - self.spec.pin_radius - locking
+        return None if locking is None else self.crank_radius - self._half_slot - locking - self.spec.locking_clearance
+
+    # Play
+
+    @property
+    def wheel_backlash(self) -> float | None:
+        """Maximum angle that the wheel can turn about a pin in its slot [rad]: 2 asin(c/(2 p)), p the minimum reach."""
+        if not self.spec.slot_clearance:
+            return None
+        nearest = self.drive.distance - self.crank_radius if self.drive.sign > 0.0 else self.wheel_radius
+        return 2.0 * math.asin(0.5 * self.spec.slot_clearance / nearest)
+
+    @property
+    def locking_play(self) -> float | None:
+        """Angle that the wheel can turn in the middle of the dwell [rad]."""
+        if self.spec.locking_radius is None or not self.spec.locking_clearance:
+            return None
+        return self.outlines_with(self.spec.locking_radius).play
 
     # Motion
 
@@ -300,7 +325,7 @@ class GenevaDrive(RealSpeed, Design):
             yield from self._held(self.outlines_with(self.spec.locking_radius or 0.0), lips=lip > 0.0)
         if self.drive.sign > 0.0:
             bottom = self.drive.distance - self.crank_radius
-            web = 2.0 * (bottom * self.drive.ratio - self.spec.pin_radius)
+            web = 2.0 * (bottom * self.drive.ratio - self._half_slot)
             status = "fail" if web <= 0.0 else "pass"
             what, overlap = "web between the bottoms of two slots", "overlap of the bottoms of two slots"
             fix = "take a smaller pin_radius, or a larger center_distance"
@@ -316,6 +341,16 @@ class GenevaDrive(RealSpeed, Design):
         if lips and depth > 0.0 and (over := outlines.overlap) > 0.0:
             what = "interference of the lip at a slot with the edge of the locking disc"
             yield LOCKING.check("fail", what, over, 0.0, "mm", side="<=", fix=deeper)
+
+    def check_pin_entry(self) -> Iterator[Check]:
+        """GL347: whether a wheel that stands off by its play takes the pin."""
+        play = self.locking_play
+        if play is None:
+            return
+        off, most = self.wheel_radius * math.sin(0.5 * play), 0.5 * self.spec.slot_clearance
+        what = "offset of a slot at its mouth, of the locked wheel"
+        fix = "lower locking_clearance, raise slot_clearance, or chamfer the mouths of the slots"
+        yield PIN_ENTRY.check("warn" if off > most else "pass", what, off, most, "mm", fix=fix)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: the crank's shaft beside an external wheel, and the wheel's hub within the bottoms of its slots."""

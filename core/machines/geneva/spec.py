@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
+Clearance = Annotated[float, Field(ge=0, le=1e3, json_schema_extra={"unit": "mm"})]
 Pins = Annotated[int, Field(ge=1, le=6, json_schema_extra={"unit": "1"})]
 
 
@@ -57,7 +58,9 @@ class GenevaDriveSpec(DrivenSpec):
     center_distance: Length = Field(description="distance of both axes")
     pin_radius: Length = Field(description="radius of the pin, or of its roller")
     pins: Pins = Field(1, description="pins of the crank, equally spaced")
+    slot_clearance: Clearance = Field(0.0, description="width of a slot less the diameter of its pin")
     locking_radius: Length | None = Field(None, description="radius of the disc that locks the wheel in the dwell")
+    locking_clearance: Clearance = Field(0.0, description="radius of the wheel's locking arcs less that of the disc")
     hub_radius: Length | None = Field(None, description="radius of the wheel's hub or shaft")
     shaft_radius: Length | None = Field(None, description="radius of the crank's shaft")
     wheel: Wheel | None = Field(None, description="what the wheel drives: with it contact force and torque are given")
@@ -84,6 +87,9 @@ class GenevaDriveSpec(DrivenSpec):
             message = "the pin's radius {pin} mm reaches over the crank's axis: below {crank} mm"
             words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": f"{crank:.6g}"}
             raise PydanticCustomError("GL111", message, words)
+        if self.locking_clearance and self.locking_radius is None:
+            message = "locking_clearance is that of the locking disc: give locking_radius"
+            raise PydanticCustomError("GL111", message, {"key": "locking_clearance"})
         return self
 
     def _crank(self, _sign: float) -> float:

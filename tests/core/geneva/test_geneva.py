@@ -153,7 +153,8 @@ def test_wheel_and_driver_turn_without_touching(sign: float, slots: int, share: 
     """The outlines join and, turned through a revolution, the wheel's points stay out of the disc but for its arc."""
     drive = Geneva(slots, 1, 100.0, sign)
     pin = 0.1 * drive.crank
-    outlines = Outlines(drive, pin, share * (drive.crank - pin))
+    radius = share * (drive.crank - pin)
+    outlines = Outlines(drive, pin, radius, radius)
     half, driver = outlines.wheel_half(), outlines.driver()
     for chain in (half, [*driver, driver[0]]):
         ends = [(each.curve(np.array([each.low]))[0], each.curve(np.array([each.high]))[0]) for each in chain]
@@ -192,3 +193,58 @@ def test_a_disc_that_does_not_hold_the_wheel() -> None:
 def test_a_disc_beyond_the_whole_wheel_is_a_finding(kind: str) -> None:
     found = design(GIVEN, type=kind, locking_radius=400.0).check("locking")
     assert [each.what for each in found if each.status == "fail"] == ["overlap of locking arc and slot"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "slots", "pins", "radius", "clearance"),
+    [("external", 6, 1, 42.0, 0.1), ("external", 6, 2, 42.0, 0.3), ("external", 4, 1, 60.0, 1.0),
+     ("external", 5, 2, 50.0, 0.05), ("internal", 6, 1, 42.0, 0.2), ("internal", 3, 1, 80.0, 0.6)],
+)  # fmt: skip
+def test_play_of_the_locked_wheel_by_turning_its_outline(
+    kind: str, slots: int, pins: int, radius: float, clearance: float
+) -> None:
+    """The wheel is turned until points of its arc are in the disc, or the disc's edge in the wheel."""
+    keys = {"type": kind, "slots": slots, "pins": pins, "locking_radius": radius, "locking_clearance": clearance}
+    found = design(GIVEN, pin_radius=4.0, **keys)
+    outlines, drive = found.outlines_with(radius), found.drive
+    end, sign = 0.5 * found.locking_angle, drive.sign
+    center = sign * drive.distance  # of the wheel, seen from the crank
+    arc = outlines.wheel_half()[-1]
+    assert arc.name == "locking arc"
+    middle = cmath.rect(1.0, math.pi / slots)
+    half = arc.curve(np.linspace(arc.low, arc.high, 4001)) / middle  # the middle of the arc on the x axis
+    wheel = (-sign * np.concatenate([half, half.conj()])) if sign > 0.0 else np.concatenate([half, half.conj()])
+    edge = radius * np.exp(1j * np.linspace(-end, end, 8001))  # of the disc, about the direction of the arc
+
+    def touches(turn: float) -> bool:
+        points = center + wheel * np.exp(1j * turn)
+        inside = (np.abs(points) < radius) & (np.abs(np.angle(points)) < end)
+        hub = center - center * cmath.exp(1j * turn)  # where the centre of the arc has gone
+        out = (np.abs(edge - hub) > radius + clearance) & (np.abs(edge - center) * sign < outlines.tip * sign)
+        return bool(inside.any() or out.any())
+
+    low, high = 0.0, 0.2
+    for _ in range(40):
+        middle_turn = 0.5 * (low + high)
+        low, high = (low, middle_turn) if touches(middle_turn) else (middle_turn, high)
+    assert found.locking_play is not None
+    assert found.locking_play == pytest.approx(2.0 * low, rel=2e-3, abs=0.0)  # points 1e-4 of the arc apart
+
+
+def test_running_clearance() -> None:
+    """Backlash by the pin between two walls; the lip loses what slot and arc gain; the entry on both sides."""
+    for kind, near in (("external", 120.0 - 60.0), ("internal", 120.0 * math.cos(math.pi / 6.0))):
+        found = design(GIVEN, type=kind, slot_clearance=0.2, locking_clearance=0.05)
+        turned = cmath.rect(near, 0.5 * found.wheel_backlash)
+        assert turned.imag == pytest.approx(0.1, rel=1e-12, abs=0.0)
+        assert found.drive.reach(np.linspace(-found.drive.half, found.drive.half, 999)).min() >= near * (1.0 - 1e-12)
+    assert design(GIVEN).lip_thickness - found.lip_thickness == pytest.approx(0.15, rel=1e-9, abs=0.0)
+    assert design(GIVEN).locking_play is None
+    assert design(GIVEN).wheel_backlash is None
+    held = design(GIVEN, locking_clearance=0.05)
+    least = 2.0 * held.wheel_radius * math.sin(0.5 * held.locking_play)
+    for way, status in ((1.001, "pass"), (0.999, "warn")):
+        (check,) = design(GIVEN, locking_clearance=0.05, slot_clearance=way * least).check("pin-entry")
+        assert check.status == status
+    with pytest.raises(ValueError, match="give locking_radius"):
+        design(GIVEN, locking_radius=None, locking_clearance=0.1)
