@@ -395,6 +395,13 @@ class _Wording:
         if plain not in by_letters and (elsewhere := self._elsewhere(key)):
             return f"{elsewhere}; {listed}"
         near = get_close_matches(plain, by_letters, n=1, cutoff=_SLIP)
+        if (
+            not near
+            and isinstance(value, dict)
+            and 2 * len(higher := [each for each in value if each in allowed]) > len(value)
+        ):
+            level = f"the level of '{format_path(parent)}'" if parent else "the top level"
+            return f"its keys belong to {level} of this kind: {', '.join(higher[:_LISTED_KEYS])}"
         if not near and not parent and (deeper := self._deeper(plain)):
             return f"it belongs to {deeper}; {listed}"
         if near := get_close_matches(plain, by_letters, n=1):

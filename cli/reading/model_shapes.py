@@ -81,7 +81,8 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     words = (field.description or "").removesuffix(f" [{unit}]")
     words = f"{words} ({number})" if words and number else words or number
     text = "; ".join(filter(None, [words, _its_keys(model, path)]))
-    return f"{name}: {text}" if text else ""
+    begins = text.lower().startswith(name.replace("_", " "))  # "module: module; of helical gears ..."
+    return text if begins or not text else f"{name}: {text}"
 
 
 def _its_keys(model: type[BaseModel], path: KeyPath) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pickle
+from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -106,3 +108,11 @@ def test_place_and_line_agree_with_counting(text: str, data: st.DataObject) -> N
     assert line == before.count("\n") + 1
     assert column == len(before) - (before.rfind("\n") + 1) + 1
     assert source.line(line) == text.replace("\r\n", "\n").replace("\r", "\n").split("\n")[line - 1]
+
+
+def test_keys_of_an_unknown_section_are_known_a_level_higher(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "pair.yaml"
+    path.write_text("kind: gear-pair\ngears:\n  module: 3\n  teeth: [23, 61]\n", encoding="utf-8")
+    err = gearlink("gear", path).err
+    assert "unknown key 'gears'" in err
+    assert "help: its keys belong to the top level of this kind: module, teeth" in err
