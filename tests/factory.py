@@ -24,7 +24,6 @@ QUICK = {
     "hypocycloid_slider",
     "mutilated_gear_press",
     "five_bar_path",
-    "five_bar_positions",
     "six_bar_two_trains",
     "gear_pair",
     "ty460_slider_crank",

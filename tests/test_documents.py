@@ -38,6 +38,7 @@ def test_a_figure_that_has_drifted_is_seen() -> None:
     assert blocks.same("18.0581009 mm", "18.0581009001 mm")
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(("page", "command", "output"), sessions(), ids=lambda x: x if isinstance(x, str) else "")
 def test_console_blocks(
     page: str, command: str, output: list[str], gearlink: Any, monkeypatch: pytest.MonkeyPatch

@@ -96,7 +96,7 @@ def test_commands_whose_output_the_manual_prints_run(
     assert ended.status == 2 if on_purpose else ended.status <= 1, ended.err
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("code", "command"), list(reference.FAILING.items()))
 def test_example_of_a_check_still_fails(
     code: str, command: str, gearlink: Any, monkeypatch: pytest.MonkeyPatch

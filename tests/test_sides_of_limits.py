@@ -48,6 +48,7 @@ def test_a_finding_has_the_side_of_its_rule_unless_it_is_told_another() -> None:
     assert rule.check("pass", "", side="").side == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [

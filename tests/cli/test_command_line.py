@@ -269,6 +269,7 @@ def test_a_file_for_a_folder_is_said_so(gearlink: Any, crank: Path, tmp_path: Pa
     assert (tmp_path / "taken").read_text() == ""
 
 
+@pytest.mark.slow
 def test_ascii_terminal() -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     done = shell("synth", "dwell", "designs/candy_feed.yaml", env=environment)

@@ -72,7 +72,7 @@ def test_keys_are_those_of_the_design(line: pytest.MonkeyPatch) -> None:
 OF_KINDS = each_kind(sorted(DESIGNS.glob("*.yaml")))
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", OF_KINDS, ids=lambda path: path.stem)
 def test_parts_sheets_and_places_are_those_of_the_design(monkeypatch: pytest.MonkeyPatch, path: Path) -> None:
     """The names that Tab offers are written down; here each comes from the design itself."""

@@ -43,6 +43,7 @@ def row_of(table: dict[str, Any], key: dict[str, float]) -> dict[str, Any]:
     raise AssertionError(f"no row {key}")
 
 
+@pytest.mark.quick(20)
 @pytest.mark.parametrize(
     ("group", "case"),
     [

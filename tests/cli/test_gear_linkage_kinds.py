@@ -38,7 +38,7 @@ def design_of(path, command="analyze"):
     return build(loaded, kind, command, read_spec(loaded, kind, str(path)), Options())[0]
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("kind", "name"), PAIRS)
 def test_worked_design(kind, name, gearlink, designs):
     ended = gearlink(*asked(name)[0].split(), designs / f"{name}.yaml", "--format", "json")
@@ -48,7 +48,7 @@ def test_worked_design(kind, name, gearlink, designs):
     assert ended.json["checks"]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", [*(names[0] for names in WORKED.values()), "two_gear_standing"])
 def test_every_command_in_every_format(name, gearlink, designs):
     for command in asked(name):
@@ -285,6 +285,7 @@ def test_table_of_the_other_form_is_refused(gearlink, designs):
     assert "it has path" in ended.json["errors"][0]["message"]
 
 
+@pytest.mark.slow
 def test_five_bar_figure_shows_the_table():
     made, figure = sheet("five_bar_points")
     lines = {line.get_label(): line for axes in figure.axes for line in axes.lines}

@@ -40,7 +40,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return lengths
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 @pytest.mark.usefixtures("asked")
 def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
@@ -58,6 +58,7 @@ def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
             assert list(map(tuple, parts.each_row())) == list(map(tuple, whole.each_row())), name
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("command", "file"),
     mostly_slow(
@@ -101,6 +102,7 @@ def test_long_tables_are_read_as_often_as_asked() -> None:
     assert whole.rows() == whole.rows() == [[1.0], [2.0], [1.0], [2.0]]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("file", "table"),
     [("geared_six_bar", "links"), ("geared_six_bar", "joints"), ("five_bar_path", "path"), ("swing_gripper", "tip")],

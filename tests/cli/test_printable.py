@@ -119,6 +119,7 @@ def hostile(request: Any, tmp_path: Path, designs: Path, monkeypatch: pytest.Mon
     return place
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("form", mostly_slow(["csv", "table", "md"], 1))
 def test_batch_and_check(gearlink: Any, hostile: Path, form: str) -> None:
     for command in ("batch", "check"):
@@ -179,7 +180,7 @@ def test_every_finding_of_a_design_is_shown(gearlink: Any, designs: Path) -> Non
     )
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "line",
     mostly_slow(["report", "animate --format html", "crank --format json", "crank --format csv", "crank --plot"], 4),

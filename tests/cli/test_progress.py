@@ -185,6 +185,7 @@ def test_times_in_words(seconds: float, words: str) -> None:
     assert duration(seconds) == words
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("line", "shown"),
     [

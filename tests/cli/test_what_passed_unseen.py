@@ -73,6 +73,7 @@ def test_a_body_or_a_limit_that_no_check_saw(gearlink: Any, tmp_path: Path, text
     assert [f["message"] for f in ended.json["findings"] if f["code"] == code and words in f["message"]]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("radius", [70, 74])
 def test_a_rocker_without_a_gap_is_judged_to_mid_swing(gearlink: Any, designs: Path, radius: int) -> None:
     line = ("check", designs / "wide_swing_twin_cam.yaml", "--set", f"cam.rocker_radius={radius}", "--format", "json")

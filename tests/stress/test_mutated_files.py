@@ -172,6 +172,7 @@ def test_many_mutated_files(part: int, tmp_path: Path) -> None:
     assert grown < MEGABYTES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [

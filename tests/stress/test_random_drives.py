@@ -243,6 +243,7 @@ TASKS: dict[str, Any] = {  # from a share of what is possible and i3
 }
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("task", TASKS)
 @pytest.mark.parametrize("count", [10, pytest.param(max(1, MANY // 300), marks=pytest.mark.stress)])
 def test_syntheses_from_file_to_quantities(task: str, count: int) -> None:

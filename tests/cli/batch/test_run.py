@@ -245,6 +245,7 @@ def _written(folder: Path) -> int:
     return sum(1 for _ in folder.rglob("*.json"))
 
 
+@pytest.mark.slow
 def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None:
     press = (designs / "ty460.yaml").read_text()
     for i in range(500):

@@ -197,6 +197,7 @@ def test_rounding_is_no_change_by_default(gearlink: Any, two: Any) -> None:
     assert gearlink("diff", *files, "--tolerance", "0").status == 1
 
 
+@pytest.mark.slow
 def test_small_inputs_are_compared_by_their_magnitude(gearlink: Any, two: Any) -> None:
     """Half of a tolerance of 1e-9 deg is another design, though it is less than 1e-9."""
     window = LINKAGE + "dwell: {tolerance: 1e-9}\n"

@@ -101,6 +101,7 @@ def test_formulas_belong_to_quantities() -> None:
 NAMES = names()
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("name", mostly_slow([*NAMES[::5], *(name for name in NAMES if name not in NAMES[::5])], 65))
 def test_everything_can_be_explained(gearlink: Any, name: str) -> None:
     ended = gearlink("explain", name)

@@ -210,6 +210,7 @@ def test_polydyne_of_few_periods_is_warned_of(gearlink: Any, tmp_path: Path) -> 
     assert (check["code"], check["status"]) == ("GL518", "warn")
 
 
+@pytest.mark.slow
 def test_chart_of_what_laws_leave(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "quiet.yaml"
     path.write_text(QUIET)

@@ -122,6 +122,7 @@ def test_keys_in_force_are_written_as_in_a_file() -> None:
     assert rows == {"hand": "[right, left]", "sobol": "false", "teeth": "[23, 71]", "own.width": "20.0"}
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("pictures_are_blank")
 def test_a_report_is_in_the_order_of_a_review(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     """What has changed is said first, the file stands last; every link of the contents has its place."""

@@ -68,6 +68,7 @@ def test_a_cam_axis_that_was_chosen_is_written_in_place_of_its_rule(gearlink: An
     assert after["checks"] == json.loads(before.out)["checks"]
 
 
+@pytest.mark.slow
 def test_a_cam_axis_that_no_rule_finds_stays_asked_for(gearlink: Any, tmp_path: Path) -> None:
     path, sized = tmp_path / "full.yaml", ("--set", "cam.center=null", "--set", "size={pressure_angle: 2}")
     ended = gearlink("gripper", DESIGNS / "swing_gripper.yaml", *sized, "--save", path, "--quiet")

@@ -181,7 +181,7 @@ dwell_window: 60
 """
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("typed", "key"), [(("22.52", "23.60"), "crank"), (("86.2", "85.0"), "frame")])
 def test_one_mistyped_length_is_found(gearlink: Any, tmp_path: Path, typed: tuple[str, str], key: str) -> None:
     """The one change stands at its line, repairs the collision besides, and the saved file passes."""

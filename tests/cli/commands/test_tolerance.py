@@ -272,7 +272,7 @@ UNKNOWN_NAMES = [
 ]
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "setting", "code", "words"), UNKNOWN_NAMES)
 def test_names_that_the_design_does_not_have_are_refused_by_check_and_batch(
     gearlink: Any, tmp_path: Path, designs: Path, name: str, setting: str, code: str, words: str

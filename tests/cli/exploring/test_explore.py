@@ -67,6 +67,7 @@ def test_one_design_is_printed_or_all_are_written(gearlink: Any, written: Any, o
     assert f"omit {other[0]}" in ended.err
 
 
+@pytest.mark.slow
 def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_path: Path) -> None:
     folder = tmp_path / "kept"
     first = gearlink("explore", written(), "--write", folder)
@@ -79,6 +80,7 @@ def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_
     assert there in (count, count + 1)
 
 
+@pytest.mark.slow
 def test_none_feasible_is_exit_1_and_a_warning_is_with_strict(gearlink: Any, written: Any) -> None:
     ended = gearlink("explore", written(where=["frame_length <= 2 mm"]), "--format", "json")
     assert (ended.status, ended.json["ok"]) == (1, False)

@@ -51,6 +51,7 @@ def json_of(gearlink: Any, *arguments: object) -> str:
     return str(ended.out)
 
 
+@pytest.mark.slow
 def test_the_same_with_one_two_and_seven_processes(gearlink: Any, study: Path, tmp_path: Path) -> None:
     alone = json_of(gearlink, study, "--jobs", 1)
     for jobs in (2, 7) if ALL else (2,):
@@ -202,6 +203,7 @@ def test_a_store_in_use_is_refused(gearlink: Any, study: Path, tmp_path: Path) -
     assert (code, "in use" in message) == ("GL159", True)
 
 
+@pytest.mark.slow
 def test_empty_and_missing_files_begin_a_store(gearlink: Any, study: Path, tmp_path: Path) -> None:
     (tmp_path / "empty.sqlite").touch()
     assert json_of(gearlink, study, "--store", tmp_path / "empty.sqlite", "--resume") == json_of(

@@ -113,7 +113,7 @@ DISC_CAMS = [
 ]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> None:
@@ -129,7 +129,7 @@ def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> 
         assert distance(nodes, points).max() <= 2e-6  # chord error of 30,011 points on a cam of 220 mm
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 def test_the_reached_error_is_the_error(build: Any, name: str) -> None:
     """Not only a bound: resampling finds nearly all of it."""
@@ -314,6 +314,7 @@ def test_what_is_known_of_a_curve_is_not_sought_again() -> None:
     assert set(found.parameter.tolist()) <= set(asked)
 
 
+@pytest.mark.slow
 def test_a_file_holds_so_many_points_whatever_its_curves(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a cam, profile and roller path count together; what the message says does."""
     part = parts.makers(factory.design("wide_swing_oscillating_cam"))["main_cam"]()
@@ -346,7 +347,7 @@ SWING_CAMS = [
 ]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: CurveForm) -> None:
@@ -363,6 +364,7 @@ def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: C
     assert distance(column["pitch_x"] + 1j * column["pitch_y"], pitch).max() <= exported.error + AGAIN
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("form", mostly_slow(FORMS, 1))
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: CurveForm) -> None:

@@ -236,10 +236,12 @@ def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
         drawn("ty460", command, **keys)
 
 
+@pytest.mark.slow
 def test_a_name_of_mathematics_is_placed_as_text() -> None:
     placed_sheet("ty460", "crank", name=r"$\frac$ " * 20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", mostly_slow(["press", "cam"], 1))
 def test_no_legend_lies_on_curves(command: str) -> None:
     """Legends of curve panels stand above their axes."""

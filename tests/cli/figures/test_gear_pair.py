@@ -110,6 +110,7 @@ def test_a_picture_is_written(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["pair-gear.png"]
 
 
+@pytest.mark.slow
 def test_teeth_that_no_tool_cuts_are_said_to_be_none():
     figure = sheet(DATA, "gear", teeth=[30, 40], addendum=2.5, profile_shift=[0.0, 0.0]).figure
     assert "gear 1: its tool leaves no such teeth" in words(figure)
@@ -124,6 +125,7 @@ def test_two_meshes_stand_in_one_figure():
     assert f"{math.degrees(pairs[1].working_pressure_angle):.6g}" in words(figure)
 
 
+@pytest.mark.slow
 def test_a_rack_stands_beside_its_gear_with_its_teeth_and_tables():
     made, figure = sheet("rack_drive", "gear")
     (rack,) = tagged(figure, "zone-2")
@@ -137,6 +139,7 @@ def test_a_rack_stands_beside_its_gear_with_its_teeth_and_tables():
         assert words_ in shown
 
 
+@pytest.mark.slow
 def test_safeties_stand_with_what_they_rest_on():
     load = {"face_width": 30, "load": {"torque": 100}, "material": {"contact_limit": 1400, "bending_limit": 400}}
     made, figure = sheet(DATA, "gear", **load)

@@ -103,6 +103,7 @@ def test_words_on_words_move_and_others_stay() -> None:
     assert two.xyann != (6.0, 6.0)  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 def test_a_word_far_from_its_point_has_a_line_to_it() -> None:
     made = panels.page("crowd", 0.4)
     axes = made.add_subplot()

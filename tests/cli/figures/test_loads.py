@@ -55,6 +55,7 @@ def test_cycle_of_a_wide_swing_shows_both_strokes(layout: str) -> None:
         assert 0.0 < float(profile.get_array().max()) <= design.hertz_pressure_max * 1.001
 
 
+@pytest.mark.slow
 def test_stroke_of_a_wide_swing_leaves_out_where_nothing_touches() -> None:
     design, figure = sheet("loaded_wide_swing", "loads")
     line = _axes(figure, "Force of the roller on its cam").lines[0]

@@ -45,7 +45,7 @@ def test_what_is_filled_reaches_as_far_as_matplotlib_says(ours: Any, theirs: Any
     assert _limits(ours) == pytest.approx(_limits(theirs), rel=1e-12)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "command"), [("candy_feed", "synth dwell"), ("ty460", "cam"), ("swing_gripper", "gripper")]
 )

@@ -143,6 +143,7 @@ def test_the_least_torque_with_a_device_is_drawn() -> None:
     assert np.allclose(np.interp(table.data[0], speed, torque), table.data[2], rtol=0.0, atol=0.05)
 
 
+@pytest.mark.slow
 def test_a_two_gear_dwell_is_shown_within_its_tolerance() -> None:
     made, figure = sheet("two_gear_standing", "synth dwell")
     x, y = curve(figure, "magnified")
@@ -166,6 +167,7 @@ def test_a_window_that_is_too_short_is_red() -> None:
     assert asked.get_color() == style.WRONG
 
 
+@pytest.mark.slow
 def test_an_undercut_cam_is_drawn_not_for_manufacture() -> None:
     made = design(worked("ty460"), cam__base_radius=35.0)
     words_of_stamp = failures(check for name in made.outline("cam").checks for check in made.check(name))

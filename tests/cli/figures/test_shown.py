@@ -265,6 +265,7 @@ def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path
     assert "NOT FOR MANUFACTURE" not in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     loads = design("loaded_feed", command="loads")
     figure = force_sheet.draw(design("loaded_feed"))
@@ -283,6 +284,7 @@ def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     assert len(arrows_) >= 8, "an arrow at every joint and mesh"
 
 
+@pytest.mark.slow
 def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
     """A step of 0.05 deg at each end; the quantities of the design come from roots."""
     for name in ("standing_feed", "two_gear_standing"):

@@ -80,6 +80,7 @@ def test_drawing_names_its_dimensions():
     assert not [text for text in words(sheet(DATA, "crank", offset=0.0).figure) if "offset" in text]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", mostly_slow(["crank", "analyze"], 1))
 @pytest.mark.parametrize("case", mostly_slow([[case] for case in CASES], 1))
 def test_every_command_draws(case, command):

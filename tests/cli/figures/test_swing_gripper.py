@@ -99,6 +99,7 @@ def test_drum_touches_the_tip_on_the_line_of_centres(gripper: Sheet) -> None:
     assert np.abs(tip_path - (498.0 + 55.0j)) == pytest.approx(np.full(tip_path.shape, 300.0), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_given_axis_of_the_cylinder_is_drawn(gripper: Sheet) -> None:
     figure = sheet(PAPER, "gripper", cylinder__center=[430.0, 480.0]).figure
     drum = points(named(panel(figure, "Mechanism"))["drum, radius 135 mm"])

@@ -52,6 +52,7 @@ def data(text):
     return {"kind": "three-gear-four-bar", "name": "train", **yaml.safe_load(text)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", mostly_slow(list(CASES), 1))
 def test_every_command_draws(command, tmp_path):
     path = write_plot(command, design(data(CASES[command]), command=command), Options(out=tmp_path))

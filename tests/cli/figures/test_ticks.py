@@ -31,6 +31,7 @@ def test_two_numbers_at_least_tell_the_digits() -> None:
     assert len(axes.get_xticks()) >= 2
 
 
+@pytest.mark.slow
 def test_panels_above_others_have_a_grid_and_no_numbers() -> None:
     made = write.panels("loads", factory.design("loaded_feed", command="loads"))
     above, *_ = (axes for axes in made.axes if axes.get_title(loc="left") == "Input torque")

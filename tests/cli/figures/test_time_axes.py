@@ -75,6 +75,7 @@ def test_the_crank_of_a_linkage_that_stands_in_between_has_no_time() -> None:
     assert not rows(behind)
 
 
+@pytest.mark.slow
 def test_the_cams_of_a_press_turn_unevenly_in_time() -> None:
     made, figure = placed_sheet("ty460", "cam")
     (row,) = [row for axes in figure.axes for row in rows(axes)]

@@ -61,7 +61,7 @@ def test_course_reaches_to_the_end_of_its_cycle(places: np.ndarray, end: float) 
     assert axes.lines[0].get_xdata()[-1] == end
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["candy_feed_tolerances", "ty460_register", "swing_gripper_register"])
 def test_register_sheet_shows_every_source(name: str) -> None:
     design, figure = sheet(name, "register")

@@ -49,6 +49,7 @@ def test_balance_is_the_table_s() -> None:
     assert {text.get_text() for text in axes.texts} >= {"n₀/√2", "n₀"}
 
 
+@pytest.mark.slow
 def test_slider_is_the_table_s() -> None:
     made, figure = drawn("slider", "swing")
     table, curves = made.table("slider"), lines(panel(figure, "Slider"))
@@ -129,6 +130,7 @@ def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
         assert cam.points(np.array([1.0])).profile[0] == pytest.approx(run_out[-1], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_closed_contours_are_the_table_s() -> None:
     for keys in ({}, {"layout": "twin-cam"}) if ALL else ({},):
         made, figure = drawn("cycle", "cam", **keys)

@@ -50,6 +50,7 @@ def test_gears_of_a_five_bar_have_the_names_of_the_mechanism(name: str, keys: di
             assert abs(teeth) == getattr(made.spec.gears, keyed[gear])
 
 
+@pytest.mark.slow
 def test_the_letter_of_a_coupler_point_on_a_joint_is_shown() -> None:
     assert "C, M" in [mark.text for mark in build(design(worked("five_bar_path")), np.zeros(1)).marks]
     assert {"C", "M"} <= {mark.text for mark in build(design(worked("five_bar_points")), np.zeros(1)).marks}
@@ -92,6 +93,7 @@ def _legend(texts: list[str]) -> Any:
     return axes
 
 
+@pytest.mark.slow
 def test_a_legend_takes_the_rows_that_it_needs() -> None:
     """In one row, that of a gripper's torques would begin left of the page's margin."""
     long = ["inertia", "main roller, ≥ 112.4 N m", "return roller, ≥ 387.8 N m", "spring 400 N m", "least wanted 0 N m"]
@@ -173,6 +175,7 @@ def test_a_legend_in_two_rows_leaves_the_heading_free() -> None:
     assert not heading.overlaps(legend)
 
 
+@pytest.mark.slow
 def test_a_long_label_of_a_gear_is_no_disc_over_the_mechanism() -> None:
     """Gears of many teeth are drawn by their tip circle, and say so in their label."""
     gears = {"module": 2, "crank": 400, "idler": 700, "output": 400}
@@ -199,6 +202,7 @@ def test_the_film_calls_the_same_stretch_a_dwell_as_the_sheet(name: str, command
     assert (band.start, band.end) == pytest.approx((math.degrees(start) % 360.0, math.degrees(start + width)), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_least_contact_torques_have_a_true_minus_sign() -> None:
     _, figure = sheet("swing_gripper", "gripper", speed=60000)
     assert not [text for text in labels(panel(figure, "Torques")) if "-" in text]

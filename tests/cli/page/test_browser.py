@@ -108,6 +108,7 @@ def test_keys_play_and_step(window: Browser, pages: Path) -> None:
     assert window.run(NUMBER) == still
 
 
+@pytest.mark.slow
 def test_cursors_are_linked_and_tell_values(window: Browser, pages: Path) -> None:
     window.size(1280, 900)
     window.open(pages / "candy-feed.html")

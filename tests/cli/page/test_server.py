@@ -210,6 +210,7 @@ def test_a_sheet_is_drawn_where_its_panels_were(monkeypatch: pytest.MonkeyPatch)
     assert drawn == sheet("crank", like)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("one_panel")
 def test_a_sheet_is_drawn_again_where_its_panels_moved() -> None:
     """Only what moves the panels is drawn twice."""

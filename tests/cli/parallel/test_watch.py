@@ -105,6 +105,7 @@ def test_a_long_first_share_is_left_to_workers(monkeypatch: pytest.MonkeyPatch) 
     assert _found(0) == list(range(16))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.skipif(sys.platform != "linux", reason="workers that are started anew share no memory")
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_bar_moves_within_a_share(monkeypatch: pytest.MonkeyPatch, jobs: int) -> None:

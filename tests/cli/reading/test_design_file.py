@@ -580,6 +580,7 @@ OVERRIDES = {
 }
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("loader", ["CSafeLoader", "SafeLoader"])
 @pytest.mark.parametrize("name", OVERRIDES)
 def test_override_caps(name: str, loader: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -56,6 +56,7 @@ def test_checks_that_do_not_pass_are_shown_and_the_others_counted(gearlink: Any)
     assert ended.out.splitlines()[-1] == "checks: 1 fail, 1 warn, 27 pass"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("digits", "shown"), [("3", "71.1"), ("7", "71.06686"), ("full", "71.0668600816"), ("17", "71.0668600816")]
 )
@@ -71,6 +72,7 @@ def test_digits_that_are_none_are_refused(gearlink: Any, digits: str) -> None:
     assert "--digits" in ended.err
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", ["json", "csv", "md"])
 def test_the_other_forms_stay_complete_and_in_full_precision(gearlink: Any, form: str) -> None:
     whole = gearlink("synth", "dwell", FEED, "--format", form).out

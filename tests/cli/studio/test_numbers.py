@@ -43,7 +43,7 @@ def test_grids() -> None:
     assert not found["module"].is_geometry
 
 
-@pytest.mark.quick(8)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_the_schema_allows_both_ends_of_every_slider(path: Path) -> None:
     """The other way: the model reads the file with either end; what several keys say together may refuse."""

@@ -107,6 +107,7 @@ def test_a_joint_stops_where_the_mechanism_ends() -> None:
     Study(text, "feed.yaml").results("analyze")
 
 
+@pytest.mark.slow
 def test_key_results_by_name_are_those_of_the_whole_command() -> None:
     for text in (FEED, ROCKER):
         study = Study(text, "x.yaml")

@@ -45,7 +45,7 @@ def _comments(text: str) -> list[str]:
     return [line.partition("#")[2] for line in text.splitlines() if "#" in line]
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_one_value_changes_and_nothing_else(path: Path) -> None:
     text = path.read_text(encoding="utf-8")

@@ -60,6 +60,7 @@ def test_there_are_terms_for_the_whole_field() -> None:
     assert len(NAMES) == len(set(NAMES)) >= 100
 
 
+@pytest.mark.quick(60)
 @pytest.mark.parametrize("name", glossary())
 def test_a_record_is_whole_and_names_what_there_is(name: str) -> None:
     term = glossary()[name]

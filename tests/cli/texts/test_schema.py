@@ -51,7 +51,7 @@ def errors(data: Any, schema: dict[str, Any]) -> list[str]:
 _VALIDATORS: dict[int, Draft7Validator] = {}  # each keeps its schema, so that no other one gets its id
 
 
-@pytest.mark.quick(3)  # all of them stand in the schema of all kinds below
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_schema_is_draft_07(gearlink: Any, kind: str) -> None:
     schema = gearlink("schema", kind).json
@@ -79,6 +79,7 @@ def test_nothing_stands_beside_a_reference() -> None:
     assert all(list(node) == ["$ref"] for node in nodes(ALL) if "$ref" in node)
 
 
+@pytest.mark.quick(20)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_every_design_is_valid(path: Path) -> None:
     data = load(str(path)).data
@@ -86,7 +87,7 @@ def test_every_design_is_valid(path: Path) -> None:
     assert errors(data, schema_of(data["kind"])) == []
 
 
-@pytest.mark.quick(17)
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_an_unknown_key_anywhere_is_found(path: Path) -> None:
     data = load(str(path)).data
@@ -125,7 +126,7 @@ def at(data: Any, path: tuple[Any, ...]) -> Any:
     return data
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 def test_schema_and_program_agree_on_wrong_values(path: Path) -> None:
     """Each value in turn made text, negative, huge, true or a section: what the schema refuses the program refuses.
