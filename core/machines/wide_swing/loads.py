@@ -635,6 +635,7 @@ class WideSwingLoads(LoadsDesign):
         ("torque", "contact_stroke"),
     )
     extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
+    derived = LoadsDesign.derived | {*_CONTACT}
 
     @cached_property
     def design(self) -> WideSwingDesign:

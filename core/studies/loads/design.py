@@ -16,7 +16,18 @@ from gearlink.core.base.report import Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import number_at
 from gearlink.core.studies.loads import checks, tables, vibration_checks
-from gearlink.core.studies.loads.names import FRAME, MESH, OF_VIBRATION, PIN, RPM, RUN, TABLES, TORQUE, VIBRATION
+from gearlink.core.studies.loads.names import (
+    DERIVED,
+    FRAME,
+    MESH,
+    OF_VIBRATION,
+    PIN,
+    RPM,
+    RUN,
+    TABLES,
+    TORQUE,
+    VIBRATION,
+)
 from gearlink.core.studies.loads.vibration_checks import VIBRATION_CHECKS
 
 if TYPE_CHECKING:
@@ -87,6 +98,7 @@ class LoadsDesign(Design):
     pins: ClassVar[tuple[str, ...]]
     meshes: ClassVar[tuple[str, ...]]
     advises = False
+    derived = DERIVED
     highest: int = 3
     """The highest derivative that the machine's law of motion has."""
 
@@ -336,6 +348,11 @@ class LoadsDesign(Design):
         if quantity in _OF_TORQUE:
             return ("torque", False), ("torque", True)
         return (("inertia", quantity.endswith("max")),) if quantity.startswith("reflected_inertia_m") else ()
+
+    def decisive(self, command: str) -> Iterable[str]:
+        """With what the checks look at of bearings and meshes, so that it is searched together."""
+        names, borne = super().decisive(command), self.section.bearings
+        return (name for name in names if not name.endswith(".life") or name[:-5].removeprefix("pin_") in borne)
 
     def prepare(self, quantities: Iterable[str]) -> None:
         """Search extremes together, the links being computed once for all, then reversals of pins, those of meshes."""

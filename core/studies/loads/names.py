@@ -50,3 +50,9 @@ VIBRATION = (
     "dwell_twist",
     "twisted_ripple",
 )
+DERIVED = frozenset((*TORQUE, *RUN, *FRAME, *PIN, *VIBRATION, "tooth_force_max", "balanced_force_max")) - {
+    "input_torque_max",
+    "life",
+    "natural_frequency",
+}
+"""What refuses nothing that the checks of `loads` or the other quantities let pass."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
+from gearlink.core.base.results import observed
 from gearlink.core.mechanism.motion import Motion
 from tests.factory import design
 
@@ -35,6 +38,27 @@ def test_links_are_computed_once_for_all_that_look_at_them() -> None:
     loads.moving = Motion(lambda phi, *more: asked.append(phi.size) or plain.make(phi, *more))
     loads.prepare(loads.outline("loads").quantities)
     searched = len(asked)
-    loads.require("loads")
+    for name in loads.outline("loads").quantities:
+        loads.raw(name)
     assert searched < 25
     assert len(asked) < 75
+
+
+def test_findings_compute_no_quantity_that_no_check_looks_at() -> None:
+    """A check needs no root mean square, no moment on the frame, and of the pins those alone that have a bearing."""
+    seen: list[str] = []
+
+    @contextmanager
+    def watch(name: str) -> Iterator[None]:
+        seen.append(name)
+        yield
+
+    loads = _loads()
+    with observed(watch):
+        loads.report("loads", findings_only=True)
+    assert "LoadsDesign.power_identity" in seen
+    assert not {"LoadsDesign.input_torque_rms", "LoadsDesign.shaking_moment_max", "Vibrating.twisted_ripple"} & set(
+        seen
+    )
+    peaks = {course for course, _ in loads._found if course.startswith("pin_")}
+    assert peaks == {f"pin_{name}" for name in loads.section.bearings}

@@ -31,6 +31,7 @@ CONTACT = (
     "cam_torque_rms",
     "preload_needed",
 )
+_DERIVED = frozenset(CONTACT) - {"contact_force_max", "contact_force_min", "hertz_pressure_max"}
 _OF_EXTREMES = frozenset(CONTACT) - {"traction_needed", "cam_torque_rms", "preload_needed"}
 _RPM = 2.0 * math.pi / 60.0
 
@@ -43,6 +44,7 @@ class CamLoadsDesign(LoadsDesign):
 
     extra_tables: ClassVar[tuple[str, ...]] = (*LoadsDesign.extra_tables, "contact")
     rollers: ClassVar[tuple[str, ...]] = ("main", "return")
+    derived = LoadsDesign.derived | _DERIVED
     on_two_sides: ClassVar[bool] = False
     """Whether one follower has a roller for each sense of its force."""
 
