@@ -66,6 +66,7 @@ def test_residuals_of_many_speeds_are_those_of_each() -> None:
     each = [motion.residual(oscillator, float(speed)) for speed in speeds]
     assert motion.residuals(oscillator, speeds) == pytest.approx(each, rel=1e-15, abs=1e-16)
     assert np.array_equal(motion.residuals(oscillator, speeds[100:101]), motion.residuals(oscillator, speeds)[100:101])
+    assert motion.rough_residuals(oscillator, speeds) == pytest.approx(each, rel=0.0, abs=1e-12 * max(each))
 
 
 def test_speed_limit_is_where_the_residual_is_what_is_allowed() -> None:
