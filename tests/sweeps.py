@@ -10,12 +10,12 @@ import pytest
 from hypothesis import settings
 
 ALL = os.environ.get("GEARLINK_EXAMPLES") == "all"
-SHARE = 6
+SHARE = 10
 FEWEST = 10
 
 
 def examples(count: int) -> Any:
-    """So many examples of a property in `make check-full`, a sixth of them in `make test`, at least 10.
+    """So many examples of a property in `make check-full`, a tenth of them in `make test`, at least 10.
 
     The cases that a property test must not miss stand beside it as examples of their own or as reference cases.
     """

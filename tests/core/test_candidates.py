@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from factory import design, worked
+from sweeps import mostly_slow
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar import design as five_bar_candidates
@@ -15,6 +16,9 @@ from gearlink.core.machines.five_bar import function_fit
 from gearlink.core.machines.five_bar.wanted import StructuralError
 
 CASES = [
+    ("mutilated_gear_times", "analyze", {"groups": "gears__groups", "driven_teeth": "gears__driven"}, "motion_turns"),
+    ("ty460_slider_crank", "crank", {"rod": "rod", "offset": "offset"}, "crank_length"),
+    ("ty460", "gear", {"module": "input_gears__module"}, "contact_ratio"),
     (
         "two_gear_standing",
         "synth dwell",
@@ -27,9 +31,6 @@ CASES = [
         {"coupler_gear_teeth": "gears__coupler", "output_teeth": "gears__output"},
         "crank_length",
     ),
-    ("mutilated_gear_times", "analyze", {"groups": "gears__groups", "driven_teeth": "gears__driven"}, "motion_turns"),
-    ("ty460_slider_crank", "crank", {"rod": "rod", "offset": "offset"}, "crank_length"),
-    ("ty460", "gear", {"module": "input_gears__module"}, "contact_ratio"),
 ]
 
 
@@ -39,11 +40,8 @@ def rows_of(name: str, command: str = "analyze") -> list[dict[str, Any]]:
     return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
 
 
-@pytest.mark.quick(2)
 @pytest.mark.parametrize(
-    ("name", "command", "keys", "quantity"),
-    CASES,
-    ids=[case[0] for case in CASES],
+    ("name", "command", "keys", "quantity"), mostly_slow(CASES, 3), ids=[case[0] for case in CASES]
 )
 def test_rows_are_designs_of_their_own(name: str, command: str, keys: dict[str, str], quantity: str) -> None:
     found = rows_of(name, command)
@@ -55,8 +53,7 @@ def test_rows_are_designs_of_their_own(name: str, command: str, keys: dict[str, 
         assert row[quantity] == own.quantity(quantity).value
 
 
-@pytest.mark.quick(2)
-@pytest.mark.parametrize(("name", "command"), [(case[0], case[1]) for case in CASES])
+@pytest.mark.parametrize(("name", "command"), mostly_slow([(case[0], case[1]) for case in CASES], 3))
 def test_the_own_design_is_among_them(name: str, command: str) -> None:
     found, own = rows_of(name, command), design(name, command=command)
     names = [column for column in found[0] if column in own.quantity_names()]
@@ -103,6 +100,7 @@ def test_what_was_found_is_not_searched_again(monkeypatch: pytest.MonkeyPatch) -
     assert table["findings"][1] == "GL112 target.function"
 
 
+@pytest.mark.slow
 def test_a_mechanism_that_does_not_exist_says_why() -> None:
     found = rows_of("two_gear_standing", "synth dwell")
     assert any(row["frame_length"] is None and row["findings"].startswith("GL112 ") for row in found)

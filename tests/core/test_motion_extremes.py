@@ -53,6 +53,7 @@ def test_the_point_of_a_five_bar() -> None:
     assert made.point_speed_max is None
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name", mostly_slow(["wide_swing_twin_cam", "wide_swing_oscillating_cam", "wide_swing_slider_cam"], 2)
 )

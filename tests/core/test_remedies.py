@@ -122,6 +122,7 @@ SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
 """Draws that begin with designs whose remedy takes few trials; every other one belongs to `make check-full`."""
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     "kind",
     [
@@ -303,6 +304,7 @@ def test_loads_that_were_refused_hold_after_a_remedy(allowed: float, angle: floa
         assert all(found.status != "fail" for found in loads.report("loads").checks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("allowed", "compared"), [(1200, False), pytest.param(300, True, marks=pytest.mark.slow)])
 def test_remedies_and_commands_of_a_file_share_its_loads(allowed: float, compared: bool) -> None:
     """Those of the file as it stands are computed where a remedy leaves something to compare them with."""

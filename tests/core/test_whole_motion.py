@@ -115,6 +115,7 @@ def test_chains_of_the_press_are_the_slopes_of_its_positions():
         assert slope_error(found[f"{name}_velocity"], found[f"{name}_acceleration"], step) < 2e-5
 
 
+@pytest.mark.slow
 def test_the_bed_of_a_press_with_its_cam_is_that_of_its_positions():
     """Where the jerk jumps a difference over h misses the slope by a quarter of the jump times h: 7e-4 of its peak."""
     press = design("ty460", command="press")

@@ -168,6 +168,7 @@ def test_a_follower_that_does_not_reach_the_cam_is_refused(keys: dict[str, Any],
     assert refused.value.key == key
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("side", [1, -1])
 def test_as_a_disc_cam_it_has_the_profile_that_was_measured(side: int) -> None:
     """Path, lift, pressure angle and curvature by the motion and inversion, against those of the profile itself."""

@@ -80,6 +80,7 @@ def test_derivatives_integrate_and_peaks_bound(values: list[float], form: str) -
     assert float(np.abs(v * a).max()) == pytest.approx(found.peak_power, abs=1e-5 * (1.0 + found.peak_power))
 
 
+@pytest.mark.slow
 def test_known_laws_are_members() -> None:
     quintic = law({"type": "polynomial"})
     septic = law({"type": "polynomial", "start": [0, 0, 0, 0], "end": [1, 0, 0, 0]})
@@ -196,6 +197,7 @@ def test_every_optimal_law_simulated(minimize: str, *, to_speed: bool, symmetric
         assert max(simulated) <= found.shaping.optimum.value  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_waves_simulated() -> None:
     with mp.workdps(40):
         cycloid = follower.of_waves([(2 * mp.pi, 2 * mp.pi, mp.mpf(0))])
@@ -283,6 +285,7 @@ def test_nothing_is_gained_by_asymmetry() -> None:
         assert both[0].value == pytest.approx(both[1].value, rel=2e-5)
 
 
+@pytest.mark.slow
 @given(st.floats(40.0, 200.0), st.sampled_from([9, 12, 15, 20]))
 @settings(max_examples=4, deadline=None)
 def test_bounds_hold_for_known_laws_and_all_laws(jerk: float, degree: int) -> None:

@@ -129,6 +129,7 @@ def test_circle_is_cut_only_past_its_centre() -> None:
     assert undercut(circle(55.0), 55.0).depth == pytest.approx(10.0, abs=DEPTH)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("samples", [33, 1440, pytest.param(4097, marks=pytest.mark.slow)])
 def test_nearest_places_are_those_of_a_k_d_tree(samples: int) -> None:
     from scipy.spatial import cKDTree

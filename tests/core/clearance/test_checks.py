@@ -358,6 +358,7 @@ SEATS = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SEATS)
 def test_a_shaft_that_leaves_its_gear_no_rim_is_warned_of(name: str) -> None:
     """Standard teeth: root 1.25 modules within the reference circle, half the height of the teeth 1.125 modules."""

@@ -265,6 +265,7 @@ def test_pairs_on_both_sides_of_the_frame_are_gone_through_the_short_way() -> No
     assert made.crank_length == pytest.approx(shifted.crank_length, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("task", "y"),
     mostly_slow(

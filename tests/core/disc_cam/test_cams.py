@@ -132,6 +132,7 @@ def test_the_least_cam_of_a_rocker_by_a_search(sense: int, side: int) -> None:
     assert math.degrees(smaller.max_pressure_angle) > 40.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("sense", [1, -1])
 def test_a_found_pivot_needs_the_smallest_cam(sense: int) -> None:
     free = {key: value for key, value in ROCKER.items() if key != "center_distance"}
@@ -196,7 +197,7 @@ def test_cams_that_cannot_be_say_at_which_key(key: str, follower: dict[str, Any]
     assert refused.value.key == key
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("swing", [170.0, 40.0])
 def test_start_angles_of_a_rocker_by_trying_all(swing: float) -> None:
     """A fast stroke towards the cam's motion asks for more than any start angle gives: c cos(alpha) < -f."""

@@ -137,6 +137,7 @@ def test_strokes_divide_a_polynomial_where_it_turns() -> None:
     assert motion.strokes[0].end < math.radians(120.0)
 
 
+@pytest.mark.slow
 def test_a_servo_table_errs_as_much_between_its_rows_as_close_places_show() -> None:
     motion = made({"to": 100, "lift": 20}, {"to": 160}, {"to": 360, "lift": 0, "law": "simple-harmonic"})
     for rows in (25, 73):

@@ -44,6 +44,7 @@ def test_the_force_of_the_joints_is_that_along_the_lift(sense: int, follower: di
     assert torque == pytest.approx(design.cam_torque(PHI), abs=1e-11)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("flat", [False, True])
 def test_the_same_of_a_rocker(side: int, flat: bool) -> None:

@@ -160,7 +160,7 @@ def test_minimax_and_least_ripple_against_a_scan(degrees):
     assert calm.rod == pytest.approx(tangent_circle(1.0, 3, angle), rel=1e-8)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("tolerance", [0.001, 0.01, 0.0111, 0.05])
 def test_widest_dwell_against_a_scan(tolerance):
     found = HypocycloidSlider(1.0, 3, widest_dwell(1.0, 3, tolerance)).dwell_angle(tolerance)

@@ -158,6 +158,7 @@ def test_a_range_of_one_value_is_one_design() -> None:
     assert [check.status for check in found.report("explore").checks] == ["pass"]
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize(
     ("keys", "code", "place"),
     [
@@ -237,7 +238,7 @@ def test_conditions_that_are_written_in_another_way(where: str, helps: str) -> N
     assert caught.value.faults[0].help == helps
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("base", "command", "path", "values", "code"),
     [
@@ -326,7 +327,7 @@ _NEW_CHECKS = {
 }
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("code", ["GL399", "GL303"])
 @pytest.mark.parametrize("kind", _NEW_CHECKS)
 def test_a_check_that_no_array_form_knows_is_judged_by_the_class(

@@ -36,6 +36,7 @@ def test_fronts_against_all_pairs(objectives: int, designs: int, values: int) ->
     assert front(drawn).tolist() == by_all_pairs(drawn)
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("objectives", [2, 3, 4, 5, 6])
 @pytest.mark.parametrize("values", [4, 12, 1000, 0])
 def test_fronts_against_moocore(objectives: int, values: int) -> None:

@@ -151,6 +151,7 @@ def test_slopes_of_levelling_are_those_of_differences() -> None:
         assert np.abs(cosines[:, i] - by_cosine).max() < 2e-8
 
 
+@pytest.mark.slow
 def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch) -> None:
     """Slopes alone say that extremes stay level which the bend of the errors raises; steps then shrink to nothing."""
     found = []
@@ -236,6 +237,7 @@ TIMED = PathFiveBar(20.0, 55.0, 60.0, 16.0, 50.0, Fraction(-1), math.radians(70.
 START = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
 
 
+@pytest.mark.slow
 def test_timed_points_of_a_five_bar_find_it_again() -> None:
     angles = np.radians([0.0, 40.0, 80.0, 120.0, 200.0, 280.0])
     targets = points(TIMED, 0.6 + angles, 50 + 12j)

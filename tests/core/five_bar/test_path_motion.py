@@ -243,7 +243,7 @@ def test_positions_are_met_on_the_real_motion(count):
         assert five_bar_for_positions(start, positions, RADIANS(40.0)) == bar
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("length", ["coupler", "output"])
 def test_a_start_with_a_link_far_too_long_is_refused(length):
     pairs = [(60.0, 60.0), (80.0, 63.75), (100.0, 75.0), (120.0, 93.75), (140.0, 120.0)]
@@ -276,6 +276,7 @@ def test_positions_refused(pairs, words):
         five_bar_for_positions(FUNCTION, pairs)
 
 
+@pytest.mark.slow
 def test_path_that_exists_is_found():
     true = PathFiveBar(17.0, 66.0, 52.0, 24.0, 50.0, Fraction(-1), RADIANS(40.0))
     targets = points(true, np.linspace(0.0, 6.0, 15), 40.0 + 25.0j)
@@ -285,6 +286,7 @@ def test_path_that_exists_is_found():
     assert again.distance.tolist() == fit.distance.tolist()
 
 
+@pytest.mark.slow
 def test_fit_never_loses_to_its_start_and_keeps_its_limits():
     targets = np.array([-10 + 60j, 10 + 70j, 30 + 75j, 50 + 70j, 60 + 55j, 30 + 50j, 0 + 50j])
     fit = fit_path(BAR, 60.0 + 0j, targets, RADIANS(30.0))

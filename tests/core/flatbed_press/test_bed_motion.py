@@ -38,6 +38,7 @@ def stretches(made: Any) -> Any:
         yield segment, np.linspace(start + 1e-11, end - 1e-11, 4001)
 
 
+@pytest.mark.slow
 def test_bed_is_its_chain_less_the_lift() -> None:
     made = factory.design("ty460", cam__lead_in=12.0)
     phi = np.radians([10.0, 25.0, 60.0, 120.0, 157.0, 165.0, 200.0, 270.0, 330.0])
@@ -80,6 +81,7 @@ def test_bed_goes_as_the_cylinder_in_the_zone(name: str) -> None:
     np.testing.assert_allclose(made.bed_motion.jerk(phi), jerk, rtol=0.0, atol=1e-12 * np.abs(jerk).max())
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", CAMS)
 def test_extremes_count_both_sides_of_every_joint(name: str) -> None:
     """By each stretch's own law, up to its very ends."""

@@ -210,7 +210,7 @@ def test_ty460_with_quartic_and_lead_in_passes_all():
         assert status(design, name) or name in ("shaft-clearance", "law-gap", "law-ripple", "polydyne-range")
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("limit", [3.0, 8.0, 12.0])
 @pytest.mark.parametrize("name", ZONES)
 def test_base_radius_that_is_named_keeps_the_pressure_angle(name, limit):
@@ -322,7 +322,7 @@ def test_cams_keep_the_limit_and_touch_it(limit):
     assert design.quantity("cam_base_radius").value == design.cam_base_radius
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("cam", [{}, {"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0}])
 @pytest.mark.parametrize("limit", mostly_slow([15.0, 40.0, 5.0, 20.0], 2))
 def test_sized_cams_pass_their_own_checks(limit, cam):
@@ -331,6 +331,7 @@ def test_sized_cams_pass_their_own_checks(limit, cam):
         assert {check.status for check in design.check(name)} == {"pass"}, name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "cam", mostly_slow([{"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0, "lead_in": 12.0}], 1)
 )
@@ -385,6 +386,7 @@ def test_neither_radius_nor_size():
 SHAFTS = [(0.0, []), (40.0, ["pass"] * 2), (60.0, ["warn"] * 2), (66.0, ["fail"] * 2)]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("shaft", "expected"), SHAFTS)
 def test_shaft_of_the_cams(shaft, expected):
     design = press(shaft_radius=shaft)

@@ -450,6 +450,7 @@ def test_analyze_shows_the_cams_where_the_file_has_them():
 # Whether a cam can bear the motion
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("stroke", "status"), [(620.0, "pass"), (800.0, "fail")])
 def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(stroke, status):
     design = press(replace(TY460, stroke=stroke), cam=CAM)
@@ -492,7 +493,7 @@ def test_a_zone_that_cannot_be_is_refused_with_its_own_key(command):
     assert refused.value.key == "sync.end"
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["press", "check"])
 def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
     design = press(cam=CAM | {"shaft_radius": 359.999})
@@ -508,7 +509,7 @@ def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
 TURNS_BACK = "the bed reverses at input angle 224 deg, before the synchronous zone ends"
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("keys", "key", "words"),
     [

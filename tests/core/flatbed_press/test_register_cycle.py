@@ -120,6 +120,7 @@ def test_samples_are_the_machine_with_its_follower(phase: str) -> None:
     assert found == pytest.approx([float(error(mp.radians(angle), given)) for angle in degrees], abs=2e-12)
 
 
+@pytest.mark.slow
 def test_the_table_of_the_cycle_is_that_of_single_angles() -> None:
     sources = {"bed.double_crank.crank": {"plus_minus": 0.01}}
     table = register(sources).table("cycle", samples=36)

@@ -126,6 +126,7 @@ def test_nearly_double_equality_is_not_stepped_over(tangent, share):
     assert found < float(phi)
 
 
+@pytest.mark.slow
 def test_beyond_the_tangency_the_zone_starts_at_the_next_equality(tangent):
     radius, phi = tangent
     press = replace(TY460, radius=float(radius * (1 + mp.mpf("1e-9"))))

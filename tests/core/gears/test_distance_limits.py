@@ -55,6 +55,7 @@ def in_the_plane(made, off):
     return eps, beyond, rooms
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("ring", [False, True])
 def test_what_fails_at_the_limits_alone_is_told(ring):
     rng, seen = random.Random(11 + ring), dict.fromkeys(("GL203", "GL204", "GL205"), 0)

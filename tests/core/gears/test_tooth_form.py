@@ -104,6 +104,7 @@ def test_two_teeth_of_difference_touch(module: float, pinion: int) -> None:
     assert room < 0.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("ring", "angle", "words"), [(33, 20.0, "at least 34 teeth"), (75, 1e-7, "larger pressure")])
 def test_ring_without_an_involute_keeps_the_kinematics(ring: int, angle: float, words: str) -> None:
     gears = {"module": 2, "planet": 23, "ring": ring, "pressure_angle": angle}

@@ -303,6 +303,7 @@ def test_three_gears_that_always_step_back_dwell(teeth: tuple[int, int, int], cr
             assert scanned_window(case.output(frame), tolerance * (1.0 + 1e-6)) >= dwell["window"] - 2.0 * STEP
 
 
+@pytest.mark.slow
 def test_three_gears_that_always_step_back_say_so() -> None:
     """A window is not "less than the least": what is the least is the back-step, and crank-rockers alone are sought."""
     words = r"a dwell of 30 deg within \+-0\.2 deg is not possible with a cr"

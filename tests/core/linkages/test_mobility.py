@@ -272,7 +272,7 @@ def test_two_trains_hold_two_pins_at_one_distance():
 
 
 @pytest.mark.quick(1)
-@pytest.mark.parametrize(("at", "status"), [("nowhere", 2), ("A", 0)])
+@pytest.mark.parametrize(("at", "status"), [("A", 0), ("nowhere", 2)])
 def test_the_diagram_asks_for_names_first(gearlink, tmp_path, at, status):
     path = tmp_path / "six.yaml"
     path.write_text(

@@ -213,6 +213,7 @@ def test_every_mesh_of_a_train_is_held_against_its_rating() -> None:
     assert factory.design(FEED, command="loads").check("tooth-load") == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("loads", "status"), [({}, "fail"), ({"backlash": 0.0}, "warn"), ({"backlash": 0.05}, "fail")])
 def test_play_that_the_drawing_of_the_gears_leaves_counts_in_a_dwell(loads: dict[str, Any], status: str) -> None:
     """Without a load the teeth change flanks in the middle of the dwell; 25cd leaves play, unless loads say none."""
@@ -233,6 +234,7 @@ def pressed(gears: dict[str, Any], **loads: Any) -> Any:
     return factory.design("loaded_press", command="loads", input_gears={**GEARS, **gears}, **loads)
 
 
+@pytest.mark.slow
 def test_input_gears_of_a_press_are_held_against_their_rating() -> None:
     """Rated for 20 N m they carried 374 N m without a word; rated for that, K_A 1.1 for the other flanks, they pass."""
     weak = pressed({"load": {"torque": 20}, "face_width": 20})
@@ -257,6 +259,7 @@ def test_drawn_play_of_a_press_counts_in_its_zone() -> None:
     assert statuses == ["warn", "fail"]
 
 
+@pytest.mark.slow
 def test_helical_input_gears_push_on_their_own_bearings_alone() -> None:
     bearing = {"kind": "roller", "dynamic_rating": 300000, "life": 1000}
     teeth = {"helix_angle": 20, "face_width": 60}

@@ -70,6 +70,7 @@ def test_inertia_and_speed_at_the_change_point(n: int, inertia: float, speed: fl
     assert run.speed(change_points) == pytest.approx([speed, speed], rel=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("n", [2, 40])
 def test_energy_does_not_drift_and_a_turn_takes_its_time(n: int) -> None:
     """w^2 = 1 + 4 c sin^2(phi/2), c = (N + (N + 1)/2) g/J: a revolution takes 4 K(-4 c)."""

@@ -169,6 +169,7 @@ def test_a_torque_that_turns_at_the_start_of_the_period_is_looked_at_from_both_s
     assert design.raw("torque_reversals") == np.count_nonzero(np.diff(moving)) + (moving[0] != moving[-1])
 
 
+@pytest.mark.slow
 def test_an_unbalanced_wheel_that_turns_evenly_needs_no_torque() -> None:
     """Reactions of 1e13 N m leave some rounding in a torque of 0: no fault of either way."""
     links = {"gear1": {"mass": 1e9, "inertia": 0.5, "center": [1e6, 1e6]}}

@@ -123,6 +123,7 @@ def test_a_preload_that_holds_both_rollers_leaves_no_strike(held: Any) -> None:
     assert len(list(held.check("load-reversal"))) == len(held.meshes_found)
 
 
+@pytest.mark.slow
 def test_a_roller_is_driven_round_where_it_is_pressed(free: Any, held: Any) -> None:
     """Without a preload each roller leaves its cam; with one the maximum share is that of a fine grid."""
     assert free.traction_needed == [None, None]
@@ -158,6 +159,7 @@ def test_mutilated_gear_carries_the_load_only_while_it_moves() -> None:
     assert joints["A_y"][moving] == pytest.approx(400.0 * math.tan(math.radians(20.0)), rel=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("teeth", "sign"), [([21, 67], -1.0), ([21, -67], 1.0)])
 def test_gear_pair_carries_torque_over_radius(teeth: list[int], sign: float) -> None:
     data = {
@@ -189,6 +191,7 @@ def test_helical_teeth_push_along_the_axis() -> None:
     assert design.raw("tilting_moment_max") == pytest.approx([1e-3 * force * r for r in pair.working_radius], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_spur_gears_have_no_axial_force() -> None:
     design = factory.design(
         "ring_pair", command="loads", loads={"speed": 600, "forces": [{"on": "gear2", "torque": -40}]}
@@ -197,6 +200,7 @@ def test_spur_gears_have_no_axial_force() -> None:
     assert "mesh_12_axial" not in design.table("teeth", samples=2).columns
 
 
+@pytest.mark.slow
 def test_of_many_rows_the_links_are_held_once_and_once_more_for_the_block_in_hand() -> None:
     """The forces are those of each block alone, to the last bit."""
     machine = factory.design("loaded_six_bar", command="loads").machine

@@ -127,7 +127,7 @@ def _close(found: Any, wanted: Any) -> None:
     assert np.abs(found - wanted).max() <= 1e-8 * max(np.abs(wanted).max(), 1e-3)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("offset", "inertia", "angle"), [(0.0, 0.05, 73.18), (40.0, 0.02, 76.0), (-30.0, 0.3, -70.0)])
 def test_slider(offset: float, inertia: float, angle: float) -> None:
     """Rod, slider, guide, contact, shafts and torque."""
@@ -316,6 +316,7 @@ def test_a_lighter_slider_lets_both_change_sides_together() -> None:
     assert [check.status for made in found for check in made.check("side-change")] == ["fail", "pass"]
 
 
+@pytest.mark.slow
 def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> None:
     apart = factory.design(
         "wide_swing_slider_cam", command="loads", slider__middle_angle=90, loads={"roller": {"width": 20}}
@@ -355,6 +356,7 @@ def test_device_and_roller_change_sides_together() -> None:
     assert mended.cam.middle == pytest.approx(mended.motion.slider.middle_place, abs=2e-4)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("base", "loads", "key"),
     [
@@ -376,6 +378,7 @@ def test_what_is_refused(base: str, loads: dict[str, Any], key: str) -> None:
     assert caught.value.key == key
 
 
+@pytest.mark.slow
 def test_the_way_home_of_a_cam_on_a_crank_rocker_is_under_load() -> None:
     """A torque of 1 N m on the rocker left the roller 5 N in the stroke; on the way home it takes 7.5 N too much."""
     design = factory.design("loaded_oscillating_cam", command="loads", loads__forces=[{"on": "rocker", "torque": 1}])

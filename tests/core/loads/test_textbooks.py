@@ -93,6 +93,7 @@ def _bearing(torque: Any) -> tuple[float, float]:
     return design.raw("pin_gear1.equivalent"), design.raw("pin_gear1.peak")
 
 
+@pytest.mark.slow
 def test_rules_of_bearing_catalogues() -> None:
     table = [[x, 50.0 * math.sin(math.radians(x))] for x in range(0, 361, 6)]
     table[-1][1] = table[0][1]
@@ -132,7 +133,7 @@ def test_vibration_after_a_wide_swing_by_an_ode_solver(base: str, frequency: flo
     assert design.raw("residual_amplitude") == pytest.approx(amplitude, rel=1e-7)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("frequency", [9.0, 2.6])
 def test_vibration_of_a_rocker_that_never_rests_by_an_ode_solver(frequency: float) -> None:
     """Of a cam on a crank-rocker, over the crank's turn: z'' + 2 zeta w z' + w^2 z = -x'' in the periodic state."""

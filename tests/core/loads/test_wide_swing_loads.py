@@ -138,12 +138,14 @@ def test_a_check_of_what_is_no_number_does_not_pass() -> None:
     assert rule.check("pass", "nothing to compare").value is None
 
 
+@pytest.mark.slow
 def test_every_result_can_be_asked_for(swing: Any) -> None:
     report = swing.report("loads", tables=("spectrum",))
     assert {table.name for table in report.tables} == {"torque", "contact_stroke", "spectrum"}
     assert all(math.isfinite(quantity.value) for quantity in report.quantities if quantity.name != "massless")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["loaded_swing_slider", "loaded_wide_swing"])
 def test_a_stroke_ends_before_its_friction_turns_back(name: str) -> None:
     """The last row has not the resistance of the return, 3.4 N less than the row before it: its slider stands there."""

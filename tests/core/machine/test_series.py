@@ -61,6 +61,7 @@ PAIRS = {
 }
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("driver", list(PAIRS))
 @pytest.mark.parametrize("driven", list(PAIRS))
 def test_every_pair_of_kinds_against_differences(driver: str, driven: str) -> None:

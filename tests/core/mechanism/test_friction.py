@@ -234,6 +234,7 @@ def test_a_force_that_changes_sides_beside_a_jump_is_a_break() -> None:
     assert machine.mean(machine.torque) == pytest.approx(mean, abs=1e-13 * size)
 
 
+@pytest.mark.slow
 def test_many_turns_have_their_forces_computed_once_for_all_that_integrates_them(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -62,6 +62,7 @@ def _parts(link: Any) -> tuple[Rates[Any], Rates[Any]]:
     return link.origin, link.turn
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_each_derivative_is_the_rate_of_the_one_below(name: str) -> None:
     design = _made(name)

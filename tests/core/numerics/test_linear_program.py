@@ -42,6 +42,7 @@ def test_where_there_is_none_is_none(limits: list[float], lower: float) -> None:
     assert least(np.ones(1), np.array([[1.0], [0.5]]), np.array(limits), np.array([lower]), np.array([np.inf])) is None
 
 
+@pytest.mark.slow
 def test_another_user_of_the_solver_may_have_set_its_threads() -> None:
     code = (
         "import highspy, numpy as np\n"

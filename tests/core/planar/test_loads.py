@@ -128,6 +128,7 @@ def test_a_slider_crank_has_the_loads_of_its_kind() -> None:
     assert across == pytest.approx(np.asarray(two.data[two.columns.index("guide_x")]), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_pass_over_a_range_takes_the_loads_where_they_are() -> None:
     """The same mechanism over its period and over a range of it: rows at equal inputs are equal."""
     section = {"speed": SPEED, **LOADS["watt"]}

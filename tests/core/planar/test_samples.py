@@ -64,6 +64,7 @@ def test_samples_at_once_are_those_of_the_class(name: str) -> None:
         )
 
 
+@pytest.mark.slow
 def test_samples_next_to_a_dead_centre_are_left_to_the_class() -> None:
     """A rocker that stretches within some hundredths of a degree: errors of 0.05 mm may jam it."""
     file = {**FOUR_BAR, "links": {**FOUR_BAR["links"], "rocker": ["D", "C", 56.935]}}
@@ -74,6 +75,7 @@ def test_samples_next_to_a_dead_centre_are_left_to_the_class() -> None:
     assert found.unsure.tolist() == [False, True, True]
 
 
+@pytest.mark.slow
 def test_the_closure_error_of_samples_is_that_of_all_that_was_sought() -> None:
     """Whichever quantity is asked for first; it is rounding of places up to 120 mm, and of many never all zero."""
     made_ = study(FOUR_BAR, {"links.crank[2]": {"plus_minus": 0.05}})

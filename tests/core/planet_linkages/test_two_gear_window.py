@@ -48,6 +48,7 @@ def scanned(design: Any, tolerance: float) -> float:
     return longest * STEP
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("frame", [FRAME, 84.9])
 def test_the_window_is_that_of_a_scan(frame: float) -> None:
     design = standing(links__frame=frame)

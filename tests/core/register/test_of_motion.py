@@ -214,6 +214,7 @@ def test_every_kind_with_loads_has_a_register(name: str) -> None:
     assert "register" in KINDS[name].commands
 
 
+@pytest.mark.slow
 def test_tables_run_over_the_range_of_the_input() -> None:
     made = register("five_bar_function", ("links.coupler",))
     start, end = (math.degrees(angle) for angle in made.design.input_range)

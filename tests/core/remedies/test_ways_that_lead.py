@@ -98,6 +98,7 @@ def test_given_links_are_repaired_though_a_function_is_asked_for() -> None:
     assert not failing(after, "analyze", "undercut")
 
 
+@pytest.mark.slow
 def test_a_six_bar_is_repaired_along_the_ways_that_lead_to_the_limit() -> None:
     data = {
         "kind": "geared-six-bar",
@@ -171,6 +172,7 @@ def test_links_for_points_with_times_are_not_sought_for_a_remedy(monkeypatch: py
     assert len(sought) <= 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "count"), [("gear_pair", 3), pytest.param("six_bar", 20, marks=pytest.mark.slow)])
 def test_a_remedy_does_not_depend_on_other_findings(kind: str, count: int) -> None:
     """Trials that are known from another finding count as those that are not."""

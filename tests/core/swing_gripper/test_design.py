@@ -301,6 +301,7 @@ def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
     assert all(c.status != "fail" for c in repaired.check("pressure-angle"))
 
 
+@pytest.mark.slow
 def test_a_turn_of_the_output_is_named_where_the_cams_stand_it() -> None:
     """By how much it must be turned for the angles alone was said before, and left a cam refused."""
     design = machine(output_direction=150.0)

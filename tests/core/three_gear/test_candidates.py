@@ -16,6 +16,7 @@ TASKS = [
 ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("command", "name", "keys"), TASKS)
 def test_every_row_is_a_synthesis_of_its_own(command, name, keys):
     made = design(name, command=command, **keys)

@@ -142,7 +142,7 @@ def test_extremes_and_standstills_against_a_search(name, assembly):
     assert value(found, "min_transmission_angle") == pytest.approx(float(mp.degrees(least)), rel=1e-12)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("name", ["example 1", "example 3"])
 def test_back_step_and_dwell_by_the_output_angle_itself(name, assembly):
@@ -220,7 +220,7 @@ def mirrored(one, other):
         assert (check.code, check.name, check.status) == (image.code, image.name, image.status)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_mirror_image(name):
     given = DESIGNS[name] | {"dwell_tolerance": 0.5}

@@ -213,6 +213,7 @@ def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: 
     assert window - math.radians(0.4) < here <= window + 1e-9
 
 
+@pytest.mark.slow
 def test_tolerance_dwell_against_brute_force() -> None:
     for linkage, train, _ in arrangements(12, seed=21):
         tolerance = 0.03 * math.pi * abs(mean_ratio(linkage, train))

@@ -267,6 +267,7 @@ def test_the_edge_of_a_dwell_shows_what_it_is_judged_by(module: float) -> None:
         assert found.value == pytest.approx(made.back_step.angle / 2.0 / math.radians(0.5), rel=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("teeth", "idler", "window", "tolerance"),
     [(20, 69, 115.44535400634571, 2.4995416995056456), (41, 106, 13.829586868504954, 0.003874342583871178)],

@@ -73,7 +73,7 @@ def test_a_process_off_its_middle_moves_the_band() -> None:
     assert made.band[0] == pytest.approx(row.gain * (0.015 + 2.7821749705 * 0.02 / 6.0), rel=1e-9)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [{"cp": 1.5, "cpk": 0.6, "shift": "down"}, {}])
 def test_samples_of_the_chain_keep_the_band(law: dict[str, Any]) -> None:
     """A quantile of 2^15 samples of a normal error: some thousandths."""

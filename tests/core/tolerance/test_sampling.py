@@ -76,6 +76,7 @@ def test_samples_are_rounded_up(asked: int, taken: int) -> None:
     assert rounded_up(asked) == taken
 
 
+@pytest.mark.slow
 def test_indices_of_ishigami() -> None:
     case = next(case for case in CASES if case["input"]["what"] == "ishigami")
 

@@ -66,6 +66,7 @@ def test_a_pin_that_turns_the_frame_turns_the_crank_angles() -> None:
         assert found[k, 0] == pytest.approx(turned[0] - turned[1], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_percentiles_of_linear_scatter_are_those_of_its_normal_law() -> None:
     (found,) = courses(study(CANDY, sources={"links.frame": {"plus_minus": 0.002}}, samples=2048).problem)
     assert (found.output, found.over, found.units) == ("output_angle", "crank_angle", ("deg", "deg"))

@@ -130,6 +130,7 @@ def alone(made: Any, sizes: dict[str, float]) -> dict[str, bool] | None:
     return held
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", mostly_slow(list(STUDIES), 10))
 def test_a_sample_passes_what_it_passes_by_itself(name: str) -> None:
     study = STUDIES[name]
@@ -157,7 +158,7 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
     assert tried == {name for name, kind in KINDS.items() if "tolerance" in kind.commands}
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "source", "left"),
     [

@@ -119,6 +119,7 @@ def test_a_search_is_done_once_and_its_function_goes_on_judging() -> None:
     assert made.result.spreads["structural_error"].mean.value > 0.001
 
 
+@pytest.mark.slow
 def test_a_rule_is_followed_once() -> None:
     """The rod of the tangent circle is 140 mm; made shorter, it is not sized anew."""
     made = study("hypocycloid_slider", sources={"rod.length": {"measured": 139.9}}, samples=16)
@@ -126,6 +127,7 @@ def test_a_rule_is_followed_once() -> None:
     assert made.nominal == {}
 
 
+@pytest.mark.slow
 def test_cams_are_placed_once() -> None:
     """Arms that turn out longer run on the cams that were made."""
     cam: dict[str, Any] = {"cam__center": None, "size": {"pressure_angle": 28}}

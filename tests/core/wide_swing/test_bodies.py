@@ -112,6 +112,7 @@ def test_worked_loads_keep_clear(name: str) -> None:
 # What clears them
 
 
+@pytest.mark.slow
 def test_remedies_of_links_that_meet_shafts_are_clear() -> None:
     arm = factory.design("wide_swing_twin_cam", unloader__arm=3)
     assert list(arm.candidates("body-clearance")) == [(("unloader.arm", 8.0),)]

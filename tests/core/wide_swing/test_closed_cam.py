@@ -95,7 +95,7 @@ def test_pitch_curves_are_the_rollers_paths_in_the_turning_cams(made: Any) -> No
         assert turned[0] == pytest.approx(first, abs=1e-12)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("made", [rocker(), twin(), rocker(cam__free_clearance=0)], ids=["rocker", "twin", "tight"])
 def test_roller_clears_the_contour_and_is_guided_by_it(made: Any) -> None:
     for cam in made.cycle.contours.values():
@@ -210,6 +210,7 @@ def test_checks_hold_for_the_worked_design() -> None:
     assert status(twin(), "profile-planes") == []
 
 
+@pytest.mark.slow
 def test_large_roller_cuts_into_the_contour() -> None:
     made = rocker(cam__roller_radius=60)
     fails = [check for check in made.check("closed-contour") if check.status == "fail"]
@@ -238,6 +239,7 @@ def test_contour_in_the_shaft_fails() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_contour_without_a_hub_is_warned_of() -> None:
     """Half the shaft's radius is the usual minimum hub; a free sector that left 0.9 mm of it had passed."""
     slot = min(cam.least_radius for cam in rocker(cam__free_clearance=0).cycle.contours.values())

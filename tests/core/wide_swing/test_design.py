@@ -349,6 +349,7 @@ class TestLoops:
         assert value(looped(), "phase_angle") > 19.0
         assert [statuses(looped(cycle_angle=angle), "profile-exists") for angle in (113.19, 225.0)] == [["pass"]] * 2
 
+    @pytest.mark.slow
     def test_slow_rocker_has_no_cam(self) -> None:
         """The law stands; `cam` is refused at the key."""
         made = design(layout="twin-rocker", swing=60.0)
@@ -362,6 +363,7 @@ class TestLoops:
         assert refusal.value.key == "cycle_angle"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("changes", [{}, {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 80.0}])
 def test_slot_that_leaves_the_shaft_no_hub_is_warned_of(changes: dict[str, Any]) -> None:
     """As of every disc cam, 1.5 times the shaft: of a slot 0.5 mm above the shaft nothing was said."""
@@ -503,6 +505,7 @@ class TestChecks:
         assert statuses(wide, "shaft-clearance") == ["warn", "pass"]
         assert statuses(design(), "shaft-clearance") == ["pass"]
 
+    @pytest.mark.slow
     def test_where_nothing_helps_no_number_is_named(self) -> None:
         made = design(limits={"pressure_angle": 1.0}, layout="twin-rocker", swing=150.0, cycle_angle=90.0)
         assert [found.remedy for found in made.findings("swing", "pressure-angle")] == [(), ()]
@@ -517,6 +520,7 @@ class TestChecks:
 
 
 class TestSections:
+    @pytest.mark.slow
     def test_shaft(self) -> None:
         made = design(shaft={"natural_frequency": 60.0, "damping": 0.05, "linkage_share": 0.25})
         assert value(made, "drive_balancing_ratio") == 5.0
@@ -560,6 +564,7 @@ class TestSections:
                 made.quantity(name)
             assert refusal.value.key == "slider"
 
+    @pytest.mark.slow
     def test_iteration(self) -> None:
         made = design(method="iteration", iteration_steps=10)
         assert value(made, "iteration_error") == pytest.approx(2.65e-3, rel=0.05)
@@ -669,6 +674,7 @@ def test_a_bend_that_no_smaller_roller_makes_short_enough_asks_for_the_rocker_ra
     assert check.fix == "remove cam.rocker_radius"
 
 
+@pytest.mark.slow
 def test_a_cam_that_swings_over_the_rocker_axis_is_warned_of_before_it_reaches_it() -> None:
     """The oscillating cam's body by its outline: farthest from its axis at the ends of the stroke."""
     for swing, room in ((150.0, None), (170.0, 3.836), (200.0, -6.706)):

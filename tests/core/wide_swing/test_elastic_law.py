@@ -173,6 +173,7 @@ def test_invariants_are_each_other_s_integrals(device: Device, swing: float) -> 
     assert float(weights @ jerk) == pytest.approx(-law.evaluate(0.0)[2], abs=1e-12 * law.acceleration_peak)
 
 
+@pytest.mark.slow
 @given(device=devices, swing=swings, k=st.floats(0.0, 1.0))
 @examples(150)
 def test_symmetry_about_mid_swing_and_energy(device: Device, swing: float, k: float) -> None:

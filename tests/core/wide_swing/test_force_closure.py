@@ -124,7 +124,7 @@ def test_balance_leaves_no_force() -> None:
     assert reserved.unloading.contact_force(reserved.cam, np.array([0.2])) == pytest.approx(0.1 * without, rel=1e-12)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("changes", [{}, {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 80.0}])
 def test_greatest_force_is_that_of_the_table(changes: dict[str, Any]) -> None:
     made = design(reserve=0.3, **changes)

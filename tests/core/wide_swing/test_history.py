@@ -36,7 +36,7 @@ def columns(design: WideSwingDesign) -> dict[str, Any]:
     return dict(zip(table.columns, (np.array(each, dtype=float) for each in table.data), strict=True))
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("slider", [SLIDER, None])
 @pytest.mark.parametrize("damping", [0.08, 0.0])
 def test_history_is_the_motion_of_the_shaft(slider: dict[str, Any] | None, damping: float) -> None:

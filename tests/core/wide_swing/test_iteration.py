@@ -18,6 +18,7 @@ from gearlink.core.machines.wide_swing.law import ElasticLaw, legacy_law
 DEVICES = [(Pneumatic(2.5), 120.0), (Spring(4.0, 0.5), 180.0), (Pneumatic(5.3), 300.0), (Spring(2.0, 0.0), 60.0)]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("device", "swing"), mostly_slow(DEVICES, 2))
 def test_error_falls_with_the_square_of_the_step(device: Device, swing: float) -> None:
     exact = ElasticLaw(device, math.radians(swing))
@@ -44,6 +45,7 @@ def test_passes_follow_the_contraction(device: Device, swing: float) -> None:
     assert passes == pytest.approx(expected, abs=4)
 
 
+@pytest.mark.slow
 def test_squared_scale_is_slow_and_fails_beyond_two() -> None:
     swing = math.radians(120.0)
     slow = legacy_law(Pneumatic(2.5), swing, exponent=2)

@@ -170,7 +170,7 @@ def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
     assert cam.roller_radius / float(cam.points(np.array([first])).curvature_radius[0]) == pytest.approx(0.75, rel=0.03)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("cam", [example(), example(assembly=-1), example(roller=2.0)])
 def test_least_radius_is_that_of_the_points_that_are_touched(cam: OscillatingCam) -> None:
     """What the table prints where it gives a profile is nowhere a smaller bulge than the quantity says."""
@@ -198,6 +198,7 @@ def test_next_to_a_standstill_the_pressure_angle_is_that_of_the_stop() -> None:
         assert cam.pressure_angle(1.0 - near) == pytest.approx(end, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_greatest_contact_force_is_the_same_in_other_units() -> None:
     """Above its lift-off speed the force is largest at the end of the stroke; all lengths 1.7 times as long."""
     data = factory.worked("wide_swing_oscillating_cam")

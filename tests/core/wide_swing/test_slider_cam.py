@@ -91,6 +91,7 @@ def test_roller_nowhere_enters_the_profile() -> None:
     assert room.min() > R * (1.0 - 1e-9)
 
 
+@pytest.mark.slow
 def test_without_the_sliders_mass_it_is_the_rockers_own_cam() -> None:
     made = cam(share=1.0)
     plain = WideSwingCam("twin-cam", ElasticLaw(Pneumatic(2.6), GAMMA), ANGLE, A, R)

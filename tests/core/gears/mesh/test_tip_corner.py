@@ -105,6 +105,7 @@ def random_pair(rng: random.Random) -> GearPair:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [60, pytest.param(600, marks=pytest.mark.slow)])
 def test_the_least_gap_is_that_of_drawn_teeth_turned_in_mesh(count: int) -> None:
     """1e-6 mm: what 4001 points of a fillet and 40001 places leave of a module of 1 mm."""

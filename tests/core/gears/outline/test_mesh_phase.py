@@ -63,7 +63,7 @@ def test_external_teeth_touch_and_do_not_cross(place: float) -> None:
     assert depth(gear, wrong) > 10.0 * _CHORD * 2.0
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("place", [0.0, 0.31, 0.77, 5.2])
 def test_teeth_in_a_ring_touch_and_do_not_cross(place: float) -> None:
     mesh = GearPair.from_shift(2.0, (25, -75))
