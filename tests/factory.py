@@ -69,13 +69,17 @@ def changed(data: Mapping[str, Any], **keys: Any) -> dict[str, Any]:
 
 
 def worked(name: str) -> dict[str, Any]:
-    """The data of a example by the name of its file, named after it where it has no name, as the program does."""
+    """The data of an example by the name of its file, named after it where it has no name, as the program does, and the
+    designs of its members after those."""
     return copy.deepcopy(_read(name))
 
 
 @cache
 def _read(name: str) -> dict[str, Any]:
     data: dict[str, Any] = _keys_as_written(yaml.safe_load((DESIGNS / f"{name}.yaml").read_text(encoding="utf-8")))
+    for called, member in data["members"].items() if data["kind"] == "machine" else ():
+        if "design" in member:
+            member["design"] = {"name": called} | member["design"]
     return {"name": name} | data
 
 
