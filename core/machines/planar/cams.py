@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.wording import short
+from gearlink.core.machines.planar.structure import Line
+from gearlink.core.machines.planar.system import Row, line_bounds
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams import profile
@@ -47,6 +49,8 @@ _DEGREE = math.pi / 180.0
 _STEP = 1e-6  # of the maximum velocity: what laws that meet leave
 _SQUARE = 1e-9  # cosine of a right angle
 _OUTLINE, _BEYOND = 721, 0.1
+_FOOT_ROUNDS, _FOOT = 12, 1e-14  # rad
+_UPON = 1e-10  # rad, from a joint of a law: rounding
 
 
 class Lift(NamedTuple):
@@ -77,8 +81,9 @@ class Lift(NamedTuple):
         """
         if k > 3:
             raise AssertionError(f"a law of motion has no derivative of order {k}")
-        s = self.motion.evaluate(self.angle(jets, 0), k, side=jets.side)
         a = [self.angle(jets, j) for j in range(1, k + 1)]
+        back = k > 1 and float(a[0][0]) < 0.0  # the law is run through backwards
+        s = self.motion.evaluate(self.angle(jets, 0), k, side=-jets.side if back else jets.side)
         if k == 0:
             return self.share * s[0]
         found = s[1] * a[k - 1]
@@ -98,6 +103,138 @@ class Lift(NamedTuple):
         rate = abs(float(self.angle(jets, 1)[0]))
         by_unknowns = math.sqrt(sum(share * share for share in self.turns.values()))
         return steep * by_unknowns**2, steep * by_unknowns * rate, steep * rate * rate
+
+
+class Support(NamedTuple):
+    """The cam of a flat face as cut: distance h of its axis from a face by the direction of the face [mm by rad].
+
+    Fields
+        faces : function (cam angles, order, side) -> directions and distances of the face as the law has them
+        start : float [rad] - direction at cam angle 0
+        sense : int
+    """
+
+    faces: Callable[[Reals, int, int], tuple[list[Reals], list[Reals]]]
+    start: float
+    sense: int
+
+    def evaluate(self, chi: Reals, order: int, *, side: int = 1) -> list[Reals]:
+        """h and its derivatives by the direction, up to the third."""
+        phi = self.angles(chi)
+        way, h = self.faces(phi, order, -side * self.sense)
+        found = [h[0]]
+        if order >= 1:
+            back = [1.0 / way[1]]
+            found.append(h[1] * back[0])
+        if order >= 2:
+            back.append(-way[2] * back[0] ** 3)
+            found.append(h[2] * back[0] ** 2 + h[1] * back[1])
+        if order >= 3:
+            back.append((3.0 * way[2] ** 2 * back[0] - way[3]) * back[0] ** 4)
+            found.append(h[3] * back[0] ** 3 + 3.0 * h[2] * back[0] * back[1] + h[1] * back[2])
+        return found
+
+    def angles(self, chi: Reals) -> Reals:
+        """Cam angles at which the face has these directions; at a joint of the law upon it."""
+        phi = self.sense * (self.start - chi)
+        for _ in range(_FOOT_ROUNDS):
+            way, _h = self.faces(phi, 1, 1)
+            step = (chi - way[0]) / way[1]
+            phi = phi + step
+            if not np.any(np.abs(step) > _FOOT):
+                break
+        return phi
+
+
+class Contact(NamedTuple):
+    """A roller as made on a cam as cut: the distance of its centre from the nominal pitch curve, in units of size.
+
+    D = Re(conj(n)(z - p)), p the foot: D' = Re(conj(n) z'), phi' = Re(conj(T) z')/(|p'| + mu D theta'), mu = -sense,
+    T = e^(i theta) along p', n = i sense T outwards
+
+    Fields
+        cam : CamJoint - nominal
+        guess : Lift - nominal, whose angle is near
+        line : Line - of the cam's link, its x axis at cam angle 0, for the roller's centre
+        size : float [mm]
+    """
+
+    cam: CamJoint
+    guess: Lift
+    line: Line
+    size: float
+
+    def coefficient(self, jets: Jets, k: int) -> Reals:
+        """Taylor coefficient of D, k up to 3."""
+        return self._solved(jets, k)[0][k] / math.factorial(k)
+
+    def angle(self, jets: Jets, k: int) -> Reals:
+        """Taylor coefficient of the cam angle [rad], k up to 2."""
+        return self._solved(jets, k)[1][k] / math.factorial(k)
+
+    def across(self, jets: Jets) -> Line:
+        """The line along the outward normal."""
+        phi, _ = self._foot(jets)
+        first = self.cam.pitch(phi, 1)[1]
+        return self.line._replace(direction=self.line.direction + np.angle(1j * self.cam.sense * first))
+
+    def _foot(self, jets: Jets) -> tuple[Reals, Points]:
+        """Cam angles of the feet, and the roller's centres in the cam's frame [size]."""
+        z, phi = jets.seen(self.line, 0), self.guess.angle(jets, 0)
+        for _ in range(_FOOT_ROUNDS):
+            p, p1, p2 = (each / self.size for each in self.cam.pitch(phi, 2))
+            slope = (np.conj(p1) * p1).real - (np.conj(p2) * (z - p)).real
+            step = (np.conj(p1) * (z - p)).real / slope
+            phi = phi + step
+            if not np.any(np.abs(step) > _FOOT):
+                break
+        return self.cam.upon_joints(phi), z
+
+    def _solved(self, jets: Jets, k: int) -> tuple[list[Reals], list[Reals]]:
+        """Derivatives of D up to k and of the cam angle by the input, as many as there are motions to be derived."""
+        sense, mu = self.cam.sense, -self.cam.sense
+        phi, z = self._foot(jets)
+        if k == 0:
+            p, p1 = (each / self.size for each in self.cam.pitch(phi, 1))
+            normal = 1j * sense * p1 / np.abs(p1)
+            return [(np.conj(normal) * (z - p)).real], [phi]
+        forward = self._sense(jets, phi)
+        p, p1, *more = (each / self.size for each in self.cam.pitch(phi, 3 if k == 3 else 2, jets.side * forward))
+        v = np.abs(p1)
+        along, normal = p1 / v, 1j * sense * p1 / v
+        rates = [math.factorial(j) * jets.seen(self.line, j) for j in range(1, k + 1)]
+        tau, nu = ([(np.conj(way) * each).real for each in rates] for way in (along, normal))
+        turn = (np.conj(p1) * more[0]).imag / v**2
+        d = [(np.conj(normal) * (z - p)).real, nu[0]]
+        reach = v + mu * d[0] * turn
+        angle = [phi, tau[0] / reach]
+        if k >= 2:
+            d.append(nu[1] + mu * turn * angle[1] * tau[0])
+        if k >= 3:
+            longer = (np.conj(p1) * more[0]).real / v
+            bend = (np.conj(p1) * more[1]).imag / v**2 - 2.0 * longer * turn / v
+            next_tau = tau[1] - mu * turn * angle[1] * d[1]
+            next_reach = longer * angle[1] + mu * (d[1] * turn + d[0] * bend * angle[1])
+            angle.append((next_tau - angle[1] * next_reach) / reach)
+            turned = turn * angle[1]
+            d.append(
+                nu[2] + mu * (turned * tau[1] + (bend * angle[1] ** 2 + turn * angle[2]) * tau[0] + turned * next_tau)
+            )
+        return d, angle
+
+    def _sense(self, jets: Jets, phi: Reals) -> int:
+        """Which way the cam angle goes with the input."""
+        p1 = self.cam.pitch(phi[:1], 1)[1]
+        return 1 if (np.conj(p1[0]) * jets.seen(self.line, 1)[0]).real >= 0.0 else -1
+
+    def bounds(self, jets: Jets) -> Reals:
+        """K, K', M of the row: of the line, and of the curve."""
+        (k, k_rate, m), _ = line_bounds(self.line, jets)
+        steep = self.cam.steepest * self.size
+        a, b = self.line.body, self.line.other
+        moves = abs(complex(jets.x[0][0, b] - jets.x[0][0, a])) + 1.0 + 2.0**0.5 + abs(self.line.point)
+        rate = abs(complex(jets.seen(self.line, 1)[0]))
+        return np.array([k + steep * moves**2, k_rate + steep * moves * rate, m + steep * rate**2])
 
 
 class CamJoint:
@@ -157,6 +294,106 @@ class CamJoint:
         """Maximum magnitude of the second derivative of the lift [mm or rad]."""
         motion = self.motion
         return maximum_over(lambda phi: np.abs(motion.evaluate(phi, 2)[2]), joints=motion.joints, samples=SAMPLES).value
+
+    # The cam as cut, under a follower as made
+
+    def contact_row(self, structure: Structure, nominal: Lift, errors: Mapping[str, Any]) -> Row:
+        """The row of this cam, as the nominal design has it, under the follower of another structure.
+
+        Parameters
+            nominal : Lift - its angle counted from the start of the nominal design
+            errors : by key less `cams.NAME.` - of profile, roller_radius [mm], phase and face [rad]
+        """
+        size = structure.size
+        phase = self.sense * (nominal.phase + errors.get("phase", 0.0))
+        point = structure.bodies[self.given.follower][self.given.point] / size
+        more = (errors.get("profile", 0.0) + errors.get("roller_radius", 0.0)) / size
+        if self.given.face is None:
+            line = Line(self.cam, self._bore / size, phase, self.follower, point)
+            return Row(None, constant=more, contact=Contact(self, nominal, line, size))
+        support, way = self.support, cmath.phase(self._face_normal / self._ahead) + errors.get("face", 0.0)
+        line = Line(self.follower, point, way, self.cam, self._bore / size)
+        turns = {body: share for body, share in ((self.follower, 1.0), (self.cam, -1.0)) if body}
+        lift = Lift(support, 1.0 / size, turns, way - phase, self.round)  # type: ignore[arg-type]
+        return Row(line, factor=-1.0, constant=more, lift=lift)
+
+    def _centres(self, phi: Reals, order: int, side: int = 1) -> list[Points]:
+        """The roller's centre in coordinates of the carrier about the cam's axis, and its derivatives [mm]."""
+        a = [self.away * each for each in self.motion.evaluate(phi, order, side=side)]
+        if self.slide is not None:
+            u = cmath.exp(1j * self.slide.line.direction)
+            return [self._start + u * a[0], *(u * each for each in a[1:])]
+        assert self._pivot is not None
+        pivot = self._pivot[0] - self.axis
+        return [pivot + (self._start - pivot) * np.exp(1j * a[0]), *_turned(self._start - pivot, a)]
+
+    def pitch(self, phi: Reals, order: int, side: int = 1) -> list[Points]:
+        """The pitch curve in the cam's frame, and its derivatives [mm]."""
+        b, back, e = self._centres(phi, order, side), -1j * self.sense, np.exp(-1j * self.sense * phi)
+        return [
+            np.asarray(e * sum(math.comb(k, j) * back**j * b[k - j] for j in range(k + 1))) for k in range(order + 1)
+        ]
+
+    def upon_joints(self, phi: Reals) -> Reals:
+        """Cam angles, those that rounding took off a joint of the law upon it."""
+        joints = np.array([*self.motion.joints, 2.0 * math.pi])
+        inside = np.mod(phi, 2.0 * math.pi)
+        nearest = joints[np.argmin(np.abs(inside[:, None] - joints), axis=1)]
+        return np.where(np.abs(inside - nearest) <= _UPON, phi + (nearest - inside), phi)
+
+    @cached_property
+    def steepest(self) -> float:
+        """Bound of the curvature of all offsets of the pitch curve that are near it [1/mm]."""
+        found = self.profile
+        assert not isinstance(found, FlatCam)
+        joints = self.motion.joints
+        most = maximum_over(lambda phi: np.abs(found.curvature(phi)), joints=joints, samples=SAMPLES).value
+        return 1.1 * most
+
+    @cached_property
+    def _face_normal(self) -> complex:
+        """Unit vector from the cam into the face at lift 0, in coordinates of the carrier."""
+        if self.slide is not None:
+            return self.away * cmath.exp(1j * self.slide.line.direction)
+        assert self._pivot is not None
+        return 1j * self.away * self._face(self._pivot[0] - self.axis)[0]
+
+    @cached_property
+    def support(self) -> Support:
+        """The profile of a flat face."""
+        _ = self.profile  # refuses what cannot be
+        normal = self._face_normal
+        start = cmath.phase(normal)
+
+        def faces(phi: Reals, order: int, side: int) -> tuple[list[Reals], list[Reals]]:
+            phi = self.upon_joints(phi)
+            a = [self.away * each for each in self.motion.evaluate(phi, order, side=side)]
+            still = np.zeros_like(phi)
+            if self.slide is not None:
+                base = (normal.conjugate() * self._start).real
+                way = [start - self.sense * phi, still - self.sense, still, still]
+                return way[: order + 1], [base + self.away * a[0], *(self.away * each for each in a[1:])]
+            assert self._pivot is not None
+            pivot = self._pivot[0] - self.axis
+            w, offset = normal.conjugate() * pivot, (normal.conjugate() * (self._start - pivot)).real
+            back = [-each for each in a]
+            h = [offset + (w * np.exp(1j * back[0])).real, *(each.real for each in _turned(w, back))]
+            way = (
+                [start + a[0] - self.sense * phi, a[1] - self.sense, *a[2:]]
+                if order
+                else [start + a[0] - self.sense * phi]
+            )
+            return way, h
+
+        return Support(faces, start, self.sense)
+
+    @cached_property
+    def round(self) -> float:
+        """Bound of the second derivative of the support by the direction [mm]."""
+        found = self.profile
+        assert isinstance(found, FlatCam)
+        phi = np.linspace(0.0, 2.0 * math.pi, SAMPLES)
+        return 1.1 * float(np.abs(found.touch(phi).radius).max() + np.abs(found.points(phi)[0]).max())
 
     # The profile, in the carrier's coordinates about the cam's axis
 
@@ -309,6 +546,19 @@ class CamJoint:
         assert self._pivot is not None
         at, own = self._pivot
         return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self._ahead.conjugate())
+
+
+def _turned(arm: complex, a: Sequence[Reals]) -> list[Points]:
+    """Derivatives of arm e^(i a), from the first on, as many as there are of a, up to the third."""
+    e = arm * np.exp(1j * a[0])
+    found = []
+    if len(a) > 1:
+        found.append(1j * a[1] * e)
+    if len(a) > 2:
+        found.append((1j * a[2] - a[1] ** 2) * e)
+    if len(a) > 3:
+        found.append((1j * a[3] - 3.0 * a[1] * a[2] - 1j * a[1] ** 3) * e)
+    return found
 
 
 # Checks

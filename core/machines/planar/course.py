@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,7 +34,7 @@ from gearlink.core.mechanism.follow import JAM, MOST_TURNS, Place, Walk
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.planar.cams import Lift
+    from gearlink.core.machines.planar.cams import CamJoint, Lift
 
 _TURN = 2.0 * math.pi
 _ROUNDS = 60
@@ -306,7 +306,7 @@ class Course:
             jets = self.jets(q, 0)
             for name, cam in self.structure.cams.items():
                 angles = self.at_start.lifts[name].angle(jets, 0)
-                found += _crossings(partial(self._cam_angle, name), q, angles, cam.motion.joints)
+                found += _crossings(partial(self._cam_angle, name), q, angles, self.at_start.joints_of_cam(cam))
         return tuple(sorted({each for each in found if self.start < each < self.end}))
 
     def _cam_angle(self, name: str, q: Reals) -> Reals:
@@ -455,6 +455,10 @@ class Start:
         zero = cam.zero / self.structure.size if cam.slide is not None else cam.zero
         found = zero + lift.share * float(lift.motion.evaluate(np.array([cam.phase]), 0)[0][0])
         return found if cam.slide is not None else wrapped(found)
+
+    def joints_of_cam(self, cam: CamJoint) -> tuple[float, ...]:
+        """Joints of the law of a cam as its term counts them [rad]."""
+        return cam.motion.joints
 
     @cached_property
     def lifts(self) -> dict[str, Lift]:
@@ -709,6 +713,61 @@ class Start:
         system = System(len(structure.bodies), pins_of(structure), tuple(rows))
         self._require_matching(system)
         return system
+
+
+@dataclass(frozen=True)
+class AsMade(Start):
+    """A mechanism as manufactured at input 0, whose cams are those of the nominal design.
+
+    Parameters
+        structure : Structure - with cams those of the nominal one
+        nominal : Start
+        errors : by cam - of what `CamJoint.contact_row` takes
+    """
+
+    nominal: Start
+    errors: Mapping[str, Mapping[str, Any]]
+
+    @cached_property
+    def closed(self) -> tuple[Points, Reals]:
+        """Origins [size] and directions at input 0, next to the nominal ones."""
+        x, t = self.nominal.closed
+        near = joined(x[None] * (self.nominal.structure.size / self.structure.size), t[None])
+        try:
+            x, t = split(settled(self.running, np.zeros(1), near))
+        except NoSolution as error:
+            raise NoSolution("as manufactured it does not close at the start", key="start") from error
+        return x[0], t[0]
+
+    @cached_property
+    def running(self) -> System:
+        """The equations of the motion; gears stand as in the nominal design."""
+        structure, nominal = self.structure, self.nominal
+        rows = [*joint_rows(structure, nominal.slide_turns), *drive_rows(structure, self.exact_starts)]
+        x, t = nominal.closed
+        for mesh in structure.meshes.values():
+            row = mesh_row(mesh, structure.size)
+            jets = Jets([x[None] * (nominal.structure.size / structure.size)], [t[None]])
+            still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
+            rows.append(row._replace(constant=float(still[0, 0])))
+        for name, cam in nominal.structure.cams.items():
+            rows.append(cam.contact_row(structure, nominal.lifts[name], self.errors.get(name, {})))
+        return System(len(structure.bodies), pins_of(structure), tuple(rows))
+
+    @cached_property
+    def lifts(self) -> dict[str, Any]:
+        """By cam what tells its angle."""
+        rows = dict(
+            zip(self.nominal.structure.cams, self.running.rows[-len(self.nominal.structure.cams) :], strict=True)
+        )
+        return {name: row.contact or row.lift for name, row in rows.items()}
+
+    def joints_of_cam(self, cam: CamJoint) -> tuple[float, ...]:
+        """Joints of the law, of a flat face as directions of the face [rad]."""
+        if cam.given.face is None:
+            return cam.motion.joints
+        phi = np.array([*cam.motion.joints])
+        return tuple(np.mod(cam.support.faces(phi, 0, 1)[0][0], _TURN).tolist())
 
 
 def _held_back(step: Reals) -> Reals:

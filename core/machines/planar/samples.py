@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -18,11 +18,12 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, Findings
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planar.course import AsMade, Course
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
 from gearlink.core.machines.planar.dyads import Dyad, dyads
 from gearlink.core.machines.planar.extremes import Coefficient, Wanted, humps
 from gearlink.core.machines.planar.structure import Structure
-from gearlink.core.machines.planar.system import Jets, System, drive_rows, joined, joint_rows, pins_of
+from gearlink.core.machines.planar.system import Jets, System, drive_rows, joined, joint_rows, pins_of, split
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import CLOSURE, TRANSMISSION_ANGLE
@@ -30,14 +31,17 @@ from gearlink.core.studies.tolerance.sources import Parts
 
 _PIN = "pins."
 _SIZES = re.compile(r"(frame|links)\.\w+(\.\w+\[[01]\]|\[[012]\])|(slides|slots)\.\w+\.through\[[01]\]")
+_OF_CAMS = re.compile(r"cams\.(\w+)\.(profile|roller_radius|phase|face)")
 _SIDES = ("max", "max_at", "min", "min_at", "span")
 _CERTAIN = 0.25
 """Of h, below the 1/2 of the theorem: for the way between two places of the grid."""
+_STILL = 1e-10  # of the largest slope: rounding of a dwell
 _NEAR = 0.1
 """Of the range of a course: local extremes that may become the extreme of a sample."""
 _FAR = 0.15
 """Of the input in rad, or of the size: how far an extreme may move from that of the nominal design."""
 _STEPS, _CLOSING = 12, 6
+_SECANT = 1e-4  # of the input: first step of a secant
 _REST = 1e-13
 _APART, _LOOKS = math.radians(1.0), 25
 """Of what stands still nominally: how far it must stay above the minimum, and at how many inputs it is looked at."""
@@ -58,13 +62,38 @@ class PlayedMechanism(PlanarMechanism):
         self.plays = dict(plays)
         vars(self)["structure"] = Structure(spec, self.plays)
 
+    def cut_for(self, nominal: PlanarMechanism, profiles: Mapping[str, float]) -> None:
+        """Take the cams of the nominal design, with the errors of their profiles [mm] by cam."""
+        errors = {
+            name: {
+                "profile": profiles.get(name, 0.0),
+                "roller_radius": (own.roller_radius or 0.0) - (given.roller_radius or 0.0),
+                "phase": math.radians(own.phase - given.phase),
+                "face": math.radians((own.face or 0.0) - (given.face or 0.0)),
+            }
+            for (name, given), own in zip(nominal.spec.cams.items(), self.spec.cams.values(), strict=True)
+        }
+        vars(self.structure)["cams"] = nominal.structure.cams
+        course = Course(self.structure)
+        vars(course)["at_start"] = AsMade(self.structure, nominal.course.at_start, errors)
+        vars(course)["dyads"] = dyads(self.structure, nominal.course.system)
+        vars(self)["course"] = course
+
 
 class _Hump(NamedTuple):
-    """A local extreme of the nominal design: its place, or an end of the range, and its sense."""
+    """A local extreme of the nominal design: its place, or an end of the range, and its sense.
+
+    Fields
+        cam, joint : of what lies where the law of a cam changes - the cam, and its angle there, of any revolution [rad]
+        side : +1 or -1 - just after it or before
+    """
 
     place: float
     sign: float
     end: bool = False
+    cam: str = ""
+    joint: float = 0.0
+    side: int = 1
 
 
 class PlanarSamples:
@@ -72,8 +101,8 @@ class PlanarSamples:
 
     Parameters
         nominal : PlanarMechanism
-    Raises
-        NoSolution - key cams: a cam as made is not that of a follower as made
+    Notes
+        The cams are those of the nominal design: their profiles, with an error of their own, under followers as made.
     """
 
     extra: tuple[str, ...] = ()
@@ -81,21 +110,31 @@ class PlanarSamples:
     samples = 16384
 
     def __init__(self, nominal: PlanarMechanism) -> None:
-        if nominal.spec.cams:
-            words = "`tolerance` samples no mechanism with cams: a sample would have another cam for its own follower"
-            raise NoSolution(words, key="cams", fix="use `gearlink register`, which keeps the cam as it is")
         self.nominal = nominal
-        self.parts = Parts({}, pins=tuple(pin.name for pin in nominal.structure.pins))
+        pins = tuple(pin.name for pin in nominal.structure.pins)
+        self.parts = Parts({}, pins=pins, others={f"cams.{name}.profile": 0.0 for name in nominal.spec.cams})
 
     def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
         """Whether sizes, plays and extremes alone are asked for, of a mechanism without teeth and shafts."""
         spec = self.nominal.spec
-        if spec.meshes or spec.shafts or not all(key.startswith(_PIN) or _SIZES.fullmatch(key) for key in keys):
+        for key in keys:
+            if key.startswith("cams.") and not _OF_CAMS.fullmatch(key):
+                what = f"{key} is no size of a part: the profile is cut by the law of the file"
+                raise NoSolution(what, key="tolerance.sources", fix="name cams.NAME.profile, roller_radius or phase")
+        if spec.meshes or spec.shafts or not all(self._is_size(key) for key in keys):
             return False
         return all(self._served(name) for name in names) and not any(self._still(name) for name in names)
 
+    def _is_size(self, key: str) -> bool:
+        """Whether an array form has it; a cam off its shaft makes no dwell."""
+        if any(key.startswith(f"links.{cam.cam}.") for cam in self.nominal.spec.cams.values()):
+            return False
+        return key.startswith(_PIN) or bool(_SIZES.fullmatch(key) or _OF_CAMS.fullmatch(key))
+
     def _served(self, name: str) -> bool:
         meaning = self.nominal.meanings.get(name)
+        if self.nominal.spec.cams and (name.endswith("_at") or (meaning is not None and meaning.order > 2)):
+            return False  # of a dwell there is no one place, and laws have no fourth derivative
         if meaning is None:
             return name in ("min_transmission_angle", "min_transmission_angle_at", "closure_error")
         return meaning.side in _SIDES
@@ -108,14 +147,17 @@ class PlanarSamples:
         return name.startswith("min_transmission") and not self._humps.keys() & {*self.nominal.dyad_keys}
 
     def sets(self, key: str) -> bool:
-        """Whether a source is the play of a pin."""
-        return key.startswith(_PIN)
+        """Whether a source is the play of a pin, or the profile of a cam."""
+        return key.startswith(_PIN) or key in self.parts.others
 
     def design(self, values: Mapping[str, Any], cut: Any = None) -> PlayedMechanism:
         """The design of one sample."""
         spec = (self.nominal if cut is None else cut).spec
-        made = PlayedMechanism(spec, {key.removeprefix(_PIN): value for key, value in values.items()})
+        plays = {key.removeprefix(_PIN): value for key, value in values.items() if key.startswith(_PIN)}
+        made = PlayedMechanism(spec, plays)
         made.advises = False
+        if spec.cams:
+            made.cut_for(self.nominal, {name: values.get(f"cams.{name}.profile", 0.0) for name in spec.cams})
         return made
 
     # The nominal design
@@ -130,11 +172,63 @@ class PlanarSamples:
         for name, order in keys:
             orders.setdefault(name, []).append(order)
         moving = design.moving_numbers
+        if design.spec.cams:
+            return self._beside_joints({name: moving[name] for name in orders}, orders)
         wanted = {name: Wanted(moving[name][0], of, moving[name][1]) for name, of in orders.items()}
         found = {}
         for key, places in humps(course, wanted, _NEAR).items():
             ends = [] if course.turns is not None else [course.start, course.end]
             found[key] = [_Hump(place, sign) for place, sign in places] + [_Hump(end, 0.0, end=True) for end in ends]
+        return found
+
+    @cached_property
+    def system(self) -> System:
+        """The equations of the nominal design as those of its samples."""
+        nominal = self.nominal
+        if not nominal.spec.cams:
+            return nominal.course.system
+        return AsMade(nominal.structure, nominal.course.at_start, {}).running
+
+    def _beside_joints(
+        self, moving: Mapping[str, tuple[Coefficient, str]], orders: Mapping[str, list[int]]
+    ) -> dict[tuple[str, int], list[_Hump]]:
+        """The same of a mechanism with cams: what is largest where a law changes, and where the next derivative is 0
+        between these places."""
+        course, joints = self.nominal.course, self._joints
+        q, highest = course.grid, max(max(each) for each in orders.values()) + 1
+        jets = course.jets(q, 0)
+        walked = course.walked(q)
+        after, before = (self.system.onward(Jets(jets.x, jets.t, side=side), walked, highest) for side in (1, -1))
+        found = {}
+        for name, (of, unit) in moving.items():
+            right, left = (course.derivatives(of, each, max(orders[name]) + 1) for each in (after, before))
+            for order in orders[name]:
+                value = np.concatenate([right[order], left[order]])
+                span = float(np.ptp(value))
+                if span > 1e-11 * max(float(np.abs(value).max()), course.floor(unit, order)):
+                    sides = right[order], left[order], right[order + 1], left[order + 1]
+                    found[name, order] = list(_tops(q, sides, span, joints, period=course.turns is not None))
+        return found
+
+    @cached_property
+    def steepness(self) -> float:
+        """By how much more a point that is off changes the matrix where it lies on a cam, whose normal turns there."""
+        nominal = self.nominal.structure
+        bends = [cam.steepest if cam.given.face is None else 1.0 / nominal.size for cam in nominal.cams.values()]
+        return 1.0 + 6.0 * nominal.size * max(bends, default=0.0) if bends else 1.0
+
+    @cached_property
+    def _joints(self) -> list[_Hump]:
+        """Where the laws of the cams change, over the period or range."""
+        course = self.nominal.course
+        places = np.array([course.start, *course.joints])
+        jets, found = course.jets(places, 0), []
+        for name, cam in self.nominal.structure.cams.items():
+            on = cam.upon_joints(course.at_start.lifts[name].angle(jets, 0))
+            off = np.mod(on[:, None] - np.array([*cam.motion.joints]) + 1.0, 2.0 * math.pi) - 1.0
+            there = np.abs(off).min(axis=1) < 1e-12
+            found += [_Hump(place, 0.0, cam=name, joint=angle)
+                      for place, angle in zip(places[there].tolist(), on[there].tolist(), strict=True)]  # fmt: skip
         return found
 
     @cached_property
@@ -144,13 +238,13 @@ class PlanarSamples:
         q = course.grid
         jets = course.jets(q, 1)
         y, scaled = joined(jets.x[0], jets.t[0]), course.walked(q)
-        matrix = course.system.matrix(jets)
+        matrix = self.system.matrix(jets)
         inverse = np.linalg.inv(matrix)
         norms = 1.0 / np.linalg.svd(matrix, compute_uv=False)[:, -1]
         found = []
         for i in range(q.size):
             here = Jets([part[i : i + 1] for part in jets.x], [part[i : i + 1] for part in jets.t])
-            found.append((float(scaled[i]), y[i], inverse[i], float(norms[i]), course.system.bounds(here)[0]))
+            found.append((float(scaled[i]), y[i], inverse[i], float(norms[i]), self.system.bounds(here)[0]))
         return found
 
     # Samples
@@ -217,6 +311,59 @@ class PlanarSamples:
         return np.concatenate(rows, axis=1)
 
 
+class _AngleOfFace(NamedTuple):
+    """The cam angle under a flat face, from the direction of the face."""
+
+    lift: Any
+
+    def angle(self, jets: Jets, k: int) -> Reals:
+        """Its Taylor coefficient, k up to 1 [rad]."""
+        chi, support = self.lift.angle(jets, 0), self.lift.motion
+        phi = support.angles(chi)
+        if k == 0:
+            return np.asarray(phi)
+        return np.asarray(self.lift.angle(jets, 1) / support.faces(phi, 1, 1)[0][1])
+
+
+def _errors_of_cams(nominal: PlanarMechanism, columns: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """By cam, by how much samples are off [mm, rad]."""
+    found: dict[str, dict[str, Any]] = {name: {} for name in nominal.spec.cams}
+    for key, values in columns.items():
+        if match := _OF_CAMS.fullmatch(key):
+            name, what = match.groups()
+            given = getattr(nominal.spec.cams[name], what, 0.0) or 0.0
+            found[name][what] = (values - given) * (math.pi / 180.0 if what in ("phase", "face") else 1.0)
+    return found
+
+
+def _tops(
+    q: Reals, sides: tuple[Reals, Reals, Reals, Reals], span: float, joints: Sequence[_Hump], *, period: bool
+) -> Iterator[_Hump]:
+    """Local extremes near the largest and the smallest value, at joints and between the places of a grid.
+
+    Parameters
+        sides : values after and before each place, slopes after and before
+    """
+    after, before, *slopes = sides
+    least = _STILL * max(float(np.abs(each).max()) for each in slopes)
+    slope_after, slope_before = (np.where(np.abs(each) <= least, 0.0, each) for each in slopes)
+    for sign in (1.0, -1.0):
+        top = max(float((sign * each).max()) for each in (after, before)) - _NEAR * span
+        for joint in joints:
+            i = int(np.argmin(np.abs(q - joint.place)))
+            values = (after[i], 1), (before[i if i or not period else -1], -1)
+            yield from (joint._replace(sign=sign, side=side) for value, side in values if sign * value >= top)
+        if not period:
+            yield from (_Hump(place, sign, end=True) for place in (float(q[0]), float(q[-1])))
+        rise, fall = sign * slope_after[:-1], sign * slope_before[1:]
+        room = np.diff(q) * np.maximum(np.abs(rise), np.abs(fall))
+        near = np.maximum(sign * after[:-1], sign * before[1:]) + room >= top
+        upon = np.append((fall[:-1] == 0.0) & (rise[1:] == 0.0) & (fall[1:] < 0.0), [False])  # on a place of the grid
+        for i in np.flatnonzero((rise > 0.0) & ((fall < 0.0) | upon) & near):
+            share = float(rise[i] / (rise[i] - fall[i]))
+            yield _Hump(float(q[i] + share * (q[i + 1] - q[i])), sign)
+
+
 class _Many:
     """Some samples side by side.
 
@@ -234,9 +381,13 @@ class _Many:
         self.design = PlanarMechanism(nominal.spec)
         vars(self.design)["structure"] = structure
         start = nominal.course.at_start
-        rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
-        self.system = System(len(structure.bodies), pins_of(structure), rows)
-        vars(self.system)["blocks"] = nominal.course.system.blocks
+        if nominal.spec.cams:
+            vars(structure)["cams"] = nominal.structure.cams
+            self.system = AsMade(structure, start, _errors_of_cams(nominal, columns)).running
+        else:
+            rows = (*joint_rows(structure, start.slide_turns), *drive_rows(structure, start.exact_starts))
+            self.system = System(len(structure.bodies), pins_of(structure), rows)
+        vars(self.system)["blocks"] = samples.system.blocks
         self.unsure: Mask = self._uncertain()
         q, first = samples._grid[0][:2]
         self.gap: Reals = self._gaps(self.closed(q, np.tile(first, (self.count, 1)))[0], np.full(self.count, q))
@@ -251,6 +402,7 @@ class _Many:
         ]
         # each point is an element of as many joints as there are at most links
         change = np.sqrt(sum(moved) * 2.0 * len(nominal.bodies) + np.zeros(self.count)) / nominal.size
+        change = change * self.samples.steepness
         uncertain = np.zeros(self.count, dtype=bool)
         for q, y, inverse, beta, k in self.samples._grid:
             gaps = self.system.values(Jets.of(np.broadcast_to(y, (self.count, y.size))), 0, np.full(self.count, q))
@@ -284,7 +436,7 @@ class _Many:
 
     @cached_property
     def _dyads(self) -> list[Dyad]:
-        return dyads(self.design.structure, self.system)
+        return dyads(self.design.structure, self.samples.nominal.course.system)
 
     @cached_property
     def _found(self) -> dict[tuple[str, int, _Hump], tuple[Reals, Reals]]:
@@ -293,7 +445,8 @@ class _Many:
     def _extreme(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
         """Values at a local extreme, and its places."""
         if (*key, hump) not in self._found:
-            self._found[(*key, hump)] = self._sought(key, hump)
+            sought = self._at_joint if hump.cam else self._between if self.samples.nominal.spec.cams else self._sought
+            self._found[(*key, hump)] = sought(key, hump)
         return self._found[(*key, hump)]
 
     def _sought(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
@@ -322,6 +475,71 @@ class _Many:
         self.gap = np.maximum(self.gap, self._gaps(y, q))
         self.unsure = self.unsure | far | open_ones
         return course.derivatives(of, here, order)[order], course.unwalked(q)
+
+    def _first(self, hump: _Hump) -> tuple[Reals, Reals]:
+        """The place of the nominal design as the equations have it, and its unknowns, for each sample."""
+        course, place = self.samples.nominal.course, np.array([hump.place])
+        jets = course.jets(place, 0)
+        first = joined(jets.x[0], jets.t[0])[0]
+        return np.full(self.count, float(course.walked(place)[0])), np.tile(first, (self.count, 1))
+
+    def _there(self, key: tuple[str, int], q: Reals, y: Reals, off: Mask, side: int = 1) -> tuple[Reals, Reals]:
+        """Values at these places, and the places."""
+        course, (name, order) = self.samples.nominal.course, key
+        y, open_ones = self.closed(q, y)
+        here = self.system.onward(Jets(*([each] for each in split(y)), side=side), q, order)
+        self.gap = np.maximum(self.gap, self._gaps(y, q))
+        self.unsure = self.unsure | off | open_ones
+        return course.derivatives(self._numbers[name], here, order)[order], course.unwalked(q)
+
+    def _at_joint(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
+        """Where the cam angle is that of a joint of the law."""
+        q, y = self._first(hump)
+        start, step = q.copy(), np.full(self.count, math.inf)
+        row = self._cam_rows[hump.cam]
+        for _ in range(_STEPS):
+            y, _open = self.closed(q, y)
+            here = self.system.onward(Jets.of(y), q, 1)
+            off = np.mod(row.angle(here, 0) - hump.joint + math.pi, 2.0 * math.pi) - math.pi
+            with np.errstate(all="ignore"):
+                step = -off / row.angle(here, 1)
+            step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
+            q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
+            if not ((np.abs(step) > 1e-12) & ~self.unsure).any():
+                break
+        return self._there(key, q, y, (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-9), hump.side)
+
+    @cached_property
+    def _cam_rows(self) -> dict[str, Any]:
+        """By cam what tells its angle."""
+        names = [*self.samples.nominal.spec.cams]
+        found = {}
+        for name, row in zip(names, self.system.rows[-len(names) :], strict=True):
+            found[name] = row.contact if row.contact is not None else _AngleOfFace(row.lift)
+        return found
+
+    def _between(self, key: tuple[str, int], hump: _Hump) -> tuple[Reals, Reals]:
+        """Where the next derivative is 0, by secants: laws have no derivative after the third."""
+        course, (name, order) = self.samples.nominal.course, key
+        (q, y), of = self._first(hump), self._numbers[name]
+        if hump.end:
+            return self._there(key, q, y, np.zeros(self.count, dtype=bool))
+        start, before, slope_before = q.copy(), q - _SECANT, np.zeros(self.count)
+        step, bend = np.full(self.count, _SECANT), np.zeros(self.count)
+        for round_ in range(2 * _STEPS):
+            y, _open = self.closed(q, y)
+            here = self.system.onward(Jets.of(y), q, order + 1)
+            slope = course.derivatives(of, here, order + 1)[order + 1]
+            with np.errstate(all="ignore"):
+                bend = np.where(q != before, (slope - slope_before) / (q - before), bend)
+                step = np.full(self.count, _SECANT) if round_ == 0 else -slope / bend
+            step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
+            before, slope_before = q, slope
+            q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
+            if not ((np.abs(step) > 1e-10) & ~self.unsure).any():
+                break
+        off = (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-7) | (hump.sign * bend >= 0.0)
+        return self._there(key, q, y, off)
 
     def extreme(self, key: tuple[str, int], sign: float) -> tuple[Reals, Reals]:
         """Maximum (sign 1) or minimum values, and their places in the period or range."""

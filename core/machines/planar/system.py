@@ -20,14 +20,14 @@ from gearlink.core.mechanism.blocks import Block, blocks
 from gearlink.core.numerics.arrays import Points, Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.planar.cams import CamJoint, Lift
+    from gearlink.core.machines.planar.cams import CamJoint, Contact, Lift
 
 _STRUCTURAL = 1e-12
 _SKEW = 0.7  # rad, by which lines are turned where the structure is looked at: those along an axis are no other
 
 
 class Row(NamedTuple):
-    """factor Re or Im(z) of a line + sum of directions by body - lift - constant - rate q = 0."""
+    """factor Re or Im(z) of a line + sum of directions by body - lift + contact - constant - rate q = 0."""
 
     line: Line | None
     across: bool = False
@@ -36,6 +36,7 @@ class Row(NamedTuple):
     constant: float = 0.0
     rate: float = 0.0
     lift: Lift | None = None
+    contact: Contact | None = None
 
 
 @dataclass
@@ -151,6 +152,8 @@ class System:
                 total += share * jets.t[k][:, body]
             if row.lift is not None:
                 total -= row.lift.coefficient(jets, k)
+            if row.contact is not None:
+                total += row.contact.coefficient(jets, k)
             if k == 0:
                 total -= row.constant + row.rate * q
             elif k == 1:
@@ -179,6 +182,8 @@ class System:
                 slope = row.lift.slope(jets)
                 for body, share in row.lift.turns.items():
                     found[:, i, 3 * body + 2] -= share * slope
+            if row.contact is not None:
+                self._add_line(found[:, i], row, row.contact.across(jets), jets)
         return found[:, :, 3:]
 
     @staticmethod
@@ -247,13 +252,13 @@ class System:
              first[0] * turn[a] ** 2 + first[1] * turn[b] ** 2]  # fmt: skip
         squares, fastest = [float(np.sum(each * each)) for each in k], 0.0
         for row in self.rows:
-            if row.lift is not None:
-                squares = [total + part * part for total, part in zip(squares, row.lift.bounds(jets), strict=True)]
-            if row.line is None:
-                continue
-            parts, moved = _line_bounds(row.line, jets)
-            fastest = max(fastest, moved)
-            squares = [total + part * part for total, part in zip(squares, parts, strict=True)]
+            parts = np.zeros(3) if row.lift is None else np.array(row.lift.bounds(jets))
+            if row.contact is not None:
+                parts += row.contact.bounds(jets)
+            if row.line is not None:
+                of_line, moved = line_bounds(row.line, jets)
+                parts, fastest = parts + of_line, max(fastest, moved)
+            squares = [total + part * part for total, part in zip(squares, parts.tolist(), strict=True)]
         k_size, k_rate, m_size = (total**0.5 for total in squares)
         return k_size, k_rate, m_size, fastest
 
@@ -264,10 +269,14 @@ def _skewed(row: Row) -> Row:
         row = row._replace(line=row.line._replace(direction=row.line.direction + _SKEW))
     if row.lift is not None:
         row = row._replace(lift=None, turns={**row.lift.turns, **row.turns})
+    if row.contact is not None:
+        line = row.contact.line
+        row = row._replace(contact=None, line=line._replace(direction=line.direction + _SKEW))
     return row
 
 
-def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
+def line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
+    """K, K', M of a line, and the fastest that its point moves against it."""
     a, b, s = line.body, line.other, abs(line.point)
     t_b = abs(float(jets.t[1][0, b]))
     if a == 0:
