@@ -706,7 +706,7 @@ class MomentaryDwellSynthesis(ThreeGearFourBar):
             "acceleration_ratio_max",
         ),
     )
-    outlines = with_analysis("synth momentary-dwell", Outline((*QUANTITIES, *_STEPS), CHECKS))
+    outlines = with_analysis("synth momentary-dwell", Outline((*QUANTITIES, *_STEPS, "dwell_pole_line_error"), CHECKS))
     extra_tables, table_candidates = TABLES, candidates_table
 
     @cached_property

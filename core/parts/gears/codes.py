@@ -10,7 +10,7 @@ def _within(*keys: str) -> tuple[str, ...]:
     return tuple(f"{section}.{key}" for section in ("gears", "input_gears") for key in keys)
 
 
-_TEETH = ("profile_shift", "teeth", "gears", "input_gears")
+_TEETH = ("profile_shift", "teeth", "gears", "input_gears", "pin_radius")
 
 AT_LIMITS = tuple(f"{name}-at-limits" for name in ("contact-ratio", "interference", "root-clearance", "tip-fouling"))
 """Names of the checks that look at the limits of the centre distance."""

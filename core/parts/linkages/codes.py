@@ -17,7 +17,7 @@ GEAR_COLLISION = Rule(
     "four-bar: |l4 - l1| - m (z1 + z5)/2 - 2 m",
     "own derivation; thesis 4.2.2, 4.2.3 with the distance at the closest",
     ("gear-collision",),
-    ("links", "momentary", "back_step", "dwell", "speed", "gears"),
+    ("links", "momentary", "back_step", "dwell", "speed", "gears", "pin_radius"),
 )
 SHAFT_CLEARANCE = Rule(
     "GL302",
@@ -44,7 +44,7 @@ SHAFT_CLEARANCE = Rule(
     "gears.rim; root radius - radius of the own shaft >= h/2",
     "own derivation; the minimum rim: ISO 6336-3",
     ("shaft-clearance", "shaft-seat", "body-clearance"),
-    ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
+    ("shafts", "cam.shaft_radius", "cam", "links", "gears", "output_pins", "center_distance"),
 )
 TRANSMISSION_ANGLE = Rule(
     "GL303",
