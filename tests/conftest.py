@@ -5,6 +5,7 @@ from __future__ import annotations
 import faulthandler
 import gc
 import io
+import itertools
 import json
 import math
 import os
@@ -30,14 +31,27 @@ ROOT = Path(__file__).resolve().parents[1]
 gc.set_threshold(50_000, 20 if sweeps.ALL else 1000, 100)
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_unconfigure() -> None:
-    """What the run has kept is left to the end of the process: pytest and the interpreter walk it five times before
-    they end, which took a twelfth of `make test`. Young rings that nothing holds are still looked at, and with them
-    what they never closed; `make check-full` looks at all."""
+def _leave_what_is_kept() -> None:
+    """What the run has kept so far is left alone by the collector, whoever asks it: pytest and the interpreter walk all
+    five times before they end, which took a twelfth of `make test`, and a batch or the loads of a machine once for each
+    few designs. Young rings that nothing holds are still looked at, and with them what they never closed;
+    `make check-full` looks at all."""
     if not sweeps.ALL:
         gc.collect(0)
         gc.freeze()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_unconfigure() -> None:
+    _leave_what_is_kept()
+
+
+_files = itertools.count(1)
+
+
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    if nextitem is not None and nextitem.path != item.path and next(_files) % 16 == 0:
+        _leave_what_is_kept()
 
 
 # Commands that are run in the process of the tests fork workers. A thread of OpenBLAS that is at work just then leaves
@@ -139,6 +153,7 @@ BUDGET = 60
 def pytest_collection_finish() -> None:
     """Start and collection are part of what a half takes."""
     global _collected
+    _leave_what_is_kept()
     _collected = _processor_seconds()
 
 
