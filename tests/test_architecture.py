@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from sources import tree
+from sweeps import ALL
 
 ROOT = Path(__file__).parents[1]
 MACHINES = sorted(path.name for path in (ROOT / "core/machines").iterdir() if (path / "__init__.py").exists())
@@ -148,8 +149,32 @@ def test_each_package_says_what_stands_there() -> None:
 _NESTED = (ast.FunctionDef, ast.ClassDef)
 
 
-def _tree(module: str) -> ast.Module:
-    return tree(MODULES[module])
+_HEADS = re.compile(
+    r"^(?:from gearlink\.[\w.]+ import (?:\([^)]*\)|.*)|class \w+(?:\((?:[^()]|\([^()]*\))*\))?:)", re.MULTILINE
+)
+_BLOCK = re.compile(r"^( *)(def |class |@)", re.MULTILINE)
+
+
+@cache
+def _text(module: str) -> str:
+    return MODULES[module].read_text(encoding="utf-8")
+
+
+def _head(module: str) -> ast.Module:
+    """The imports at the head of a module and its classes without what is in them, by the lines."""
+    return ast.parse("\n".join(found + " ..." * found.endswith(":") for found in _HEADS.findall(_text(module))))
+
+
+def _may_be_long(module: str) -> bool:
+    """Whether 50 lines or more lead from a function to the next one that is not in it."""
+    text = _text(module)
+    starts = [(len(found[1]), text.count("\n", 0, found.start()), found[2]) for found in _BLOCK.finditer(text)]
+    end = text.count("\n")
+    return any(
+        next((other for inner, other, _ in starts[i + 1 :] if inner <= indent), end) - line >= 50
+        for i, (indent, line, word) in enumerate(starts)
+        if word == "def "
+    )
 
 
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
@@ -163,8 +188,8 @@ def _statements(node: ast.AST) -> Iterator[ast.AST]:
 
 def test_a_function_fits_a_screen() -> None:
     """A module is a subject, whatever its length; a function has fewer than 50 lines, but for those in it."""
-    for name in MODULES:
-        for node in _statements(_tree(name)):
+    for name in MODULES if ALL else filter(_may_be_long, MODULES):
+        for node in _statements(tree(MODULES[name])):
             if isinstance(node, ast.FunctionDef):
                 body = [each for each in node.body[bool(ast.get_docstring(node)) :] if not isinstance(each, _NESTED)]
                 lines = sum((each.end_lineno or 0) - each.lineno + 1 for each in body)
@@ -175,11 +200,10 @@ MOST_LEVELS = 4
 """Of inheritance among classes of our own: what reaches deeper is made of parts instead."""
 
 
-@cache
-def _named(module: str) -> dict[str, str]:
+def _named(module: str, head: ast.Module) -> dict[str, str]:
     """What the names at the head of a module stand for: "module:name" of what it imports, "module:" of a module."""
     found = {}
-    for node in _tree(module).body:
+    for node in head.body:
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("gearlink."):
             base = node.module.removeprefix("gearlink.")
             for alias in node.names:
@@ -190,17 +214,27 @@ def _named(module: str) -> dict[str, str]:
     return found
 
 
+def _classes_of(module: str, head: ast.Module) -> dict[str, list[str]]:
+    """The bases of our own of each class of a module, by "module:name"."""
+    found, named = {}, _named(module, head)
+    for node in head.body:
+        if isinstance(node, ast.ClassDef):
+            words = (ast.unparse(base).partition("[")[0].partition(".") for base in node.bases)
+            bases = (named.get(first, "") + rest for first, _, rest in words)
+            found[f"{module}:{node.name}"] = [base for base in bases if base]
+    return found
+
+
 @cache
 def _classes() -> dict[str, list[str]]:
-    """The bases of our own of each class, by "module:name"."""
-    found = {}
-    for module in MODULES:
-        for node in _tree(module).body:
-            if isinstance(node, ast.ClassDef):
-                words = (ast.unparse(base).partition("[")[0].partition(".") for base in node.bases)
-                bases = (_named(module).get(head, "") + rest for head, _, rest in words)
-                found[f"{module}:{node.name}"] = [base for base in bases if base]
-    return found
+    """Of all modules."""
+    return {name: bases for module in MODULES for name, bases in _classes_of(module, _head(module)).items()}
+
+
+@pytest.mark.slow
+def test_lines_tell_what_classes_stand_on() -> None:
+    for module, path in MODULES.items():
+        assert _classes_of(module, _head(module)) == _classes_of(module, tree(path)), module
 
 
 def _levels(name: str) -> int:

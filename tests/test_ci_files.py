@@ -143,6 +143,7 @@ def test_the_hook_checks_design_files() -> None:
     assert (hook["id"], hook["entry"]) == ("gearlink-check", "gearlink check")
 
 
+@pytest.mark.slow
 def test_schema_and_settings_of_an_editor(gearlink: Any, tmp_path: Path) -> None:
     ended = gearlink("schema", "--write", tmp_path)
     assert ended.status == 0

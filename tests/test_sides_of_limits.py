@@ -26,6 +26,7 @@ def findings(name: str) -> Iterator[Check]:
         yield from kind.design(command, spec).report(command).checks
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
 def test_what_passes_is_on_the_side_of_its_rule(path: Path) -> None:
     wrong = []

@@ -47,6 +47,7 @@ def test_numbers_of_the_iteration() -> None:
         legacy_law(Pneumatic(4.0), math.radians(300.0), steps=20, exponent=2)
 
 
+@pytest.mark.slow
 def test_passes_of_the_worked_designs() -> None:
     found = [
         design(path.stem, command="swing", method="iteration").quantity("iteration_passes").value

@@ -30,6 +30,7 @@ FAMILY = Family(
 )
 
 
+@pytest.mark.slow
 def test_unloading_family_shows_the_errors_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
     error = {row.method: row.error for row in measured("unloading", quick=True).rows}
@@ -37,6 +38,7 @@ def test_unloading_family_shows_the_errors_of_its_methods(monkeypatch: pytest.Mo
     assert 1e-4 < error["the dissertation's iteration, 20 steps"] < 1e-3  # the figure of its docstring: 8e-4
 
 
+@pytest.mark.slow
 def test_loads_family_shows_what_the_textbook_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timing, "interleaved", lambda runs, *_: [1.0] * len(runs))
     monkeypatch.setattr("bench.loads.KINDS", ("loaded_feed",))

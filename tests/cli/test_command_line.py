@@ -206,7 +206,7 @@ def test_missing_file(gearlink: Any) -> None:
     assert "GL101" in ended.err
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("width", [80, 160])
 @pytest.mark.parametrize(
     ("command", "file"),
@@ -230,7 +230,7 @@ def test_tables_fit_the_width(
     assert "\x1b" not in ended.out
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("width", [1, 20, 45, 60])
 def test_a_narrow_terminal_keeps_every_number(
     gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch, width: int
@@ -500,6 +500,7 @@ def test_no_memory_is_no_fault_of_the_program(gearlink: Any, crank: Path, monkey
     assert (ended.status, ended.err[:20]) == (ExitCode.WRONG_INPUT, "error: out of memory")
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     "words", [["chart"], ["new"], ["explain"], ["laws"], ["gears", "--ratio", "2", "--center-distance", "150"]]
 )

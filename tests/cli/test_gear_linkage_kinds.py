@@ -198,6 +198,7 @@ def test_hypocycloid_refusals(gearlink, tmp_path, old, new, code, key):
     assert (error["code"], error["key"]) == (code, key)
 
 
+@pytest.mark.slow
 def test_hypocycloid_dwell_too_narrow_is_a_finding(gearlink, tmp_path):
     path = tmp_path / "design.yaml"
     path.write_text(HYPOCYCLOID)

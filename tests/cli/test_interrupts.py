@@ -82,7 +82,7 @@ def ended(code: str, *arguments: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("module", "lost"), [("gearlink.cli.main", False), ("gearlink.cli.evaluate", True), ("pydantic", True)]
 )
@@ -137,7 +137,7 @@ def test_the_first_asks_and_the_second_does_what_it_did(handler: Callable[[Any],
     assert len(heard) == 2
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("ignored", [True, False])
 def test_watch_in_the_background_of_a_script(tmp_path: Path, ignored: bool) -> None:
     """Which starts it with SIGINT ignored; else it ends."""

@@ -83,6 +83,7 @@ def test_no_file_is_read_or_written_in_the_encoding_of_the_system(words: tuple[s
     assert [line for line in lines if "EncodingWarning" in line and line.startswith(ours)] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("encoding", "words"),
     [

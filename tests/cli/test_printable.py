@@ -119,7 +119,7 @@ def hostile(request: Any, tmp_path: Path, designs: Path, monkeypatch: pytest.Mon
     return place
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", mostly_slow(["csv", "table", "md"], 1))
 def test_batch_and_check(gearlink: Any, hostile: Path, form: str) -> None:
     for command in ("batch", "check"):
@@ -138,7 +138,7 @@ def test_annotations(gearlink: Any, hostile: Path) -> None:
         assert harmless(line[2:])
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", mostly_slow(["table", "csv", "md"], 1))
 def test_design_commands(gearlink: Any, hostile: Path, form: str) -> None:
     for path in sorted(hostile.iterdir())[:: 1 if ALL else 5]:  # batch and check print all of them
@@ -180,7 +180,7 @@ def test_every_finding_of_a_design_is_shown(gearlink: Any, designs: Path) -> Non
     )
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     mostly_slow(["report", "animate --format html", "crank --format json", "crank --format csv", "crank --plot"], 4),
@@ -223,7 +223,7 @@ LONG = "x" * 10_000
 @pytest.mark.parametrize(
     "line",
     [
-        ("explain", LONG),
+        pytest.param(("explain", LONG), marks=pytest.mark.slow),
         ("new", LONG),
         ("chart", LONG),
         ("crank", "SPEC", "--quantity", LONG),

@@ -328,7 +328,7 @@ def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -
     assert made.name.endswith("-motion.gif")
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["gif", "html"])
 def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_path: Path, form: str) -> None:
     for folder in ("a", "b"):
@@ -473,7 +473,7 @@ def test_nothing_half_written_where_drawing_breaks(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "options"),
     [

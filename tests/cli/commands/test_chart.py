@@ -53,6 +53,7 @@ def test_the_share_over_the_frame_ratio(gearlink: Any) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_design_is_marked_with_its_numbers(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     spec = designs / "thesis_example_1.yaml"
     ended = gearlink("chart", "back-step", "--design", spec, "--format", "json", "--plot", "--out", tmp_path)

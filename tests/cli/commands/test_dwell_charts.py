@@ -72,6 +72,7 @@ def test_tables_and_gaps(gearlink: Any, name: str) -> None:
     assert "no values there" in refused.err
 
 
+@pytest.mark.slow
 def test_designs_are_marked(gearlink: Any, designs: Path) -> None:
     ended = gearlink("chart", "energy-parameter", "--design", designs / "wide_swing_twin_cam.yaml", "--format", "json")
     made = design("wide_swing_twin_cam", command="swing")

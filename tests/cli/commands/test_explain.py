@@ -303,7 +303,7 @@ def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
             assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ring_pair", "rack_drive", "rated_pair"])
 def test_every_column_of_the_tables_of_a_gear_pair_has_words(name: str) -> None:
     made = design(name, command="gear")

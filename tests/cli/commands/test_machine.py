@@ -89,6 +89,7 @@ def test_set_reaches_keys_of_a_member_in_its_file(gearlink: Any, files: Path) ->
     assert "<--set>" in wrong.err
 
 
+@pytest.mark.slow
 def test_a_study_explores_ratios_and_keys_of_members(gearlink: Any, files: Path) -> None:
     (files / "study.yaml").write_text(
         "kind: study\nof: machine.yaml\nvariables:\n  members.feed.phase: {from: 0, to: 40, step: 20}\n"

@@ -24,7 +24,7 @@ def each_template() -> list[Any]:
     return [pytest.param(kind, marks=pytest.mark.slow) if kind in SEARCHED else kind for kind in KINDS]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", each_template())
 def test_template_runs_as_it_stands(gearlink: Any, tmp_path: Path, kind: str) -> None:
     """Every command that the file asks for ends with status 0."""

@@ -98,6 +98,7 @@ def test_comments_name_unit_meaning_source_and_rounding(gearlink: Any, tmp_path:
     assert spec_of(path).links.frame == 114.85
 
 
+@pytest.mark.slow
 def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "full.yaml"
     ended = gearlink("synth", "dwell", DESIGNS / "standing_feed.yaml", "--save", path, "--round", "1")

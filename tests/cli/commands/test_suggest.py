@@ -107,6 +107,7 @@ limits: {handover_place: 0.9}
 """
 
 
+@pytest.mark.slow
 def test_a_cam_that_turns_the_drum_backwards_is_reversed(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "drum.yaml"
     path.write_text(BACKWARDS)
@@ -312,7 +313,7 @@ def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> No
     assert gearlink("gear", path, "--suggest", "--format", "json").json["suggestions"] == []
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     mostly_slow(

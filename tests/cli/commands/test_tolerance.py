@@ -234,6 +234,7 @@ def test_an_option_is_not_at_fault_for_what_its_section_lacks(gearlink: Any, des
     assert [each["file"] for each in ended.json["errors"]] == [str(designs / "candy_feed.yaml")]
 
 
+@pytest.mark.slow
 def test_estimates_stand_with_their_intervals_on_a_terminal(gearlink: Any, spec: Path) -> None:
     out = gearlink("tolerance", str(spec), "--samples", "512", "--all").out
     assert " +-0.0" in out

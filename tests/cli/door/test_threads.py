@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sweeps import mostly_slow
 
 import gearlink
 from gearlink.cli.views.figures import write
@@ -34,8 +35,19 @@ def together(work: Callable[[Any], Any], given: list[Any]) -> list[Any]:
         return list(pool.map(work, given))
 
 
-def test_one_design_and_many(designs: Path) -> None:
-    paths = [designs / f"{name}.yaml" for name in ("mutilated_gear_press", "ty460_slider_crank", "hypocycloid_slider")]
+@pytest.mark.parametrize(
+    "names",
+    mostly_slow(
+        [
+            ["ty460_slider_crank", "crank_rocker"],
+            ["mutilated_gear_press", "ty460_slider_crank", "hypocycloid_slider"],
+        ],
+        1,
+    ),
+    ids=len,
+)
+def test_one_design_and_many(designs: Path, names: list[str]) -> None:
+    paths = [designs / f"{name}.yaml" for name in names]
     alone = [everything(gearlink.load(path)) for path in paths]
     assert together(lambda path: everything(gearlink.load(path)), paths * 3) == alone * 3
     for path, expected in zip(paths, alone, strict=True):

@@ -383,7 +383,7 @@ def test_damage_is_seen_or_changes_nothing(finished: bytes, tmp_path: Path) -> N
     assert len(found) > sum(each in refusals for each in found) > len(found) // 4, "both ends are tried"
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", mostly_slow([*range(60)], 8))
 def test_a_damaged_store_is_no_fault_of_the_program(
     gearlink: Any, finished: bytes, small: Path, tmp_path: Path, seed: int

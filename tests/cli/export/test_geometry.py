@@ -206,7 +206,7 @@ def test_circles_touch_the_profile() -> None:
 SMOOTH = [("main_cam", press), ("return_cam", gripper), ("main_cam", lambda: swing(0)), ("gear1", pair)]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("name", "build"), SMOOTH)
 def test_a_smaller_tolerance_gives_a_smaller_error(name: str, build: Any, form: CurveForm) -> None:
@@ -376,7 +376,7 @@ def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: 
     assert np.median(reach) == pytest.approx(roller, rel=0.0, abs=2.0 * T + AGAIN)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["contour", "return_contour"])
 def test_a_cycle_is_one_closed_contour_round_the_roller(name: str) -> None:
     design = factory.design("wide_swing_cycle", command="cam")
@@ -557,7 +557,7 @@ DXF_PARTS = [
 ]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("build", "name"), DXF_PARTS)
 def test_dxf_polylines_read_back(tmp_path: Path, build: Any, name: str) -> None:
     exported, document = read_back(tmp_path, build(), name, CurveForm.POLYLINE)
@@ -603,6 +603,7 @@ def test_dxf_layers_and_marks(tmp_path: Path) -> None:
 # CSV
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("build", [press, gripper])
 def test_csv_rows_are_the_kernels(build: Any) -> None:
     import csv

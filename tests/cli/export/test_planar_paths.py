@@ -47,6 +47,7 @@ def test_a_mechanism_without_an_output_point_has_none(tmp_path: Path) -> None:
     assert not [*tmp_path.iterdir()]
 
 
+@pytest.mark.slow
 def test_a_path_is_no_body(tmp_path: Path) -> None:
     done = run("export", str(DESIGNS / "planar_watt.yaml"), "--as", "step", "--out", str(tmp_path))
     assert done.exit_code == 2

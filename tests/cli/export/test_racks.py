@@ -48,6 +48,7 @@ def test_the_outline_is_closed_and_has_its_teeth_and_lines(given: Any, form: Cur
     assert lines["PITCH_LINE"].nodes.imag == pytest.approx(0.6, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_solid_has_the_area_of_trapezia_less_the_roundings() -> None:
     """Tooth and space are equal on the datum line, so the section is a rectangle to it, but for flank and rounding."""
     made = contour(parts.makers(design("rack_drive"))["rack"](), 1e-5, CurveForm.SPLINE)
@@ -61,6 +62,7 @@ def test_the_solid_has_the_area_of_trapezia_less_the_roundings() -> None:
     assert section_area(made) == pytest.approx(teeth + below + 60 * corner + 30 * pitch * 12.0, rel=3e-8)
 
 
+@pytest.mark.slow
 def test_files_of_a_rack_and_what_has_none(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink(
         "export", designs / "rack_drive.yaml", "--as", "svg", "--as", "csv", "--as", "dxf", "--out", tmp_path

@@ -46,6 +46,7 @@ def test_curves_are_the_table_of_positions(press: Sheet, what: str, part: str) -
     np.testing.assert_array_equal(dots.get_ydata(), column)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["displacement", "velocity"])
 def test_the_bed_with_its_cam_is_drawn_besides(press: Sheet, what: str) -> None:
     line = lines(panel(press.figure, "Travel" if what == "displacement" else "Speed"))["bed with its cam"]

@@ -30,10 +30,10 @@ def test_a_star_stands_above_the_index_before_it() -> None:
 @pytest.mark.parametrize(
     ("command", "name"),
     [
+        ("synth dwell", "standing_feed"),
         ("gear", "gear_pair"),
         ("cam", "wide_swing_cycle"),
         ("swing", "wide_swing_cycle"),
-        ("synth dwell", "standing_feed"),
     ],
 )
 def test_no_sheet_of_a_report_has_a_formula_to_be_read(

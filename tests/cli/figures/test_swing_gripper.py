@@ -203,7 +203,7 @@ def test_torques_are_left_out_where_the_file_has_none() -> None:
     assert not any(axes.get_title(loc="left").startswith("Torques") for axes in figure.axes)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["gripper", "analyze"])
 @pytest.mark.parametrize(
     "keys",

@@ -16,6 +16,7 @@ from gearlink.core.studies.tolerance_study.band import Course
 SMALL = {"tolerance__samples": 128}
 
 
+@pytest.mark.slow
 def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
     design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
     axes = next(axes for axes in figure.axes if axes.get_xlabel().startswith("back step angle"))
@@ -88,6 +89,7 @@ def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
         assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:
     _, figure = sheet("candy_feed_tolerances", "register")
     titles = [axes.get_title(loc="left") for axes in figure.axes]

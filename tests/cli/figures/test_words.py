@@ -154,6 +154,7 @@ def test_stresses_along_the_path_are_of_the_nominal_load() -> None:
     assert math.isfinite(shown)
 
 
+@pytest.mark.slow
 def test_numbers_below_small_drawings_do_not_meet() -> None:
     _, figure = sheet("loaded_gripper", "loads")
     for cam in ("main", "return"):

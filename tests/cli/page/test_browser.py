@@ -90,6 +90,7 @@ def test_player_needs_no_scrolling(window: Browser, pages: Path, width: int, hei
     assert window.problems() == []
 
 
+@pytest.mark.slow
 def test_keys_play_and_step(window: Browser, pages: Path) -> None:
     window.size(1280, 900)
     window.open(pages / "candy-feed-motion.html")

@@ -81,7 +81,7 @@ def test_the_keys_with_aliases() -> None:
     assert {term for *_, term in CASES} == {term for *_, term in ALL}
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("kind", "path", "term"), CASES)
 def test_a_file_is_read_with_a_standard_term(kind: str, path: str, term: str) -> None:
     section, _, name = path.rpartition(".")

@@ -352,6 +352,7 @@ ATTACKS = {
 }
 
 
+@pytest.mark.quick(12)
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize(
     "name",

@@ -149,6 +149,7 @@ def test_the_words_of_a_quantity_may_be_in_another_order(gearlink: Any) -> None:
     assert gearlink("explain", "angle back step").out.startswith("back_step_angle")
 
 
+@pytest.mark.slow
 def test_a_misspelled_term_has_its_neighbour(gearlink: Any) -> None:
     for wrong, near in (
         ("transmision angle", "transmission-angle"),

@@ -126,7 +126,7 @@ def at(data: Any, path: tuple[Any, ...]) -> Any:
     return data
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 def test_schema_and_program_agree_on_wrong_values(path: Path) -> None:
     """Each value in turn made text, negative, huge, true or a section: what the schema refuses the program refuses.
