@@ -13,8 +13,8 @@ import numpy as np
 from bench.timing import Family, Method, measure, mpmath, numpy_pass
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.loads.flywheel import Energy
-from gearlink.core.studies.loads.motor import MotorRun
 from gearlink.core.studies.loads.panels import Panels
+from gearlink.core.studies.loads.running import MotorRun
 from gearlink.core.studies.loads.vibration import Oscillator, Panelled
 
 ROWS = 360

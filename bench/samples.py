@@ -11,7 +11,7 @@ from bench.timing import Family, Method, Row, measure, numpy_pass
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
-from gearlink.core.machines.three_gear.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.register import ThreeGearSamples
 from gearlink.core.machines.three_gear.spec import ThreeGearSpec
 
 _FEW = 12

@@ -135,7 +135,7 @@ def shares_by(jobs: int, dask: str, *, words: str, quiet: bool) -> Iterator[None
     Raises
         DesignFileError - GL115 where no cluster can be had, GL158 for a worker with another program
     """
-    from gearlink.core.studies.tolerance.shares import COMPUTED_BY, SEEN
+    from gearlink.core.studies.tolerance.sampling import COMPUTED_BY, SEEN
 
     def compute(function: Callable[[int], Any], numbers: Sequence[int], work: int) -> list[Any]:
         with progress(len(numbers) * work, words, quiet=quiet) as advance:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _SHARED = {
     "explore": "studies.explore.exploration:Exploration",
     "tolerance": "studies.tolerance_study.design:ToleranceStudy",
-    "register": "studies.register.of_motion:MotionRegister",
+    "register": "studies.register.design:MotionRegister",
 }
 """Commands that are no kind's own."""
 

@@ -25,7 +25,7 @@ KINDS: dict[str, Kind] = {
             },
             motion="mechanism:motion",
             array="axis:axis",
-            samples="samples:ThreeGearSamples",
+            samples="register:ThreeGearSamples",
             outputs={"motion": ("output_angle",)},
             register_at="dwell",
             picture="cli.views.figures.three_gear_four_bar:draw",

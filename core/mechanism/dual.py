@@ -2,21 +2,45 @@
 
 The matrix of the forces is the transpose of that of the displacements, so one solution serves every source. An error
 moves the element that a joint has on a link; meshes touch on the flank that carries.
+
+A mechanism whose parts have errors, closed exactly: by Newton with the matrix of its forces, transposed.
+
+Every joint says how far its two elements miss each other where the links stand; teeth do so by the involutes of their
+base circles on one flank, a roller by the parabola of its cam's pitch curve. The steps take the matrix of the mechanism
+without errors, so that each leaves the share error/length of the last.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from gearlink.core.base.errors import NoSolution
+from gearlink.core.mechanism.blocks import blocks
 from gearlink.core.mechanism.dynamics import System
-from gearlink.core.mechanism.joints import Act, Column, Connection, Flank, Mesh, Pin, SharedContact, Toothed, meshes_of
-from gearlink.core.mechanism.links import Link, Mechanism
-from gearlink.core.mechanism.rates import Point, Turn, cross
+from gearlink.core.mechanism.joints import (
+    NEWTON_METER,
+    Act,
+    Column,
+    Connection,
+    Contact,
+    Coupling,
+    Flank,
+    Guide,
+    Mesh,
+    Pin,
+    Shared,
+    SharedContact,
+    Toothed,
+    meshes_of,
+)
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.rates import Point, Rates, Turn, cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
 Value: TypeAlias = Callable[[Mechanism], Sequence[Reals]]
@@ -264,3 +288,289 @@ def _act(mechanism: Mechanism, value: Value, name: str) -> Act:
 def _moving(link: Link, origin: complex, turn: float) -> Link:
     at, angle = link.origin.value, link.turn.value
     return Link(Point(at, np.full(at.shape, origin)), Turn(angle, np.full(angle.shape, turn)), link.points)
+
+
+Errors = Sequence[tuple[Shift, "Reals | Points | float"]]
+"""Shifts with their errors, of one machine or of N; complex where a shift is a vector."""
+_STEPS = 12
+_REST = 1e-14
+"""A step that need not be made, in rad or of the size of the machine."""
+
+
+class Chain:
+    """A mechanism at some inputs.
+
+    Parameters
+        mechanism : Mechanism - of R rows
+        sides : by mesh the sign of its tangential force, (R,) arrays - `Dual.sides`
+    Example
+        >>> from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+        >>> from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
+        >>> bar, longer = FourBar(18.0, 50.0, 100.0, 121.4), FourBar(18.0, 51.0, 100.0, 121.4)
+        >>> links = four_bar(bar, np.array([1.0]))
+        >>> chain = Chain(Mechanism(links, four_bar_pins(links), "crank"), {})
+        >>> turned = chain.output(lambda made: made.links["rocker"].turn, [(Shift("coupler", ("C",)), 1.0)])
+        >>> bool(abs(turned[0, 0] - (solve(longer, 1.0).rocker_angle - solve(bar, 1.0).rocker_angle)) < 1e-14)
+        True
+
+    Source
+        own derivation: the closure of every joint, displaced
+    """
+
+    def __init__(self, mechanism: Mechanism, sides: Mapping[str, Reals]) -> None:
+        flanked = on_flanks(mechanism, sides)
+        self._system = System(flanked, {})
+        self.mechanism: Mechanism = _upright(flanked, {})
+
+    @cached_property
+    def _sizes(self) -> tuple[float, float, float]:
+        """What displacements of a link are measured by: the maximum distance in the machine [mm], and 1 rad."""
+        size = 1.0 + max(float(np.abs(link.origin.value).max()) for link in self.mechanism.links.values())
+        return size, size, 1.0
+
+    def output(self, value: Value, errors: Errors, before: Value | None = None) -> Reals:
+        """By how much errors change a value.
+
+        Parameters
+            value : function of the links, whose arrays are (R, N) - what is looked at
+            errors : shifts with their errors
+            before : what it is without errors, where it depends on them itself
+        Returns
+            change : (R, N) array - NaN where a machine does not close
+        """
+        moved = _Moved(self.mechanism, errors)
+        with np.errstate(invalid="ignore", over="ignore"):
+            last = 0.0
+            for _ in range(_STEPS):
+                step = self._step(self._gaps(moved), moved.shape)
+                moved.by(step)
+                far = max(
+                    float(np.nanmax(np.abs(part), initial=0.0)) / self._sizes[k % 3] for k, part in enumerate(step)
+                )
+                if far * (min(1.0, far / last) if last else 1.0) <= _REST:  # the next, as steps shrink
+                    break
+                last = far
+            else:
+                moved.refuse(sum(np.abs(part) / self._sizes[k % 3] for k, part in enumerate(step)) > math.sqrt(_REST))
+            found = np.asarray(value(moved.mechanism())[0]) - np.asarray((before or value)(self.mechanism)[0])
+        return np.asarray(found + np.zeros(moved.shape))
+
+    def _gaps(self, moved: _Moved) -> list[Any]:
+        """How far the elements of every joint miss each other, by unknown; of the drive how far it stands ahead."""
+        found = [gap for joint in self.mechanism.connections for gap in moved.gaps(joint)]
+        if self.mechanism.gain is None:
+            found.append(NEWTON_METER * self.mechanism.sense * moved.turn[self.mechanism.drive])
+        return found
+
+    def _step(self, gaps: list[Any], shape: tuple[int, int]) -> list[Reals]:
+        """Displacements that close the gaps, three a link."""
+        left, found = list(gaps), [np.zeros(0)] * self._system.size
+        for rows, columns, matrix in self._blocks:
+            if len(rows) == 1:
+                solved = [-matrix[:, 0] * left[columns[0]]]
+            else:
+                missed = np.stack([np.broadcast_to(left[column], shape) for column in columns], axis=1)
+                solved = list(np.moveaxis(-matrix @ missed, 1, 0))
+            for row, displacement in zip(rows, solved, strict=True):
+                found[row] = displacement
+                for column, factor in self._others[row]:
+                    if column not in columns:
+                        left[column] = left[column] + factor * displacement
+        return found
+
+    @cached_property
+    def _others(self) -> list[list[tuple[int, Any]]]:
+        """By displacement the gaps that it changes, with the factor."""
+        found: list[list[tuple[int, Any]]] = [[] for _ in range(self._system.size)]
+        for column, entries in enumerate(self._system.entries):
+            for row, factor in entries.items():
+                if np.any(factor):
+                    found[row].append((column, factor[:, None] if isinstance(factor, np.ndarray) else factor))
+        return found
+
+    @cached_property
+    def _blocks(self) -> list[tuple[tuple[int, ...], tuple[int, ...], Reals]]:
+        """Displacements that are found together, the gaps that give them, and the inverse of what joins them."""
+        found = []
+        entries = self._system.entries
+        for rows, columns in reversed(blocks(tuple(tuple(each) for each in entries))):
+            matrix = np.zeros((self._system.mechanism.rows, len(columns), len(rows)))
+            for i, column in enumerate(columns):
+                for j, row in enumerate(rows):
+                    matrix[:, i, j] = entries[column].get(row, 0.0)
+            found.append((rows, columns, _inverse(matrix)))
+        return found
+
+
+def _inverse(matrix: Reals) -> Reals:
+    try:
+        return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise NoSolution("the errors have no end: two links of the mechanism are collinear") from None
+
+
+def _upright(part: Any, done: dict[int, Reals]) -> Any:
+    """A mechanism or a part of it with its rows one below the other, so that machines stand side by side.
+
+    Parameters
+        done : by identity of an array, what became of it: what is one array stays one
+    """
+    if isinstance(part, np.ndarray):
+        return done.setdefault(id(part), part[:, None])
+    if isinstance(part, Rates):
+        return type(part)(*(_upright(each, done) for each in part))
+    if isinstance(part, Mapping):
+        return {name: _upright(each, done) for name, each in part.items()}
+    if isinstance(part, Act):
+        return Act(*(_upright(each, done) for each in part))
+    if isinstance(part, (list, tuple)):
+        return [_upright(each, done) for each in part]
+    if is_dataclass(part) and not isinstance(part, type):
+        parts = {each.name: _upright(getattr(part, each.name), done) for each in fields(part) if each.init}
+        return replace(part, **parts)
+    return part
+
+
+class _Moved:
+    """Where the links of a mechanism stand: displacements of their origins and turns, and errors of their elements."""
+
+    def __init__(self, mechanism: Mechanism, errors: Errors) -> None:
+        self.nominal = mechanism
+        self.shape = mechanism.rows, max((np.size(error) for _, error in errors), default=1)
+        self.place: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0j)
+        self.turn: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0.0)
+        self.spun: dict[str, Any] = dict.fromkeys((FRAME, *mechanism.links), 0j)
+        self._shifts: dict[tuple[str, str], list[tuple[Shift, Any]]] = {}
+        for shift, error in errors:
+            for joint in joints_of(mechanism, shift.link, shift.joints):
+                self._shifts.setdefault((shift.link, joint.name), []).append((shift, error))
+
+    def by(self, step: Sequence[Reals]) -> None:
+        """Move the links on, three displacements each."""
+        for k, name in enumerate(self.nominal.links):
+            way = np.empty(self.shape, dtype=np.complex128)
+            way.real, way.imag = step[3 * k], step[3 * k + 1]
+            self.place[name] = self.place[name] + way
+            self.turn[name] = self.turn[name] + step[3 * k + 2]
+            self.spun[name] = _spin(self.turn[name])
+
+    def refuse(self, rows: Any) -> None:
+        """Take out what does not come to rest."""
+        for name in self.nominal.links:
+            self.turn[name] = np.where(rows, math.nan, self.turn[name])
+            self.place[name] = np.where(rows, math.nan, self.place[name])
+
+    def mechanism(self) -> Mechanism:
+        """The links where they stand."""
+        links = {
+            name: Link(
+                Point(link.origin.value + self.place[name]), Turn(link.turn.value + self.turn[name]), link.points
+            )
+            for name, link in self.nominal.links.items()
+        }
+        return Mechanism(links, (), self.nominal.drive)
+
+    def of(self, link: str, joint: str, at: Points | complex) -> Any:
+        """By how much the element that a joint has on a link at a place stands elsewhere [mm]."""
+        body, shifts = self.nominal.link(link), self._shifts.get((link, joint))
+        if shifts is None and (link == FRAME or at is origin_of(body)):
+            return self.place[link]
+        arm, spun = at - origin_of(body), self.spun[link]
+        if shifts is None:
+            return self.place[link] + arm * spun
+        # on the link the element is turned first, about its origin, and then moved as it lies
+        askew = _spin(sum(complex(shift.way).real * error for shift, error in shifts if shift.turned))
+        moved: Any = arm * askew
+        beside: Any = 0.0
+        for shift, error in (each for each in shifts if not each[0].turned):
+            if shift.frame == "link":
+                moved = moved + shift.way * error * unit_of(body) * (1.0 + askew)
+            else:
+                beside = beside + shift.way * error * (self._normals[joint] if shift.frame == "normal" else 1.0)
+        return self.place[link] + arm * spun + moved * (1.0 + spun) + beside
+
+    @cached_property
+    def _normals(self) -> dict[str, Points]:
+        """By roller, the normal of its cam where neither has errors."""
+        return {
+            each.name: each.normal for each in self.nominal.connections if isinstance(each, (Contact, SharedContact))
+        }
+
+    def turned(self, link: str, joint: str) -> Any:
+        """By how much the element has turned too far [rad]."""
+        found: Any = self.turn[link]
+        for shift, error in self._shifts.get((link, joint), ()):
+            if shift.turned:
+                found = found + complex(shift.way).real * error
+        return found
+
+    def gaps(self, joint: Connection) -> Iterator[Any]:
+        """How far the second element misses the first one, by unknown of the joint and in its unit."""
+        if isinstance(joint, Flank):
+            yield self._flank(joint)
+        elif isinstance(joint, Coupling):
+            yield NEWTON_METER * (
+                self.turned(joint.second, joint.name) - joint.ratio * self.turned(joint.first, joint.name)
+            )
+        elif isinstance(joint, SharedContact):
+            yield sum(share * self._contact(joint, cam) for cam, share in joint.shares.items())
+        elif isinstance(joint, Contact):
+            yield self._contact(joint, joint.first)
+        elif isinstance(joint, Shared):
+            yield sum(
+                dot(act.force, self.of(act.on, joint.name, act.at)) + act.couple * self.turned(act.on, joint.name)
+                for act in joint.acts
+            )
+        else:
+            assert isinstance(joint, (Pin, Guide)), "meshes touch on flanks"
+            missed = self.of(joint.second, joint.name, joint.at) - self.of(joint.first, joint.name, joint.at)
+            if isinstance(joint, Pin):
+                yield missed.real
+                yield missed.imag
+            else:
+                turned = self.turned(joint.first, joint.name)
+                yield dot(1j * joint.along * (1.0 + _spin(turned)), missed)
+                yield NEWTON_METER * (self.turned(joint.second, joint.name) - turned)
+
+    def _contact(self, joint: Contact | SharedContact, cam: str) -> Any:
+        """A roller off the pitch curve of a cam, along its normal."""
+        missed = self.of(joint.second, joint.name, joint.at) - self.of(cam, joint.name, joint.at)
+        missed = missed * np.conj(1.0 + self.spun[cam])  # as the cam sees it
+        along = dot(1j * joint.normal, missed)
+        return dot(joint.normal, missed) + 0.5 * joint.curvature * along * along
+
+    def _flank(self, joint: Flank) -> Any:
+        teeth = joint.teeth
+        if isinstance(teeth, Mesh):
+            return self._mesh(teeth, joint.side)
+        missed = self.of(joint.second, joint.name, teeth.center) - self.of(joint.first, joint.name, teeth.center)
+        (column,), radial = teeth.columns(), teeth.radial()
+        rolled = dot(column.force, 1j * (teeth.pitch_point - teeth.center)) * self.turned(joint.second, joint.name)
+        turned = np.asarray(column.couple) * self.turned(joint.second, joint.name)
+        return dot(column.force + joint.side * radial.force, missed) + rolled + turned
+
+    def _mesh(self, mesh: Mesh, side: Reals) -> Any:
+        """Two involutes on one flank: a crossed belt over the base circles.
+
+        [r1 (t1 - beta) + r2 (t2 - beta)] cos alpha + s (r1 + r2) cos alpha (inv alpha' - inv alpha), less its value
+        without errors; beta the direction of the line of centres, cos alpha' = (r1 + r2) cos alpha/its length
+        """
+        r1, r2 = mesh.radius, -mesh.mate_radius if mesh.internal else mesh.mate_radius
+        centers = r1 + r2
+        other = mesh.center + centers * mesh.toward
+        missed = self.of(mesh.second, mesh.name, other) - self.of(mesh.first, mesh.name, mesh.center)
+        line = 1.0 + missed * np.conj(mesh.toward) / centers
+        swung = np.arctan2(line.imag, line.real)
+        tangent = np.sqrt((1.0 + mesh.tangent**2) * (line.real**2 + line.imag**2) - 1.0)  # of the working angle
+        rolled = centers * swung - r1 * self.turned(mesh.first, mesh.name) - r2 * self.turned(mesh.second, mesh.name)
+        radial = -side if mesh.internal else side
+        return rolled + radial * centers * (tangent - mesh.tangent - np.arctan(tangent) + math.atan(mesh.tangent))
+
+
+def _spin(turn: Any) -> Any:
+    """e^(i t) - 1, exact for small turns and right for those of less than half a revolution."""
+    if not np.any(turn):
+        return 0j
+    half = np.sin(0.5 * turn)
+    square = half * half
+    return -2.0 * square + 2j * (half * np.sqrt(1.0 - square))

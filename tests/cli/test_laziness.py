@@ -145,7 +145,7 @@ _RATED = {
     "parts.gears.keys.rating",
     "parts.gears.rating.materials",
 }
-_GENERAL = {"machines.three_gear.families", "machines.three_gear.register", "machines.three_gear.samples"}
+_GENERAL = {"machines.three_gear.families", "machines.three_gear.register"}
 
 
 @pytest.mark.quick(1)

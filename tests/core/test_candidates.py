@@ -13,7 +13,7 @@ from sweeps import mostly_slow
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar import design as five_bar_candidates
 from gearlink.core.machines.five_bar import function_fit
-from gearlink.core.machines.five_bar.wanted import StructuralError
+from gearlink.core.machines.five_bar.function_motion import StructuralError
 
 CASES = [
     ("mutilated_gear_times", "analyze", {"groups": "gears__groups", "driven_teeth": "gears__driven"}, "motion_turns"),

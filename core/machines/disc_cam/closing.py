@@ -54,7 +54,7 @@ class Closing:
         section = self.spec.loads
         if section is None:
             return np.zeros_like(phi)
-        from gearlink.core.studies.loads.courses import values
+        from gearlink.core.studies.loads.sources import values
 
         found = np.zeros_like(phi)
         if not self.spec.oscillates:

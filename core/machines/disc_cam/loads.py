@@ -11,10 +11,9 @@ from gearlink.core.base.report import Quantity, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.disc_cam.design import DiscCamDesign
 from gearlink.core.machines.disc_cam.mechanism import roller_on
-from gearlink.core.studies.loads.cams import tables
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
 from gearlink.core.studies.loads.cams.contact import positive_drive
-from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign, contact
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
@@ -229,7 +228,7 @@ class FollowerCamLoads(_Loads):
 
     def table_contact(self, samples: int | None = None) -> Table:
         """Force, pressure and radius of the contact; of a roller its speeds as well."""
-        found = tables.contact(self, samples)
+        found = contact(self, samples)
         if not self.spec.is_flat:
             return found
         kept = [k for k, column in enumerate(found.columns) if column not in ("roller_speed", "entrainment")]

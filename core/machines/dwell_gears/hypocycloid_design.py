@@ -1,24 +1,36 @@
-"""A dwell on an arc of a hypocycloid as a design: planet in a ring gear, rod, slider."""
+"""A dwell on an arc of a hypocycloid as a design: planet in a ring gear, rod, slider.
+
+Slider that dwells while a point on a planet's pitch circle runs along an arc of its hypocycloid.
+
+A planet of pitch radius r rolls in a ring of n r; a point of its pitch circle draws a hypocycloid of n arcs. Frame:
+ring centre at 0, the slide line the x axis, the middle of one arc on it at carrier angle t = 0:
+
+    x = r [(n - 1) cos t - l cos((n - 1) t)],   y = r [(n - 1) sin t + l sin((n - 1) t)]
+
+with l the distance of the point from the planet's axis over r, 1 on the pitch circle. A rod of length L leads from that
+point outwards to the slider at s = x + sqrt(L^2 - y^2). The deviation is that from the position at t = 0, positive
+towards the ring's centre. The kernel's t is the carrier angle from the middle of the arc.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, either, up
-from gearlink.core.base.report import Check, Remedy, Shown, Status, Table
+from gearlink.core.base.report import Check, Remedy, Shown, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short
-from gearlink.core.machines.dwell_gears import hypocycloid
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
-from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, SlottedArm
 from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
@@ -28,6 +40,528 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
+    from gearlink.core.mechanism.rates import Turn
+    from gearlink.core.numerics.arrays import Reals
+
+
+_STEPS_PER_ARC = 48
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class HypocycloidSlider:
+    """Planet, ring and rod.
+
+    Parameters
+        planet_radius : float [mm] - r, pitch radius of the planet
+        cusps : int - n >= 3, ring radius over planet radius
+        rod : float [mm] - L
+        ratio : float - l, the point's distance from the planet's axis over r
+    Raises
+        NoSolution - for lengths that are not positive, fewer than three cusps, or a rod too short for the turn
+    Example
+        >>> slider = HypocycloidSlider(1.0, 3, 7.0)
+        >>> round(slider.stroke, 12), round(slider.ripple(math.radians(120.0)), 12)
+        (4.0, 0.022082869931)
+
+    Source
+        thesis 2.2.2, figure 2-5; formulas: own derivation
+    """
+
+    planet_radius: float
+    cusps: int
+    rod: float
+    ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        require_cusps(self.planet_radius, self.cusps)
+        least = self.widest_offset
+        if not least < self.rod < math.inf:
+            usual = (
+                f" (tangent-circle {tangent_circle(self.planet_radius, self.cusps):.6g}, "
+                f"osculating {osculating(self.planet_radius, self.cusps):.6g} mm)"
+                if self.ratio == 1.0
+                else ""
+            )
+            raise NoSolution(
+                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.6g} mm from the slide line",
+                fix=f"make it longer than that{usual}",
+            )
+
+    @cached_property
+    def widest_offset(self) -> float:
+        """Maximum distance of the point from the slide line [mm]."""
+        if self.ratio == 1.0:
+            return widest_offset(self.planet_radius, self.cusps)
+        count = _STEPS_PER_ARC * self.cusps
+        grid = [math.pi * (i + 0.5) / count for i in range(count)]
+        return max(abs(self.point(t).imag) for t in roots_on(lambda t: self._rates(t)[1], grid))
+
+    def point(self, t: float) -> complex:
+        """The point on the planet [mm]."""
+        return _point(self.planet_radius, self.cusps, t, self.ratio)
+
+    def deviation(self, t: float) -> float:
+        """Slider's place at t = 0 less that at t [mm], positive towards the ring's centre.
+
+        s(0) - s(t) = y^2/(L + sqrt(L^2 - y^2)) - (x - x_0),  x - x_0 = 2 r [l sin^2((n-1) t/2) - (n-1) sin^2(t/2)]
+
+        Parameters
+            t : float [rad] - carrier angle from the middle of the arc
+        Returns
+            deviation : float [mm]
+        Notes
+            No difference of large lengths is taken.
+        """
+        y = self.point(t).imag
+        advance = _advance(self.planet_radius, self.cusps, t, self.ratio)
+        return y * y / (self.rod + math.sqrt(self.rod**2 - y * y)) - advance
+
+    def speed(self, t: float) -> float:
+        """Slider's speed outwards per carrier speed, ds/dt [mm/rad]."""
+        (x_1, y_1), y = self._rates(t), self.point(t).imag
+        return x_1 - y * y_1 / math.sqrt(self.rod**2 - y * y)
+
+    def acceleration(self, t: float) -> float:
+        """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2]."""
+        (_, y_1), (x_2, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        w = math.sqrt(self.rod**2 - y * y)
+        return x_2 - (y_1 * y_1 + y * y_2) / w - (y * y_1) ** 2 / w**3
+
+    def jerk(self, t: float) -> float:
+        """Slider's jerk outwards at constant carrier speed, d3s/dt3 [mm/rad^3].
+
+        w w''' + 3 w' w'' = -(3 y' y'' + y y'''),   w = sqrt(L^2 - y^2)
+        """
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        (_, y_1), (_, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        x_3 = scale * (math.sin(t) - self.ratio * k * k * math.sin(k * t))
+        y_3 = -scale * (self.ratio * k * k * math.cos(k * t) + math.cos(t))
+        w = math.sqrt(self.rod**2 - y * y)
+        w_1 = -y * y_1 / w
+        w_2 = -(y_1 * y_1 + y * y_2 + w_1 * w_1) / w
+        return x_3 - (3.0 * (y_1 * y_2 + w_1 * w_2) + y * y_3) / w
+
+    def _second_rates(self, t: float) -> tuple[float, float]:
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        bent = self.ratio * k
+        return scale * (bent * math.cos(k * t) - math.cos(t)), -scale * (bent * math.sin(k * t) + math.sin(t))
+
+    def _rates(self, t: float) -> tuple[float, float]:
+        k = self.cusps - 1
+        scale = self.planet_radius * k
+        far = self.ratio
+        return scale * (far * math.sin(k * t) - math.sin(t)), scale * (far * math.cos(k * t) + math.cos(t))
+
+    def rod_angle(self, t: float) -> float:
+        """Angle of the rod to the slide line [rad]."""
+        return math.asin(self.point(t).imag / self.rod)
+
+    @property
+    def max_rod_angle(self) -> float:
+        """Maximum angle of the rod to the slide line over the turn [rad]."""
+        return math.asin(self.widest_offset / self.rod)
+
+    @cached_property
+    def extremes(self) -> list[tuple[float, float]]:
+        """Carrier angles in [0, pi] where the slider reverses or rests, with 0 and pi, and its deviations there."""
+        count = _STEPS_PER_ARC * self.cusps
+        grid = [math.pi * (i + 0.5) / count for i in range(count)]
+        return [(t, self.deviation(t)) for t in (0.0, *roots_on(self.speed, grid), math.pi)]
+
+    @cached_property
+    def fastest(self) -> tuple[float, float]:
+        """Maximum speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
+        return self._greatest(self.speed, self.acceleration)
+
+    @cached_property
+    def hardest(self) -> tuple[float, float]:
+        """Maximum acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
+        return self._greatest(self.acceleration, self.jerk)
+
+    @cached_property
+    def hardest_inwards(self) -> tuple[float, float]:
+        """Maximum acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
+        value, place = self._greatest(lambda t: -self.acceleration(t), self.jerk)
+        return -value, place
+
+    def _greatest(self, f: Callable[[float], float], slope: Callable[[float], float]) -> tuple[float, float]:
+        count = 2 * _STEPS_PER_ARC * self.cusps
+        grid = [_TURN * (i + 0.5) / count for i in range(count)]
+        value, place = max((f(t), -t) for t in (0.0, math.pi, *roots_on(slope, grid)))
+        return value, -place
+
+    @property
+    def stroke(self) -> float:
+        """Stroke of the slider [mm]."""
+        values = [value for _, value in self.extremes]
+        return max(values) - min(values)
+
+    def deviation_range(self, angle: float) -> tuple[float, float]:
+        """Minimum and maximum deviation while the carrier turns by an angle about the middle of the arc.
+
+        Parameters
+            angle : float [rad] - whole carrier angle, 0..2 pi
+        Returns
+            minimum, maximum : float, float [mm]
+        Example
+            >>> minimum, maximum = HypocycloidSlider(1.0, 3, 7.5).deviation_range(math.radians(120.0))
+            >>> round(minimum, 12), round(maximum, 12)
+            (-0.035623639735, 0.005358514097)
+        """
+        half = 0.5 * angle
+        values = [value for t, value in self.extremes if t <= half] + [self.deviation(half)]
+        return min(values), max(values)
+
+    def ripple(self, angle: float) -> float:
+        """Range of the deviation over a carrier angle about the middle of the arc [mm]."""
+        least, greatest = self.deviation_range(angle)
+        return greatest - least
+
+    def dwell_angle(self, tolerance: float) -> float:
+        """Widest carrier angle about the middle of the arc in which the slider stays within +- a tolerance of a place.
+
+        Parameters
+            tolerance : float [mm] - half the range that is allowed, > 0
+        Returns
+            angle : float [rad] - whole carrier angle
+        Raises
+            NoSolution - for a tolerance that is not positive, or that lets the whole stroke pass
+        Notes
+            Between two extremes the slider runs one way: the end is a bracketed root, no search.
+        Example
+            >>> round(math.degrees(HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)), 6)
+            140.881311
+        """
+        limit = 0.5 * self.stroke
+        if not 0.0 < tolerance < limit:
+            raise NoSolution(
+                f"tolerance is {tolerance:g} mm; it must be positive and below half the stroke, {limit:.6g} mm"
+            )
+        low = high = 0.0
+        for (t_0, _), (t_1, value) in zip(self.extremes, self.extremes[1:], strict=False):
+            if max(high, value) - min(low, value) > 2.0 * tolerance:
+                edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
+                return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
+            low, high = min(low, value), max(high, value)
+        raise NoSolution(
+            f"the slider stays within +-{tolerance:g} mm over the whole revolution",
+            fix=f"specify a tolerance below {safely_below(0.5 * (high - low))} mm",
+        )
+
+
+def require_cusps(planet_radius: float, cusps: int) -> None:
+    """Refuse a planet without size, and curves that have no arc to dwell on.
+
+    Raises
+        NoSolution - for a radius that is not positive and finite, or fewer than three cusps
+    Source
+        own derivation: with two cusps the curve is a straight line
+    """
+    if not 0.0 < planet_radius < math.inf:
+        raise NoSolution(f"planet radius is {planet_radius:g} mm; it must be positive and finite")
+    if cusps < 3:
+        raise NoSolution(
+            (
+                f"the ring has {cusps} times the planet's teeth; with 2 the point runs on a straight "
+                "line, with 1 it is at rest"
+            ),
+            fix="take 3 times or more",
+        )
+
+
+def widest_offset(planet_radius: float, cusps: int) -> float:
+    """Maximum distance of the point from the slide line, below which no rod can follow it [mm].
+
+    y' = 0 at the cusps and where (n - 2) t is an odd multiple of pi
+
+    Example
+        >>> round(widest_offset(1.0, 3), 9), round(widest_offset(1.0, 4), 9)
+        (2.598076211, 2.828427125)
+    """
+    places = [math.pi * k / cusps for k in range(1, 2 * cusps, 2)]
+    places += [math.pi * k / (cusps - 2) for k in range(1, 2 * cusps - 4, 2)]
+    return max(abs(_point(planet_radius, cusps, t).imag) for t in places)
+
+
+def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None) -> float:
+    """Rod length of the circle through the middle of the arc and two points of it, the cusps by default.
+
+    L = (D^2 + y^2)/(2 D),   D = x - x_0 at half the angle
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        angle : float or None [rad] - carrier angle between the two points; None: the whole arc, 2 pi/n
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - where the curve does not bend outwards to those points
+    Notes
+        Over the whole arc of a three-cusped curve no other rod has so small a ripple.
+    Example
+        >>> round(tangent_circle(1.0, 3), 12)
+        7.0
+
+    Source
+        thesis 2.2.2 ("radius of the arc"); own derivation
+    """
+    require_cusps(planet_radius, cusps)
+    half = math.pi / cusps if angle is None else 0.5 * angle
+    y, rise = _point(planet_radius, cusps, half).imag, _advance(planet_radius, cusps, half)
+    if rise <= 0.0 or half <= 0.0:
+        raise NoSolution(
+            f"no circle touches the arc over {math.degrees(2.0 * half):.6g} deg of the carrier",
+            fix=f"take at most the whole arc, {360.0 / cusps:.6g} deg",
+        )
+    return (rise * rise + y * y) / (2.0 * rise)
+
+
+def osculating(planet_radius: float, cusps: int) -> float:
+    """Rod length of the circle of curvature in the middle of the arc.
+
+    L = 4 r (n - 1)/(n - 2)
+
+    Example
+        >>> osculating(1.0, 3)
+        8.0
+    """
+    require_cusps(planet_radius, cusps)
+    return 4.0 * planet_radius * (cusps - 1) / (cusps - 2)
+
+
+def _point(radius: float, cusps: int, t: float, ratio: float = 1.0) -> complex:
+    k = cusps - 1
+    return complex(
+        radius * (k * math.cos(t) - ratio * math.cos(k * t)),
+        radius * (k * math.sin(t) + ratio * math.sin(k * t)),
+    )
+
+
+def _advance(radius: float, cusps: int, t: float, ratio: float = 1.0) -> float:
+    """x - x_0 without a difference of cosines."""
+    k = cusps - 1
+    return 2.0 * radius * (ratio * math.sin(0.5 * k * t) ** 2 - k * math.sin(0.5 * t) ** 2)
+
+
+# Rod lengths of a hypocycloid dwell that are best in some sense; each is judged on the slider's own motion
+
+_SCAN = 120
+
+
+def minimax(planet_radius: float, cusps: int, angle: float) -> float:
+    """Rod length with the smallest maximum deviation from the slider's place in mid-dwell.
+
+    max |s(t) - s(0)| over +- angle/2  ->  min
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        angle : float [rad] - carrier angle of the dwell, up to the whole arc
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - where no circle touches the arc over that angle
+    Notes
+        Between the tangent circle and the circle of curvature; place exact to about 1e-9 of the length.
+    Example
+        >>> round(minimax(1.0, 3, math.radians(120.0)), 6)
+        7.191266
+    """
+
+    def greatest(rod: float) -> float:
+        low, high = HypocycloidSlider(planet_radius, cusps, rod).deviation_range(angle)
+        return max(high, -low)
+
+    return _best(planet_radius, cusps, lambda rod: -greatest(rod), angle)
+
+
+def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
+    """Rod length with the smallest range of the slider's place over a carrier angle, the place itself free.
+
+    max s - min s over +- angle/2  ->  min
+
+    Parameters
+        planet_radius, cusps, angle : as of `minimax`
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - as `minimax`
+    Notes
+        The result is the tangent circle through the ends of the dwell, or lies close by it.
+    Example
+        >>> round(least_ripple(1.0, 3, math.radians(120.0)), 6)
+        7.0
+    """
+
+    def quality(rod: float) -> float:
+        return -HypocycloidSlider(planet_radius, cusps, rod).ripple(angle)
+
+    return _best(planet_radius, cusps, quality, angle)
+
+
+def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
+    """Rod length with the widest dwell within +- a tolerance.
+
+    Parameters
+        planet_radius : float [mm]
+        cusps : int
+        tolerance : float [mm] - half the range that is allowed
+    Returns
+        L : float [mm]
+    Raises
+        NoSolution - for a tolerance that is not positive or not below half the stroke
+    Notes
+        The width jumps where a hump leaves the band, so that the best rod stands at such an edge: a scan over the
+        curvature, then golden section about the best.
+    Example
+        >>> rod = widest_dwell(1.0, 3, 0.0111)
+        >>> HypocycloidSlider(1.0, 3, rod).dwell_angle(0.0111) >= HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)
+        True
+    """
+
+    def quality(rod: float) -> float:
+        return HypocycloidSlider(planet_radius, cusps, rod).dwell_angle(tolerance)
+
+    return _best(planet_radius, cusps, quality)
+
+
+def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: float | None = None) -> float:
+    """Rod of the maximum quality, sought over its curvature 1/L from well below to well above the named circles."""
+    if angle is not None and not 0.0 < angle <= 2.0 * math.pi / cusps * (1.0 + 1e-12):
+        raise NoSolution(
+            f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
+            fix=(
+                f"specify more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
+                "widest dwell of a tolerance"
+            ),
+        )
+    named = (tangent_circle(radius, cusps, angle), osculating(radius, cusps))
+    shortest = max(0.7 * min(named), 1.001 * widest_offset(radius, cusps))
+    low, high = 1.0 / (2.0 * max(named)), 1.0 / shortest
+    curvatures = [low + (high - low) * i / _SCAN for i in range(_SCAN + 1)]
+    values = [quality(1.0 / c) for c in curvatures]
+    top = max(range(len(values)), key=values.__getitem__)
+    step = (high - low) / _SCAN
+    best = maximum(lambda c: quality(1.0 / c), max(low, curvatures[top] - step), min(high, curvatures[top] + step))
+    return max((1.0 / best[0], *(rod for rod in named if rod > shortest)), key=quality)
+
+
+# A slotted arm about the ring's centre that a point of the planet turns: step motion of a hypocycloid train
+
+
+@dataclass(frozen=True)
+class SlottedArm:
+    """The output of a train.
+
+    Parameters
+        teeth : float - n, ring over planet, above 1
+        ratio : float - l, above 0 and below n - 1
+    Raises
+        NoSolution - for a point that turns the arm against the carrier
+    Example
+        >>> arm = SlottedArm(3.0, 1.0)
+        >>> arm.speed_max, arm.speed_min, round(math.degrees(arm.dwell(math.radians(0.5))[0]), 6)
+        (4.0, 0.0, 33.29542)
+
+    Source
+        thesis 2.2.2; formulas: own derivation
+    """
+
+    teeth: float
+    ratio: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.ratio < self.teeth - 1.0:
+            raise NoSolution(
+                (
+                    f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
+                    f"the planet's axis, not at {self.ratio:g}"
+                ),
+                fix="choose a position between them",
+            )
+
+    @property
+    def speed_max(self) -> float:
+        """Maximum speed of the arm over the carrier's, in the middle of an arc: (n - 1)(1 + l)/(n - 1 - l)."""
+        k = self.teeth - 1.0
+        return k * (1.0 + self.ratio) / (k - self.ratio)
+
+    @property
+    def speed_min(self) -> float:
+        """Minimum speed of the arm over the carrier's, in a cusp: (n - 1)(1 - l)/(n - 1 + l)."""
+        k = self.teeth - 1.0
+        return k * (1.0 - self.ratio) / (k + self.ratio)
+
+    def angle(self, x: float) -> float:
+        """Angle of the arm from the place that it has in a cusp, at a carrier angle from there [rad]."""
+        k, n = self.teeth - 1.0, self.teeth
+        return x - math.atan2(self.ratio * math.sin(n * x), k + self.ratio * math.cos(n * x))
+
+    @cached_property
+    def standstill(self) -> float:
+        """Carrier angle from a cusp to the standstill after it [rad]; 0 where the arm never turns back.
+
+        cos n x = ((n - 1) - l^2)/((n - 2) l)
+        """
+        if self.ratio <= 1.0:
+            return 0.0
+        n, far = self.teeth, self.ratio
+        return math.acos(((n - 1.0) - far * far) / ((n - 2.0) * far)) / n
+
+    @property
+    def back_step(self) -> float | None:
+        """How far the arm goes back in each step [rad]; None where it never does."""
+        return -2.0 * self.angle(self.standstill) if self.ratio > 1.0 else None
+
+    def dwell(self, tolerance: float) -> tuple[float, float]:
+        """Longest carrier angle in which the arm stays within +- a tolerance of a place, and where it starts [rad].
+
+        Parameters
+            tolerance : float [rad] - half of what the arm may cover, above 0
+        Returns
+            angle, start : float, float [rad] - of equal ones the first from carrier angle 0 on
+        Raises
+            NoSolution - for a tolerance that takes in a whole step
+        Notes
+            About a cusp the angle is odd: where the way back fits in, the window is symmetrical; else it lies about a
+            standstill, with both ends on the edge of the band.
+        """
+        half = math.pi / self.teeth
+        if not 0.0 < tolerance < half:
+            raise NoSolution(
+                f"tolerance is {math.degrees(tolerance):g} deg; it must be positive and below half a step, "
+                f"{math.degrees(half):.6g} deg"
+            )
+        top = -self.angle(self.standstill)  # before the cusp
+        if top <= tolerance:
+            end = bracketed_root(lambda x: self.angle(x) - tolerance, self.standstill, half)
+            return 2.0 * end, half - end
+        edge = top - 2.0 * tolerance
+        before = bracketed_root(lambda x: self.angle(x) - edge, -half, -self.standstill)
+        after = bracketed_root(lambda x: self.angle(x) - edge, -self.standstill, self.standstill)
+        return after - before, half + before
+
+    def turn(self, t: Reals, order: int) -> Turn:
+        """Angle of the arm [rad] and its derivatives by the carrier angle, over an array.
+
+        beta' = 1 + Im u,  u = z_1/z,  u' = z_2/z - u^2,  u'' = z_3/z - u^3 - 3 u u';  z_k the derivatives of z
+        """
+        import numpy as np
+
+        from gearlink.core.mechanism.rates import Turn
+
+        n = self.teeth
+        around: Any = self.ratio * np.exp(-1j * n * t)
+        z = (n - 1.0) - around
+        u = 1j * n * around / z
+        found = [t + np.angle(z), 1.0 + u.imag]
+        if order > 1:
+            first = n * n * around / z - u * u
+            found.append(first.imag)
+            if order > 2:
+                found.append((-1j * n**3 * around / z - u**3 - 3.0 * u * first).imag)
+        return Turn(*(np.asarray(each) for each in found[: order + 1]))
 
 
 _ARM = (
@@ -189,7 +723,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
                 fix=f"take a whole multiple, for example {near * planet}",
             )
         with at_key("gears.ring"):
-            hypocycloid.require_cusps(self.point_radius, ring // planet)
+            require_cusps(self.point_radius, ring // planet)
         return ring // planet
 
     @property
@@ -217,7 +751,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     @property
     def _tangent_circle(self) -> float:
         with at_key("dwell.angle"):
-            return hypocycloid.tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     @property
     def osculating_length(self) -> float | None:
@@ -226,7 +760,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
 
     @property
     def _osculating(self) -> float:
-        return hypocycloid.osculating(self.point_radius, self.cusps)
+        return osculating(self.point_radius, self.cusps)
 
     @property
     def dwell_carrier_angle(self) -> float:
@@ -248,15 +782,15 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if rule == "tangent-circle":
             return self._tangent_circle
         with at_key("dwell.angle"):
-            return hypocycloid.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def _rod_for_target(self, quality: str) -> float:
         tolerance = self.spec.dwell.tolerance
         if quality == "widest-dwell" and tolerance is not None:
             with at_key("dwell.tolerance"):
-                return hypocycloid.widest_dwell(self.point_radius, self.cusps, tolerance)
+                return widest_dwell(self.point_radius, self.cusps, tolerance)
         with at_key("dwell.angle"):
-            return hypocycloid.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+            return least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
     def completion(self) -> Iterator[Found]:
         """The rod instead of the target or the rule."""

@@ -14,8 +14,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.mechanism.motion import TURN, Motion
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
-from gearlink.core.studies.loads.periods import homecoming
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, loads_outline
 from gearlink.core.studies.loads.sources import mass_of
 from gearlink.core.studies.loads.spec import of_body
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.machines.dwell_gears.mutilated import MutilatedGear
+from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGear
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.joints import Connection, Pin, ToothDrive
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism

@@ -221,7 +221,7 @@ def structural_error_table(design: GearedFiveBar, samples: int | None = None) ->
     """Output angle, what it should be, and the difference, over the interval of the function."""
     import numpy as np
 
-    from gearlink.core.machines.five_bar.wanted import outputs
+    from gearlink.core.machines.five_bar.function_motion import outputs
 
     found, wanted = design.function_fit, design.wanted
     assert found is not None, "shown only with a function"
@@ -734,7 +734,7 @@ class FiveBarParts(Meshed):
         if wanted is None or target is None or target.function is None:
             return None
         from gearlink.core.machines.five_bar.function_fit import FunctionFit, fit_function
-        from gearlink.core.machines.five_bar.wanted import structural_error
+        from gearlink.core.machines.five_bar.function_motion import structural_error
 
         if target.function.links == "given":
             start = math.radians(self.spec.range.start) if self.spec.range is not None else 0.0

@@ -11,8 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
-from gearlink.core.machines.five_bar.wanted import StructuralError, outputs, structural_error
+from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, StructuralError, outputs, structural_error
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.linear_program import least
 from gearlink.core.numerics.lm import State, damped, descend

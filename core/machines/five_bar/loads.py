@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.five_bar.design import GearedFiveBar
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
-from gearlink.core.studies.loads.periods import homecoming, is_directed
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar

@@ -11,11 +11,10 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar.family import FiveBarFamily
-from gearlink.core.machines.five_bar.fit import Fit, closes, family_of, row_as_bar
+from gearlink.core.machines.five_bar.fit import Fit, bounds, closes, family_of, row_as_bar, scattered_starts
 from gearlink.core.machines.five_bar.function_fit import Round
 from gearlink.core.machines.five_bar.path import points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.machines.five_bar.starts import bounds, scattered_starts
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.lm import State, damped, descend
 

@@ -13,11 +13,17 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_sec
 from gearlink.core.base.remedies.ways import MODULES
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.flatbed_press import bodies, checks
+from gearlink.core.machines.flatbed_press import checks
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
-from gearlink.core.machines.flatbed_press.compensation import Compensation
-from gearlink.core.machines.flatbed_press.refusals import turns_back
-from gearlink.core.machines.flatbed_press.teeth import OF_CYLINDER, OF_PINION, OF_RACKS, PressTeeth, polygons
+from gearlink.core.machines.flatbed_press.checks import (
+    OF_CYLINDER,
+    OF_PINION,
+    OF_RACKS,
+    PressTeeth,
+    crank_axes,
+    polygons,
+)
+from gearlink.core.machines.flatbed_press.compensation import Compensation, turns_back
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.numerics.motion_extremes import WithExtremes, names
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
@@ -940,7 +946,7 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
     table_main_cam, table_return_cam = main_cam_table, return_cam_table
 
     check_transmission_angle, check_register = checks.transmission_angle, checks.register
-    check_body_clearance = bodies.crank_axes
+    check_body_clearance = crank_axes
     check_sync_speed, check_sync_length = checks.sync_speed, checks.sync_length
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
     check_shaft_clearance, check_constant_sum = checks.shaft_clearance, checks.constant_sum

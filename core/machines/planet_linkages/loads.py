@@ -11,9 +11,8 @@ from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
 from gearlink.core.parts.linkages.fourbar.mechanism import full_balance
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 from gearlink.core.studies.loads.names import BALANCE
-from gearlink.core.studies.loads.periods import homecoming, is_directed
 
 _MESHES = ("mesh_25",)
 _MOST_TEETH = 10_000

@@ -32,7 +32,7 @@ from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+    from gearlink.core.machines.planet_linkages.two_gear_family import Family
     from gearlink.core.machines.planet_linkages.two_gear_spec import TwoGearFourBarSpec
     from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell
 
@@ -220,7 +220,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
     @cached_property
     def family(self) -> Family:
         """Gears and links without the frame."""
-        from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+        from gearlink.core.machines.planet_linkages.two_gear_family import Family
 
         links = self.spec.links
         return Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
@@ -397,7 +397,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
             with suppress(NoSolution):
                 yield (("links.frame", self._frame_for(math.radians(self.spec.dwell_window))),)
         if check == "dwell-condition" and target is not None and target.motion == MOMENTARY_DWELL:
-            from gearlink.core.machines.planet_linkages.two_gear_frames import Family, momentary_frame
+            from gearlink.core.machines.planet_linkages.two_gear_family import Family, momentary_frame
 
             links = self.spec.links
             family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
@@ -405,8 +405,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
 
     def _frame_for(self, window: float) -> float:
         """The frame with which the output keeps nearest to its place over a window [mm], to 0.01 mm."""
-        from gearlink.core.machines.planet_linkages.two_gear_family import flattest
-        from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+        from gearlink.core.machines.planet_linkages.two_gear_family import Family, flattest
 
         links = self.spec.links
         family = Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)

@@ -12,7 +12,7 @@ from gearlink.core.base.report import Check, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
 from gearlink.core.machines.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
-from gearlink.core.machines.planet_linkages.two_gear_frames import (
+from gearlink.core.machines.planet_linkages.two_gear_family import (
     beyond_reach,
     momentary_frame,
 )

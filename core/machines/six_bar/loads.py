@@ -11,8 +11,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.six_bar.design import GearedSixBar
 from gearlink.core.machines.six_bar.spec import LINKS, PINS, gear_bodies
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
-from gearlink.core.studies.loads.periods import homecoming, is_directed
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 
 if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.loads_spec import SixBarLoads as Section

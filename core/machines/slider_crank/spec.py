@@ -96,7 +96,7 @@ class SliderCrankSpec(DrivenSpec):
             return SliderCrank(self.stroke, self.rod, self.offset)
 
     def _quick_return(self) -> SliderCrank:
-        from gearlink.core.machines.slider_crank.quick_return import quick_return
+        from gearlink.core.parts.linkages.slider_crank.position import quick_return
 
         assert self.stroke is not None
         assert self.quick_return_ratio is not None

@@ -17,7 +17,7 @@ import numpy as np
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.together import kept_last
-from gearlink.core.studies.clearance.links import beside_line, beside_turning_arm, beside_turning_pin
+from gearlink.core.studies.clearance.bodies import beside_line, beside_turning_arm, beside_turning_pin
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.design import SwingGripper

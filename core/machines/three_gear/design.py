@@ -410,7 +410,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
 
     def table_poles(self, samples: int | None = None) -> Table:
         """The instant centres over a revolution."""
-        from gearlink.core.machines.three_gear.poles import columns
+        from gearlink.core.machines.three_gear.mechanism import columns
         from gearlink.core.numerics.arrays import turn_degrees
 
         return Table.of("poles", columns(self, turn_degrees(samples)))
@@ -420,7 +420,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         """Distance of A from the line of P13 and P35 in each standstill [mm]; None without one."""
         if not self.dwell_crank_angles:
             return None
-        from gearlink.core.machines.three_gear.poles import line_errors
+        from gearlink.core.machines.three_gear.mechanism import line_errors
 
         return line_errors(self)
 

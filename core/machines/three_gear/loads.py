@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 from gearlink.core.base.results import cached_property
 from gearlink.core.machines.three_gear.design import ThreeGearFourBar
 from gearlink.core.parts.linkages.fourbar.mechanism import full_balance
-from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
+from gearlink.core.studies.loads.design import LoadsDesign, homecoming, is_directed, loads_outline
 from gearlink.core.studies.loads.names import BALANCE
-from gearlink.core.studies.loads.periods import homecoming, is_directed
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.loads_spec import ThreeGearLoads as Section

@@ -30,14 +30,15 @@ from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
-from gearlink.core.studies.loads import codes, tables, vibration_checks
+from gearlink.core.studies.loads import codes, tables
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.cams.contact import LineContact, plane_modulus
+from gearlink.core.studies.loads.checks import resonance
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.joints import BALL, ROLLER
 from gearlink.core.studies.loads.names import PIN
 from gearlink.core.studies.loads.panels import Panels
-from gearlink.core.studies.loads.vibrating import Vibrating
+from gearlink.core.studies.loads.vibration import Vibrating
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -269,7 +270,7 @@ def contact_loss_of_loads(design: WideSwingLoads) -> Iterator[Check]:
 
 def resonance_of_loads(design: WideSwingLoads) -> Iterator[Check]:
     """GL611, of a whole revolution."""
-    return vibration_checks.resonance(design) if design.whole else iter(())
+    return resonance(design) if design.whole else iter(())
 
 
 def changes_apart(design: WideSwingLoads) -> bool:

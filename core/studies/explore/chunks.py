@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, as_arrays, put_in
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.studies.explore.one_by_one import single
+from gearlink.core.studies.explore.base import single
 from gearlink.core.studies.explore.pareto import best_boxes, counted, front
 from gearlink.core.studies.explore.preparing import problem_of
 from gearlink.core.studies.explore.problem import Problem

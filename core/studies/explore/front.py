@@ -11,8 +11,8 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Single
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.studies.explore.base import single
 from gearlink.core.studies.explore.chunks import RANKED, Chunk, Miss, evaluated, fold, judged, multiples_of
-from gearlink.core.studies.explore.one_by_one import single
 from gearlink.core.studies.explore.order import Sample, Variable
 from gearlink.core.studies.explore.pareto import best_boxes, boxes, front, knee, spread
 from gearlink.core.studies.explore.problem import Problem

@@ -9,17 +9,20 @@ from typing import Any
 
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.studies.explore.base import Base, Refused
-from gearlink.core.studies.explore.entries import OF_ANY_LENGTH, beyond_lists, no_lists, odd_comparisons
 from gearlink.core.studies.explore.order import Variable
 from gearlink.core.studies.explore.problem import Problem, numeric
 from gearlink.core.studies.explore.requirements import (
+    OF_ANY_LENGTH,
     Condition,
     FaultFound,
     Names,
     Objective,
+    beyond_lists,
     condition,
     contradiction,
+    no_lists,
     objective,
+    odd_comparisons,
 )
 from gearlink.core.studies.study.expressions import Expression, parse
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy

@@ -1,4 +1,7 @@
-"""The loads of a design file: the machine's own part gives links, connections and masses, this the results."""
+"""The loads of a design file: the machine's own part gives links, connections and masses, this the results.
+
+Input turns after which a machine with gears out of balance repeats.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,8 @@ from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import number_at
-from gearlink.core.studies.loads import checks, tables, vibration_checks
+from gearlink.core.studies.loads import checks, tables
+from gearlink.core.studies.loads.checks import VIBRATION_CHECKS, residual_vibration, resonance, rigid_model
 from gearlink.core.studies.loads.names import (
     DERIVED,
     FRAME,
@@ -28,7 +32,6 @@ from gearlink.core.studies.loads.names import (
     TORQUE,
     VIBRATION,
 )
-from gearlink.core.studies.loads.vibration_checks import VIBRATION_CHECKS
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Remedy
@@ -40,7 +43,7 @@ if TYPE_CHECKING:
     from gearlink.core.studies.loads.flywheel import Energy
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.running import Running
-    from gearlink.core.studies.loads.vibrating import Vibrating
+    from gearlink.core.studies.loads.vibration import Vibrating
 
 
 _SLOWEST = 1e-6
@@ -274,7 +277,7 @@ class LoadsDesign(Design):
     def _unless_locked(self, find: Callable[[], Any], otherwise: Any) -> Any:
         if self.section.friction is None:
             return find()
-        from gearlink.core.mechanism.rubbing import SelfLocking
+        from gearlink.core.mechanism.friction import SelfLocking
 
         try:
             return find()
@@ -290,7 +293,7 @@ class LoadsDesign(Design):
     @cached_property
     def locks_between(self) -> bool:
         """Whether the machine locks itself at angles between those that are looked at first."""
-        from gearlink.core.mechanism.rubbing import SelfLocking
+        from gearlink.core.mechanism.friction import SelfLocking
 
         try:
             _ = self.torque_range
@@ -425,7 +428,7 @@ class LoadsDesign(Design):
     @cached_property
     def torque_reversals(self) -> int:
         """Changes of sign of the input torque over the period."""
-        from gearlink.core.studies.loads.reversals import sign_changes
+        from gearlink.core.studies.loads.joints import sign_changes
 
         return sign_changes(self.machine.torque, self.machine, self.torque_size)
 
@@ -609,7 +612,7 @@ class LoadsDesign(Design):
         Notes
             As `Machine.locking`, of some rows alone, where the machine locks itself.
         """
-        from gearlink.core.mechanism.rubbing import SelfLocking
+        from gearlink.core.mechanism.friction import SelfLocking
 
         if self.locked:
             return self.machine.locking
@@ -647,7 +650,7 @@ class LoadsDesign(Design):
     @cached_property
     def vibrating(self) -> Vibrating:
         """The output on its spring."""
-        from gearlink.core.studies.loads.vibrating import Vibrating
+        from gearlink.core.studies.loads.vibration import Vibrating
 
         return Vibrating(self)
 
@@ -797,8 +800,8 @@ class LoadsDesign(Design):
     check_motor_speed, check_tooth_load = checks.motor_speed, checks.tooth_load
     check_motor_torque, check_speed_fluctuation = checks.motor_torque, checks.speed_fluctuation
     check_bearing_life, check_force_amplification = checks.bearing_life, checks.force_amplification
-    check_rigid_model, check_resonance = vibration_checks.rigid_model, vibration_checks.resonance
-    check_residual_vibration = vibration_checks.residual_vibration
+    check_rigid_model, check_resonance = rigid_model, resonance
+    check_residual_vibration = residual_vibration
     check_impact, check_self_locking = checks.impact, checks.self_locking
 
 
@@ -979,3 +982,30 @@ _FINDERS: dict[str, Callable[[LoadsDesign], Iterator[Remedy]]] = {
     "resonance": _damped,
     "self-locking": _less_friction,
 }
+
+
+_MOST_REVOLUTIONS = 1000
+"""Input turns of a period that loads are computed for at most."""
+
+
+_BALANCE = "balance these gears (center: [0, 0]), or choose teeth with a common factor"
+
+
+def is_directed(section: Any, link: str) -> bool:
+    """Whether the direction of a link matters: a centre of mass beside its axis, a spring, a force at a point."""
+    body = getattr(section.links, link, None)
+    joined = {name for spring in section.springs for name in spring.between}
+    pushed = {each.on for each in section.forces if each.point is not None}
+    return (body is not None and any(body.center or ())) or link in joined | pushed
+
+
+def homecoming(turns: int, gears: str, key: str, remedy: str = _BALANCE) -> int:
+    """So many input turns bring gears home.
+
+    Raises
+        NoSolution - for more than are computed
+    """
+    if turns > _MOST_REVOLUTIONS:
+        message = f"{gears} only after {turns} input revolutions (limit <= {_MOST_REVOLUTIONS})"
+        raise NoSolution(message, key=key, fix=remedy)
+    return turns

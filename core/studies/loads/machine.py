@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.mechanism.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.mechanism.friction import Coefficients, passes_ratio, with_friction
+from gearlink.core.mechanism.friction import LOCKED, LOCKS, Coefficients, SelfLocking, passes_ratio, with_friction
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.mechanism.motion import Motion
 from gearlink.core.mechanism.rates import TURNING_BACK, dot
-from gearlink.core.mechanism.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.loads.panels import APART, Panels
 from gearlink.core.studies.loads.sources import Sources

@@ -14,8 +14,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.explore.base import Refused
 from gearlink.core.studies.tolerance.sampling import REPLICATIONS, replication, rounded_up
 from gearlink.core.studies.tolerance_study.problem import ARRAY_SAMPLES, Problem
-from gearlink.core.studies.tolerance_study.samples import design_of, rows_of
-from gearlink.core.studies.tolerance_study.shares import replicated
+from gearlink.core.studies.tolerance_study.samples import design_of, replicated, rows_of
 
 SHARES = (0.00135, 0.05, 0.5, 0.95, 0.99865)
 _SCALAR_SAMPLES = 8 * REPLICATIONS

@@ -1,11 +1,17 @@
-"""The tolerance study of a design file as a design: yields, spreads, contributions."""
+"""The tolerance study of a design file as a design: yields, spreads, contributions.
+
+Which source contributes what: slopes at the nominal design, and Sobol' indices over the whole scatter.
+
+Which grade each part needs: the cheapest choice of IT grades that reaches a yield.
+"""
 
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -18,15 +24,534 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.study.faults import WrongStudy
 from gearlink.core.studies.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
-from gearlink.core.studies.tolerance.correlation import pairs
-from gearlink.core.studies.tolerance.sampling import Estimate
+from gearlink.core.studies.tolerance.correlation import groups, pairs, together
+from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
+from gearlink.core.studies.tolerance.laws import Law
+from gearlink.core.studies.tolerance.sampling import REPLICATIONS, Estimate, estimate, replication, rounded_up
 from gearlink.core.studies.tolerance.sources import Scatter
-from gearlink.core.studies.tolerance_study import allocation
 from gearlink.core.studies.tolerance_study.band import Course, columns_of, courses
 from gearlink.core.studies.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
-from gearlink.core.studies.tolerance_study.samples import evaluated
-from gearlink.core.studies.tolerance_study.sensitivity import Indices, Slope, indices, linear_shares, slopes
+from gearlink.core.studies.tolerance_study.samples import evaluated, judged, replicated, replication_size
 from gearlink.core.studies.tolerance_study.statistics import Result, Spread, capabilities, result
+
+_MOST_TRIED = 1_000_000
+_DRAWS, _FIRST_LOOK, _FAR = 1 << 14, 1 << 10, 0.1
+_MIDDLE_GRADE = 9
+_TRIALS = 8  # choices that are put to the samples
+
+Grades = Sequence[int]
+LinearYield = Callable[[Grades], float]
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A source whose grade may be chosen: finest and coarsest IT grade, cost at IT9."""
+
+    finest: int
+    coarsest: int
+    cost: float = 1.0
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A requirement in its linear form.
+
+    Fields
+        gains : per unit of each graded source
+        below, above : room to either limit (inf: none)
+        rest : (N,) array or float - error by the sources without grades, of the draws that the yield is taken from
+        spread : float - their standard deviation, where the yield is exact; `rest` is then their mean
+    """
+
+    gains: tuple[float, ...]
+    below: float
+    above: float
+    rest: Reals | float = 0.0
+    spread: float = 0.0
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Grades, their cost, and the yield that the linear model gives them."""
+
+    grades: tuple[int, ...]
+    cost: float
+    reached: float
+
+
+def choices(sources: Sequence[Graded], reached: LinearYield, target: float, ratio: float) -> Iterator[Choice]:
+    """Choices of grades that reach the target by the linear model, the cheapest first.
+
+    cost = sum cost_i ratio^(9 - grade)
+
+    Parameters
+        reached : the yield of some grades, `normal_yield` or `drawn_yield`
+        target : float - yield, 0..1
+        ratio : float - cost of one grade finer
+    Yields
+        choices : Choice - none where even the finest grades miss
+    Notes
+        All combinations up to a million; beyond that the path of a greedy search from the finest grades.
+    Example
+        >>> def part(size: float, grade: int) -> Law:
+        ...     half = 0.5 * standard_tolerance(size, grade)
+        ...     return Law("normal", -half, half, 0.0, half / 3.0)
+        >>> laws = [{g: part(size, g) for g in range(5, 12)} for size in (38.94, 112.0, 112.0, 153.53)]
+        >>> requirement = Requirement((2.9581448247, 1.0285307299, 1.0285307299, 0.7503110467), 0.05, 0.05)
+        >>> next(choices([Graded(5, 11)] * 4, normal_yield(laws, requirement), 0.9973, 1.6)).grades
+        (6, 7, 8, 8)
+
+    Source
+        own formulation; cost per grade is an assumption of the file
+    """
+    ranges = [range(one.finest, one.coarsest + 1) for one in sources]
+
+    def cost(grades: Grades) -> float:
+        return sum(one.cost * ratio ** (_MIDDLE_GRADE - grade) for one, grade in zip(sources, grades, strict=True))
+
+    every = math.prod(len(grades) for grades in ranges)
+    table = (
+        sorted(itertools.product(*ranges), key=cost) if every <= _MOST_TRIED else _greedy(ranges, cost, reached, target)
+    )
+    for grades in table:
+        share = reached(grades)
+        if share >= target:
+            yield Choice(tuple(grades), cost(grades), share)
+
+
+def normal_yield(laws: Sequence[Mapping[int, Law]], requirement: Requirement) -> LinearYield:
+    """Yield of one requirement in parts that scatter normally and apart from each other, exactly.
+
+    Y = Phi((above - mean)/sigma) - Phi((-below - mean)/sigma)
+
+    Parameters
+        laws : of each source by grade
+    """
+    moments = [{grade: law.moments() for grade, law in one.items()} for one in laws]
+
+    def reached(grades: Grades) -> float:
+        rows = [(g, *one[grade]) for g, one, grade in zip(requirement.gains, moments, grades, strict=True)]
+        mean = float(requirement.rest) + sum(g * part for g, part, _ in rows)
+        sigma = math.hypot(requirement.spread, *(g * part for g, _, part in rows))
+        upper, lower = requirement.above - mean, requirement.below + mean
+        if sigma == 0.0:
+            return 1.0 if min(upper, lower) >= 0.0 else 0.0
+        root = sigma * math.sqrt(2.0)
+        return 1.0 - 0.5 * math.erfc(upper / root) - 0.5 * math.erfc(lower / root)
+
+    return reached
+
+
+def drawn_yield(
+    columns: Sequence[Mapping[int, Reals]], requirements: Sequence[Requirement], target: float
+) -> LinearYield:
+    """Yield of all requirements together, of any laws, from the same draws for all grades.
+
+    Parameters
+        columns : (N,) arrays of the deviations of each source by grade
+        target : float - what is far below it is left at a first look at some of the draws
+    """
+
+    def share(grades: Grades, count: int | None) -> float:
+        parts = [one[grade][:count] for one, grade in zip(columns, grades, strict=True)]
+        good: Any = True
+        for requirement in requirements:
+            rest = requirement.rest[:count] if isinstance(requirement.rest, np.ndarray) else requirement.rest
+            off = rest + sum(g * part for g, part in zip(requirement.gains, parts, strict=True))
+            good = good & (off <= requirement.above) & (off >= -requirement.below)
+        return float(np.mean(good))
+
+    def reached(grades: Grades) -> float:
+        first = share(grades, _FIRST_LOOK)
+        return first if first < target - _FAR else share(grades, None)
+
+    return reached
+
+
+def _greedy(ranges: list[range], cost: Any, reached: LinearYield, target: float) -> list[tuple[int, ...]]:
+    """Grades made coarser one at a time, where the yield falls minimum for the cost saved; the cheapest first."""
+    grades = [row[0] for row in ranges]
+    path = [tuple(grades)]
+    while True:
+        steps = []
+        for i, row in enumerate(ranges):
+            if grades[i] < row[-1]:
+                trial = [*grades]
+                trial[i] += 1
+                steps.append((reached(trial), cost(grades) - cost(trial), trial))
+        there = [step for step in steps if step[0] >= target]
+        if not there:
+            return path[::-1]
+        loss = reached(grades)
+        grades = min(there, key=lambda step: (loss - step[0]) / step[1])[2]
+        path.append(tuple(grades))
+
+
+def table_rows(study: Any) -> list[tuple[Any, ...]]:
+    """The grades that a study needs: chosen by the slopes, confirmed by samples of the design, else the next choice.
+
+    Parameters
+        study : ToleranceStudy
+    Returns
+        rows : (source, grade, plus_minus [mm], cost, yield of the samples, whether one grade coarser keeps the target
+            by the slopes, and in words why it is not taken then)
+    Raises
+        WrongStudy - without target, or without a source whose grade may be chosen, or where no grades reach it
+    """
+    made = study.problem
+    places = _places(made)
+    target, ratio = made.section.target_yield, made.section.cost.ratio
+    entries = [made.sources[i].entry for i in places]
+    graded = [Graded(entry.grades[0], entry.grades[1], entry.cost) for entry in entries if entry.grades]
+    linear = _linear_yield(study, places)
+    found, reached, refused = _confirmed(made, places, choices(graded, linear, target, ratio))
+    rows = []
+    for i, one, grade in zip(places, graded, found.grades, strict=True):
+        coarser = [grade + (place == i) for place, grade in zip(places, found.grades, strict=True)]
+        free = grade < one.coarsest and linear(coarser) >= target
+        source = made.sources[i]
+        half = 0.5 * standard_tolerance(abs(source.nominal), grade)
+        cost = one.cost * ratio ** (_MIDDLE_GRADE - grade)
+        rows.append(
+            (source.key, grade, half, cost, reached, free, _why_not(refused.get(tuple(coarser))) if free else "")
+        )
+    return rows
+
+
+def _why_not(sampled: float | None) -> str:
+    """Why grades that reach the target by the slopes are not taken."""
+    if sampled is None:
+        return "by the sensitivities alone; samples of like grades missed the target"
+    return f"by the sensitivities alone; samples prove no more than {100 * sampled:.6g} %"
+
+
+def require(made: Problem) -> None:
+    """Refuse what gives no grades, before anything is computed.
+
+    Raises
+        WrongStudy - without target, without a source whose grade may be chosen, without a requirement that has slopes
+    """
+    _places(made)
+    if not _limited(made):
+        window = getattr(made.base.spec(), "dwell_window", None)
+        line = "QUANTITY >= NUMBER" if window is None else f"tolerance_dwell_angle >= {window:g} deg"
+        message = (
+            f"--allocate chooses by the sensitivities of quantities, and a check names none: add require: [{line}]"
+        )
+        raise no("GL171", message, "require")
+
+
+def _limited(made: Problem) -> set[str]:
+    """Quantities that a requirement compares with a number."""
+    trees = {one.expression.tree for one in made.requirements if not isinstance(one.limit, str)}
+    return {tree for tree in trees if isinstance(tree, str)}
+
+
+def _places(made: Problem) -> list[int]:
+    """Which sources have grades to choose from."""
+    if made.section.target_yield is None:
+        raise no("GL171", "--allocate needs a yield to reach, such as target_yield: 0.997", "target_yield")
+    found = [i for i, source in enumerate(made.sources) if source.entry.grades is not None and source.kind != "pin"]
+    if not found:
+        key = made.sources[0].key
+        raise no(
+            "GL171", f"--allocate needs grades to choose from, such as {key}: {{class: js8, grades: [5, 9]}}", "sources"
+        )
+    return found
+
+
+def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
+    """The yield of grades by the slopes, with the laws and correlations of the file: exact where it can be."""
+    made = study.problem
+    asked = [name for name in study.varying if name in _limited(made)]
+    if not asked:
+        raise no(
+            "GL171", "no source moves what the lines of require compare with numbers: nothing to choose by", "require"
+        )
+    by_grade = [_by_grade(made.sources[i]) for i in places]
+    alone = len(asked) == 1 and made.correlation is None
+    if alone and all(source.kind != "pin" and source.law.form in ("normal", "fixed") for source in made.sources):
+        return normal_yield(
+            [{g: one.law for g, one in row.items()} for row in by_grade], _requirement(study, asked[0], places)
+        )
+    drawn = replication(made.coordinates, REPLICATIONS * _DRAWS, made.section.seed, REPLICATIONS)
+    points = together(drawn, made.correlation)
+    starts = list(itertools.accumulate((source.coordinates for source in made.sources), initial=0))
+    columns = [
+        {g: one.law.deviations(points[:, starts[i]]) for g, one in row.items()}
+        for i, row in zip(places, by_grade, strict=True)
+    ]
+    return drawn_yield(columns, [_requirement(study, name, places, drawn) for name in asked], made.section.target_yield)
+
+
+def _by_grade(source: Scatter) -> dict[int, Scatter]:
+    """A source made to each of its grades, to either side of its size."""
+    finest, coarsest = source.entry.grades or (0, -1)
+    return {
+        grade: source.within(0.5 * standard_tolerance(abs(source.nominal), grade))
+        for grade in range(finest, coarsest + 1)
+    }
+
+
+def _requirement(study: Any, name: str, places: Sequence[int], drawn: Reals | None = None) -> Requirement:
+    """What the requirements say of a quantity, about its nominal value."""
+    made, rows, middle = study.problem, study.slopes[name], study.nominal[name]
+    lower, upper = study.limits(name)
+    others = [(source, rows[i]) for i, source in enumerate(made.sources) if i not in places]
+    rest: Reals | float = sum(row.gain[0] * source.law.moments()[0] for source, row in others)
+    if drawn is not None:
+        sizes = made.sizes(drawn)
+        rest = sum(
+            (_along(row.gain, sizes[source.key] - source.nominal) for source, row in others), np.zeros(len(drawn))
+        )
+    return Requirement(
+        tuple(rows[i].gain[0] for i in places),
+        math.inf if lower is None else middle - lower,
+        math.inf if upper is None else upper - middle,
+        rest,
+        math.hypot(*(row.sigma for _, row in others), 0.0),
+    )
+
+
+def _along(gain: Sequence[float], off: Any) -> Reals:
+    """Error by a deviation, of a pin by its vector."""
+    error: Reals = gain[0] * np.real(off) + (gain[1] * np.imag(off) if len(gain) > 1 else 0.0)
+    return error
+
+
+def _confirmed(
+    made: Problem, places: Sequence[int], found: Iterator[Choice]
+) -> tuple[Choice, float, dict[tuple[int, ...], float]]:
+    """The first choice whose samples reach the target, the lower end of their yield, and that of what missed it.
+
+    Notes
+        What fails more often in the samples than by the slopes is expected to do so with the next choices too: those
+        that would then miss are passed over.
+    Raises
+        WrongStudy - where none does
+    """
+    target, more = made.section.target_yield or 0.0, 1.0
+    tried: list[tuple[float, Choice]] = []
+    for choice in found:
+        if tried and _expected_to_miss(choice, more, target):
+            continue
+        low = _sampled(made, places, choice.grades)
+        if low >= target:
+            return choice, low, {choice.grades: low for low, choice in tried}
+        tried.append((low, choice))
+        if len(tried) == _TRIALS:
+            break
+        if choice.reached < 1.0:
+            more = max(more, (1.0 - low) / (1.0 - choice.reached))
+    if not tried:
+        message = "even the finest grades miss the target yield: widen grades, or loosen the requirement"
+        raise no("GL171", message, "target_yield")
+    low, best = max(tried, key=lambda one: one[0])
+    named = ", ".join(f"{made.sources[i].key} IT{grade}" for i, grade in zip(places, best.grades, strict=True))
+    message = f"by the slopes {named} reach the target yield, but samples of them prove no more than {100 * low:.6g} %"
+    raise no("GL171", f"{message}: take finer grades or more --samples, or loosen the requirement", "target_yield")
+
+
+def _expected_to_miss(choice: Choice, more: float, target: float) -> bool:
+    """Whether a choice misses the target if it fails so many times as often as by the slopes."""
+    return (1.0 - choice.reached) * more > 1.0 - target
+
+
+def _sampled(made: Problem, places: Sequence[int], grades: Grades) -> float:
+    """Lower end of the yield of the design itself with these grades."""
+    sources = dict(made.section.sources)
+    for i, grade in zip(places, grades, strict=True):
+        source = made.sources[i]
+        sources[source.key] = source.within(0.5 * standard_tolerance(abs(source.nominal), grade)).entry
+    changed = replace(made, section=made.section.model_copy(update={"sources": sources}))
+    return result(changed).good.low
+
+
+_KINK = 0.1  # of the whole scatter: sides that differ by more belong to no line
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Slope of a quantity in one source [unit of the quantity per unit of the source]; of a pin in both directions.
+
+    `sigma` is what the source adds to the quantity's standard deviation by that slope, `bend` what it adds by the
+    difference of the slopes to either side. `kink`: that is so much of the whole that no linear share applies.
+    """
+
+    gain: tuple[float, ...]
+    sigma: float
+    bend: float
+    kink: bool = False
+
+
+def slopes(made: Problem, names: Sequence[str]) -> dict[str, list[Slope]]:
+    """Slopes of quantities in every source, at the nominal design.
+
+    (4 D(h/2) - D(h))/3 with the central differences D over h, half of the tolerance or 1e-5 of the size
+
+    Returns
+        slopes : by quantity, one for each source
+    Notes
+        One-sided slopes that differ tell of a kink, a place where one of several extremes takes over, or of a bend: a
+        drive that is best as it is has slope 0.
+    Source
+        L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307
+    """
+    steps = [(source, axis, _step(source)) for source in made.sources for axis in _axes(source)]
+    shifts: list[Mapping[str, complex]] = [{}]
+    for source, axis, h in steps:
+        shifts += [{source.key: share * h * axis} for share in (1.0, -1.0, 0.5, -0.5)]
+    found = evaluated(made, made.offsets(shifts)).quantities
+    result: dict[str, list[Slope]] = {}
+    for name in names:
+        values = found[name]
+        per_axis = [_slope(values[0], values[1 + 4 * i : 5 + 4 * i], h) for i, (_, _, h) in enumerate(steps)]
+        rows = iter(per_axis)
+        found_slopes = [_of_source(source, [next(rows) for _ in _axes(source)]) for source in made.sources]
+        whole = math.hypot(*(row.sigma for row in found_slopes), *(row.bend for row in found_slopes))
+        result[name] = [replace(row, kink=not row.bend <= _KINK * whole) for row in found_slopes]
+    return result
+
+
+def _axes(source: Scatter) -> tuple[complex, ...]:
+    return (1.0, 1j) if source.kind == "pin" else (1.0,)
+
+
+def _step(source: Scatter) -> float:
+    """Half of the width of the scatter, or a small part of the size."""
+    width = abs(source.law.upper - source.law.lower) if source.kind != "pin" else source.limit
+    return max(0.25 * width, 1e-5 * abs(source.nominal), 1e-9)
+
+
+def _slope(middle: float, values: Reals, h: float) -> tuple[float, float]:
+    """Slope, and by how much those to either side differ."""
+    up, down, half_up, half_down = values.tolist()
+    wide, narrow = (up - down) / (2.0 * h), (half_up - half_down) / h
+    return (4.0 * narrow - wide) / 3.0, abs(half_up - 2.0 * middle + half_down) / (0.5 * h)
+
+
+def _of_source(source: Scatter, rows: list[tuple[float, float]]) -> Slope:
+    gain, sigma = tuple(row[0] for row in rows), component_sigma(source)
+    return Slope(gain, math.hypot(*gain) * sigma, math.hypot(*(row[1] for row in rows)) * sigma)
+
+
+def component_sigma(source: Scatter) -> float:
+    """Standard deviation of a source; of a pin that of one component of its offset."""
+    mean, sigma = source.law.moments()
+    if source.kind != "pin":
+        return sigma
+    if source.entry.play == "floating":
+        return 0.25 * mean
+    return 0.5 * math.sqrt(0.5 * (mean * mean + sigma * sigma))
+
+
+def linear_shares(
+    rows: Sequence[Slope], sources: Sequence[Scatter], correlations: Mapping[tuple[str, str], float]
+) -> list[float | None]:
+    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing varies.
+
+    A source's share is its covariance with the whole: with correlations it may be negative, and all still add up to 1.
+    """
+    signed = [math.copysign(row.sigma, row.gain[0]) for row in rows]
+    parts = [
+        one
+        * sum(correlations.get((a.key, b.key), float(a is b)) * other for b, other in zip(sources, signed, strict=True))
+        for a, one in zip(sources, signed, strict=True)
+    ]
+    whole = sum(parts)
+    if whole <= 0.0 or not math.isfinite(whole) or any(row.kink for row in rows):
+        return [None] * len(rows)
+    return [part / whole for part in parts]
+
+
+@dataclass(frozen=True)
+class Indices:
+    """First and total Sobol' index of a source, none negative, the first not above the total."""
+
+    first: Estimate
+    total: Estimate
+
+
+def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
+    """Sobol' indices of quantities in every source.
+
+    S_i = [mean(f_B f_C) - f0^2]/V (Janon),   T_i = mean((f_A - f_C)^2)/(2 V) (Jansen)
+
+    Notes
+        C is A with the source's columns of B; sources that vary together have one index, that of their group.
+        Each replication by itself, with the mean and variance of its own; the
+        interval is that of the replications.
+    Source
+        I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; A. Janon et al., ESAIM P&S 18 (2014) 342; M. J. W. Jansen,
+        Comput. Phys. Comm. 117 (1999) 35
+    """
+    work = replication_size(made) * (2 + len(made.sources))
+    rows = list(replicated(made, partial(_indices_of, names=tuple(names)), work))
+    return {
+        name: [_estimated(np.array([row[name][i] for row in rows])) for i in range(len(made.sources))] for name in names
+    }
+
+
+def _indices_of(made: Problem, number: int, names: Sequence[str]) -> Mapping[str, list[tuple[float, float]]]:
+    """First and total index of every source, by quantity, of one replication."""
+    width = made.coordinates
+    points = replication(2 * width, rounded_up(made.samples), made.section.seed, number)
+    a, b = points[:, :width], points[:, width:]
+    one, other = (judged(made, part).quantities for part in (a, b))
+    mixed = [judged(made, _swapped(a, b, group)).quantities for group in _columns(made)]
+    return {name: [_indices(one[name], other[name], each[name]) for each in mixed] for name in names}
+
+
+def _columns(made: Problem) -> list[list[int]]:
+    """Which random numbers are a source's, and those of the sources that scatter with it."""
+    own, at = [], 0
+    for source in made.sources:
+        own.append(range(at, at + source.coordinates))
+        at += source.coordinates
+    group = groups(made.section, made.sources)
+    return [[i for j, columns in enumerate(own) if group[j] == number for i in columns] for number in group]
+
+
+def _swapped(a: Reals, b: Reals, group: list[int]) -> Reals:
+    mixed = a.copy()
+    mixed[:, group] = b[:, group]
+    return mixed
+
+
+def _indices(a: Reals, b: Reals, mixed: Reals) -> tuple[float, float]:
+    """First and total index of one replication."""
+    there = ~(np.isnan(a) | np.isnan(b) | np.isnan(mixed))
+    a, b, mixed = a[there], b[there], mixed[there]
+    if a.size < 2:
+        return math.nan, math.nan
+    middle = b[0]
+    a, b, mixed = a - middle, b - middle, mixed - middle
+    mean = 0.5 * float(np.mean(b + mixed))
+    variance = 0.5 * float(np.mean(b * b + mixed * mixed)) - mean * mean
+    if variance <= 0.0:
+        return math.nan, math.nan
+    return (float(np.mean(b * mixed)) - mean * mean) / variance, float(np.mean((a - mixed) ** 2)) / (2.0 * variance)
+
+
+def _estimated(rows: Reals) -> Indices:
+    """Indices with their intervals; where chance puts the first above the total, the less certain gives way."""
+    first, total = (_not_negative(estimate(rows[:, i])) for i in (0, 1))
+    if first.value > total.value:
+        if first.half_width <= total.half_width:
+            total = _moved(total, first)
+        else:
+            first = _moved(first, total)
+    return Indices(first, total)
+
+
+def _not_negative(one: Estimate) -> Estimate:
+    return Estimate(max(0.0, one.value), one.half_width)
+
+
+def _moved(one: Estimate, to: Estimate) -> Estimate:
+    """An estimate at the value of a more certain one; the far end of its interval stays, or is that of the other."""
+    return Estimate(to.value, max(to.half_width, one.half_width - abs(one.value - to.value)))
+
 
 _EXPLAINED = 0.9
 _ROUNDING = 1e-13
@@ -193,14 +718,14 @@ class ToleranceStudy(Design):
 
     def table_allocation(self, _samples: int | None = None) -> Table:
         """The cheapest grades that reach the target yield, and which of them may be loosened for free."""
-        rows = allocation.table_rows(self)
+        rows = table_rows(self)
         columns = ("source", "grade", "plus_minus", "cost", "yield_low", "one_coarser_holds", "remark")
         return _table("allocation", columns, rows)
 
     def require_table(self, name: str) -> None:
         """Refuse an allocation that has nothing to choose by."""
         if name == "allocation":
-            allocation.require(self.problem)
+            require(self.problem)
 
     @cached_property
     def courses(self) -> list[Course]:

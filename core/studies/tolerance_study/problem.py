@@ -17,8 +17,15 @@ from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.spec_paths import part_at
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.studies.explore.base import Base, Refused
-from gearlink.core.studies.explore.entries import beyond_lists, no_lists, odd_comparisons
-from gearlink.core.studies.explore.requirements import Condition, FaultFound, Names, condition
+from gearlink.core.studies.explore.requirements import (
+    Condition,
+    FaultFound,
+    Names,
+    beyond_lists,
+    condition,
+    no_lists,
+    odd_comparisons,
+)
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.correlation import coordinate_root, together
 from gearlink.core.studies.tolerance.sources import Parts, Scatter, is_of_parts, scatters

@@ -1,24 +1,35 @@
-"""Designs as manufactured: computed, judged, and summed up replication by replication."""
+"""Designs as manufactured: computed, judged, and summed up replication by replication.
+
+Replications as shares of a study's work: each depends on the study's text and its own number alone.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from time import perf_counter
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.design_axis import Evaluated, Single, as_arrays, put_in
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.studies.explore.base import Refused
-from gearlink.core.studies.explore.one_by_one import findings_of
-from gearlink.core.studies.tolerance.sampling import REPLICATIONS, replication, rounded_up
-from gearlink.core.studies.tolerance.shares import seen
-from gearlink.core.studies.tolerance_study.problem import Problem
+from gearlink.core.studies.explore.base import Refused, findings_of
+from gearlink.core.studies.tolerance.sampling import (
+    REPLICATIONS,
+    is_shared,
+    of_replications,
+    replication,
+    rounded_up,
+    seen,
+)
+from gearlink.core.studies.tolerance_study.problem import Problem, problem
 
 Columns = Mapping[str, Reals | Points]
 _BLOCK = 8192  # of the array form; of one by one, from the fewest up to what takes so many seconds
@@ -145,3 +156,36 @@ def judged_replication(made: Problem, number: int) -> Judged:
 def replication_size(made: Problem) -> int:
     """Samples of a replication."""
     return rounded_up(made.samples) // REPLICATIONS
+
+
+Found = TypeVar("Found")
+
+
+def replicated(made: Problem, function: Callable[[Problem, int], Found], work: int = 1) -> Iterable[Found]:
+    """What a function finds in every replication, in order.
+
+    Parameters
+        made : Problem
+        function : of the problem and the replication's number - of a module, so that it can be sent elsewhere
+        work : int - designs of a replication, as it tells `seen`
+    """
+    if is_shared():
+        return of_replications(partial(_by_text, function, text_of(made)), work)
+    return of_replications(partial(function, made), work)
+
+
+def _by_text(function: Callable[[Problem, int], Found], text: str, number: int) -> Found:
+    return function(problem_of(text), number)
+
+
+def text_of(made: Problem) -> str:
+    """A study as text, from which `problem_of` makes the same study anywhere."""
+    section = made.section.model_dump(mode="json", exclude_unset=True, exclude_none=True, by_alias=True)
+    section["command"] = made.base.command
+    return json.dumps({**made.base.data, "tolerance": section})
+
+
+@lru_cache(maxsize=4)
+def problem_of(text: str) -> Problem:
+    """The study of a text."""
+    return problem(KINDS[json.loads(text)["kind"]].spec_model().model_validate_json(text))

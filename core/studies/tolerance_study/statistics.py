@@ -11,8 +11,7 @@ import numpy as np
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.studies.tolerance.sampling import Estimate, estimate, share_estimate, student
 from gearlink.core.studies.tolerance_study.problem import Problem
-from gearlink.core.studies.tolerance_study.samples import judged_replication, replication_size
-from gearlink.core.studies.tolerance_study.shares import replicated
+from gearlink.core.studies.tolerance_study.samples import judged_replication, replicated, replication_size
 
 QUANTILES = (0.00135, 0.5, 0.99865)
 _KEPT = 16_384  # values of a quantity that pictures show, of the first replications

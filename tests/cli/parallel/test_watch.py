@@ -12,7 +12,7 @@ import pytest
 
 from gearlink.cli.parallel import shares
 from gearlink.cli.parallel.shares import TooLong, Watch
-from gearlink.core.studies.tolerance.shares import of_replications, seen
+from gearlink.core.studies.tolerance.sampling import of_replications, seen
 
 
 class Clock:

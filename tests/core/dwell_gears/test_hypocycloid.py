@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.hypocycloid import (
+from gearlink.core.machines.dwell_gears.hypocycloid_design import (
     HypocycloidSlider,
     least_ripple,
     minimax,

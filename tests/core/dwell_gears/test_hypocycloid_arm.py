@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.hypocycloid import HypocycloidSlider, SlottedArm
+from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidSlider, SlottedArm
 
 GIVEN: dict[str, Any] = {
     "kind": "hypocycloid-dwell",

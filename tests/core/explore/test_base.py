@@ -10,8 +10,7 @@ import pytest
 from factory import DESIGNS, design, each_kind, worked
 
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.studies.explore.base import Base
-from gearlink.core.studies.explore.one_by_one import single
+from gearlink.core.studies.explore.base import Base, single
 
 PRESS = worked("ty460")
 CHANGES: list[list[tuple[str, Any]]] = [

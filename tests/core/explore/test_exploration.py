@@ -17,8 +17,8 @@ from gearlink.core.base.codes import rules
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Check, Rule, Status
 from gearlink.core.studies.explore import front
+from gearlink.core.studies.explore.base import single
 from gearlink.core.studies.explore.exploration import Exploration
-from gearlink.core.studies.explore.one_by_one import single
 from gearlink.core.studies.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.studies.study.spec import StudySpec
 

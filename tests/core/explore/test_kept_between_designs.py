@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from factory import worked
 
-from gearlink.core.studies.explore.base import Base
-from gearlink.core.studies.explore.one_by_one import single
+from gearlink.core.studies.explore.base import Base, single
 
 NAMES = ("max_radius[0]", "max_radius[1]", "max_pressure_angle[0]", "min_curvature_radius[1]")
 

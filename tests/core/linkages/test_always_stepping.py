@@ -18,8 +18,8 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
+from gearlink.core.machines.planet_linkages.two_gear_family import Family
 from gearlink.core.machines.planet_linkages.two_gear_family import always_stepping as two_gear_frames
-from gearlink.core.machines.planet_linkages.two_gear_frames import Family
 from gearlink.core.machines.three_gear.dwell_synthesis import always_stepping as three_gear_frames
 from gearlink.core.machines.three_gear.families import with_crank
 from gearlink.core.machines.three_gear.motion import GearTrain

@@ -21,8 +21,8 @@ from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, full_balance
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.studies.loads.flywheel import Energy
-from gearlink.core.studies.loads.motor import MotorRun
 from gearlink.core.studies.loads.panels import Panels
+from gearlink.core.studies.loads.running import MotorRun
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 FEED = {key: value for key, value in DATA["cases"][0]["spec"].items() if key != "at"}

@@ -11,7 +11,7 @@ import pytest
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import GearlinkError
-from gearlink.core.studies.loads import courses
+from gearlink.core.studies.loads import sources
 from gearlink.core.studies.loads.spec import Course
 
 FEED = "loaded_feed"
@@ -32,14 +32,14 @@ def test_zones_add_and_pass_through_the_turn() -> None:
     zones = [(start, end, float(k + 1)) for k, (start, end) in enumerate(ends)]
     course = Course.model_validate({"zones": [{"from": a, "to": b, "value": v} for a, b, v in zones]})
     phi = rng.uniform(-10.0, 20.0, 400)
-    assert courses.values(course, phi).tolist() == [_value_of_zones(zones, float(x)) for x in phi]
+    assert sources.values(course, phi).tolist() == [_value_of_zones(zones, float(x)) for x in phi]
 
 
 def test_zone_holds_from_its_start_up_to_its_end() -> None:
     course = Course.model_validate({"zones": [{"from": 34, "to": 154, "value": 3}]})
     places = np.radians([34.0, 154.0]) + 2.0 * math.pi * np.arange(4)[:, None]
-    assert courses.values(course, places[:, 0]).tolist() == [3.0] * 4
-    assert courses.values(course, places[:, 1]).tolist() == [0.0] * 4
+    assert sources.values(course, places[:, 0]).tolist() == [3.0] * 4
+    assert sources.values(course, places[:, 1]).tolist() == [0.0] * 4
 
 
 def test_blocks_of_rows_are_solved_alike() -> None:

@@ -10,8 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlink.core.mechanism.chain import Chain
-from gearlink.core.mechanism.dual import Dual, Shift, gradient
+from gearlink.core.mechanism.dual import Chain, Dual, Shift, gradient
 from gearlink.core.mechanism.joints import Coupling, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.rates import fixed, mixed

@@ -13,8 +13,7 @@ import pytest
 
 from gearlink.core.base.remedies.trials import Bench
 from gearlink.core.mechanism.blocks import blocks
-from gearlink.core.mechanism.friction import solution_of
-from gearlink.core.mechanism.rubbing import Rubbing, SelfLocking
+from gearlink.core.mechanism.friction import Rubbing, SelfLocking, solution_of
 
 FEED, PRESS = "loaded_feed", "loaded_press"
 RUBBING = {"pins": 0.1, "pin_radius": 10, "guides": 0.1, "meshes": 0.98}

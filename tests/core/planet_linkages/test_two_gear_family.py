@@ -24,9 +24,13 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
-from gearlink.core.machines.planet_linkages import two_gear_frames as frames_of
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
-from gearlink.core.machines.planet_linkages.two_gear_frames import Family
+from gearlink.core.machines.planet_linkages.two_gear_family import (
+    Family,
+    frame_range,
+    momentary_frame,
+    stationary_frames,
+)
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 from gearlink.core.parts.linkages.standstills import standstills
@@ -45,8 +49,8 @@ def families(count: int, seed: int) -> Iterator[Family]:
         lengths = [math.exp(draw.uniform(-1.0, 1.2)) for _ in range(2)]
         family = Family(1.0, *lengths, ratio, draw.choice((1, -1)))
         try:
-            low, high = frames_of.frame_range(family)
-            frame = frames_of.momentary_frame(family)
+            low, high = frame_range(family)
+            frame = momentary_frame(family)
         except NoSolution:
             continue
         if 0.02 < (frame - low) / (high - low) < 0.98:
@@ -94,7 +98,7 @@ def scanned_window(drive: PlanetLinkage, tolerance: float) -> float:
 def test_momentary_frame(case: Any) -> None:
     given, wanted = case["input"], case["expected"]
     family = Family(abs(given["r2"] + given["r5"]), given["coupler"], given["rocker"], -given["r2"] / given["r5"])
-    assert frames_of.momentary_frame(family) == pytest.approx(wanted["frame"], rel=EXACT)
+    assert momentary_frame(family) == pytest.approx(wanted["frame"], rel=EXACT)
     for name, value in wanted.items():
         if name.startswith("back_step_at_frame_"):
             frame = float(name.rpartition("_")[2])
@@ -106,8 +110,8 @@ def test_momentary_frame(case: Any) -> None:
 @pytest.mark.quick(3)
 @pytest.mark.parametrize("family", list(families(24, 1)))
 def test_the_number_of_standstills_changes_at_the_momentary_dwell_alone(family: Family) -> None:
-    low, high = frames_of.frame_range(family)
-    limit = frames_of.momentary_frame(family)
+    low, high = frame_range(family)
+    limit = momentary_frame(family)
     below, above = (2, 0) if family.ring else (0, 2)
     near = 1e-7 * limit
     for count in (lambda d: by_turnings(family.drive(d)), lambda d: standing(family, d)):
@@ -147,7 +151,7 @@ def test_a_window_is_found_whatever_the_momentary_dwell_rounds_to() -> None:
     """The search starts at the momentary dwell, where a back-step of rounding may end above its start."""
     for coupler, rocker, teeth in ((64.0, 76.61909275997998, 78), (55.91474905081777, 84.52689629494145, 76)):
         family = Family(float(teeth - 48), coupler, rocker, 48 / teeth)
-        assert kernel.window_of(family.drive(frames_of.momentary_frame(family))) < 1e-3
+        assert kernel.window_of(family.drive(momentary_frame(family))) < 1e-3
         for degrees in (0.5, 30.0, 36.25450179146391, 61.369491027139205):
             frame = kernel.solved(family, kernel.window_of, math.radians(degrees), "this")
             assert math.degrees(kernel.window_of(family.drive(frame))) == pytest.approx(degrees, rel=1e-9)
@@ -170,7 +174,7 @@ def test_tolerance_dwell_against_a_scan(family: Family, tolerance: float, share:
     if share:
         frame = kernel.solved(family, kernel.back_step_of, math.radians(2.0 * share * tolerance), "this")
     else:
-        frame = frames_of.momentary_frame(family)
+        frame = momentary_frame(family)
     drive = family.drive(frame)
     found = kernel.tolerance_dwell(drive, math.radians(tolerance))
     scanned = scanned_window(drive, tolerance)
@@ -184,7 +188,7 @@ def test_no_frame_has_a_longer_window_than_the_one_whose_back_step_fills_the_ban
     tolerance = 0.5
     best = kernel.solved(family, kernel.back_step_of, math.radians(2.0 * tolerance), "this")
     window = math.degrees(kernel.window_of(family.drive(best)))
-    low, high = frames_of.frame_range(family)
+    low, high = frame_range(family)
     frames = [low + part * (high - low) for part in np.linspace(0.02, 0.98, 15)]
     frames += [best + step * (high - low) for step in (-0.01, -0.001, 0.001, 0.01)]
     assert max(scanned_window(family.drive(d), tolerance) for d in frames) < window
@@ -284,12 +288,12 @@ def test_designs_of_uneven_ends_reach_the_limit(margin: float) -> None:
 def test_teeth_that_a_refusal_names(family: Family, words: str, nearer: float) -> None:
     """A little beyond the limit there is a momentary dwell, a little short of it there is none."""
     with pytest.raises(NoSolution, match=words) as refusal:
-        frames_of.momentary_frame(family)
+        momentary_frame(family)
     limit = float(str(refusal.value).split(words)[1].split()[0])
     sign = 1.0 if family.ring else -1.0
     beyond, short = (replace(family, ratio=sign / (limit * (1.0 + step))) for step in (nearer, -nearer))
-    assert frames_of.stationary_frames(beyond)
-    assert not frames_of.stationary_frames(short)
+    assert stationary_frames(beyond)
+    assert not stationary_frames(short)
 
 
 # The designs

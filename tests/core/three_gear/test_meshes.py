@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.three_gear.dwell import ByRoots
-from gearlink.core.machines.three_gear.samples import ThreeGearSamples
+from gearlink.core.machines.three_gear.register import ThreeGearSamples
 from gearlink.core.parts.gears.data import PLACES
 from gearlink.core.parts.gears.train.meshed import TRAIN_QUANTITIES
 

@@ -19,7 +19,7 @@ from sweeps import ALL
 from gearlink.core.base.design import in_unit
 from gearlink.core.base.nomenclature import term
 from gearlink.core.machines.three_gear import motion, sweep
-from gearlink.core.machines.three_gear.samples import DriveSamples, ThreeGearSamples, TolerancedDrive
+from gearlink.core.machines.three_gear.register import DriveSamples, ThreeGearSamples, TolerancedDrive
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 NEAR = 1e-11

@@ -12,7 +12,7 @@ import pytest
 
 from gearlink.core.studies.register.design import sampled_share
 from gearlink.core.studies.tolerance.budget import Contribution, budget, normal_band
-from gearlink.core.studies.tolerance.shares import COMPUTED_BY
+from gearlink.core.studies.tolerance.sampling import COMPUTED_BY
 
 COVERED = math.erf(3.0 / math.sqrt(2.0))  # 99.73 %
 CANDY: dict[str, Any] = {

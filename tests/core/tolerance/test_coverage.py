@@ -14,7 +14,7 @@ import pytest
 from scipy.special import ndtr, ndtri
 
 from gearlink.core.studies.tolerance.sampling import Estimate, estimate, replications, share_estimate
-from gearlink.core.studies.tolerance_study.sensitivity import _estimated, _indices
+from gearlink.core.studies.tolerance_study.design import _estimated, _indices
 from gearlink.core.studies.tolerance_study.statistics import Spread, _numbers, _spread, capabilities, quantile, window
 
 GAINS = np.array([1.0, 0.5, 0.3])

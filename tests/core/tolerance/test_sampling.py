@@ -17,7 +17,7 @@ from scipy.special import ndtri
 from sweeps import ALL
 
 from gearlink.core.studies.tolerance.sampling import REPLICATIONS, estimate, replications, rounded_up, share_estimate
-from gearlink.core.studies.tolerance_study.sensitivity import _indices
+from gearlink.core.studies.tolerance_study.design import _indices
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 

@@ -18,8 +18,8 @@ from gearlink.core.studies.study.faults import WrongStudy
 from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law, normal_between
 from gearlink.core.studies.tolerance.sampling import replication
-from gearlink.core.studies.tolerance_study import allocation
-from gearlink.core.studies.tolerance_study.allocation import Graded, Requirement, choices, drawn_yield, normal_yield
+from gearlink.core.studies.tolerance_study import design as study_module
+from gearlink.core.studies.tolerance_study.design import Graded, Requirement, choices, drawn_yield, normal_yield
 
 GRADES = range(5, 11)
 SIZES = (40.0, 150.0)
@@ -130,8 +130,8 @@ def test_what_the_slopes_allow_and_the_samples_refuse_is_said(monkeypatch: pytes
         tried.append(grades)
         return next(yields)
 
-    monkeypatch.setattr(allocation, "_sampled", sampled)
-    monkeypatch.setattr(allocation, "_expected_to_miss", lambda *_: False)
+    monkeypatch.setattr(study_module, "_sampled", sampled)
+    monkeypatch.setattr(study_module, "_expected_to_miss", lambda *_: False)
     table = study({"law": "uniform"}, samples=256).table_allocation()
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
     first, taken = tried

@@ -17,7 +17,7 @@ from gearlink.core.studies.study.faults import WrongStudy
 from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance_study import design
-from gearlink.core.studies.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
+from gearlink.core.studies.tolerance_study.design import Graded, Requirement, choices, normal_yield
 from gearlink.core.studies.tolerance_study.samples import evaluated
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))

@@ -20,8 +20,8 @@ from sweeps import mostly_slow
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.spec_paths import put
-from gearlink.core.machines.three_gear.samples import over_sorted
-from gearlink.core.studies.tolerance.shares import SEEN
+from gearlink.core.machines.three_gear.register import over_sorted
+from gearlink.core.studies.tolerance.sampling import SEEN
 from gearlink.core.studies.tolerance_study import samples
 from gearlink.core.studies.tolerance_study.samples import judged
 

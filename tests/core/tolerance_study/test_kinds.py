@@ -14,8 +14,7 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import KINDS
-from gearlink.core.studies.tolerance_study.samples import judged_replication
-from gearlink.core.studies.tolerance_study.shares import problem_of, text_of
+from gearlink.core.studies.tolerance_study.samples import judged_replication, problem_of, text_of
 
 NARROW = {"plus_minus": 0.003}
 STUDIES: dict[str, tuple[list[str], str]] = {

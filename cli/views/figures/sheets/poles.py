@@ -37,7 +37,7 @@ def draw(design: ThreeGearFourBar) -> Figure:
 
 def _poles(axes: Axes, design: ThreeGearFourBar, phi: float) -> None:
     """The three poles, the line through them, and the feet of B and D on it."""
-    from gearlink.core.machines.three_gear.poles import poles
+    from gearlink.core.machines.three_gear.mechanism import poles
 
     found = poles(design, np.array([phi]))
     first, second, x = complex(found.first[0]), complex(found.second[0]), float(found.on_frame[0])

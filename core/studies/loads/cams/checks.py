@@ -62,7 +62,7 @@ def load_reversal(design: CamLoadsDesign) -> Iterator[Check]:
     roller = design.section.roller
     if not design.on_two_sides or (roller is not None and roller.preload):
         return
-    from gearlink.core.studies.loads.reversals import places
+    from gearlink.core.studies.loads.joints import places
 
     size = max(abs(high.value) for _, high in design.force_extremes)
     found = [math.degrees(place) for place in places(design.side_force, design.machine, size)]

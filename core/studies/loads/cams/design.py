@@ -1,4 +1,7 @@
-"""What `loads` shows besides of a machine with cams: contact forces, pressures, rollers, the torque of the cams."""
+"""What `loads` shows besides of a machine with cams: contact forces, pressures, rollers, the torque of the cams.
+
+The table `contact` of rollers on cams.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,9 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.studies.loads.cams import checks, tables
+from gearlink.core.studies.loads.cams import checks
 from gearlink.core.studies.loads.design import LoadsDesign
 
 if TYPE_CHECKING:
@@ -16,6 +20,33 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.studies.loads.cams.contact import LineContact, RollerOnCam
     from gearlink.core.studies.loads.design import Wanted
+
+
+_RPM = 2.0 * math.pi / 60.0
+
+
+def contact(design: CamLoadsDesign, samples: int | None = None) -> Table:
+    """Force, pressure, relative radius, roller speed and entrainment of each roller over the input angle."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees(samples, design.turns)
+    phi = np.radians(degrees)
+    columns: dict[str, tuple[Any, str]] = {"cam_angle": (design.cam_degrees(phi), "deg")}
+    for i, name in enumerate(design.own_rollers):
+        roller, line = design.roller_on_cam(name, phi), design.contact(name, phi)
+        none = np.full_like(phi, math.nan)
+        later = "" if i == 0 else f"{name}_"
+        columns |= {
+            f"{name}_force": (design.contact_force(name, phi), "N"),
+            f"{name}_pressure": (none if line is None else line.pressure, "N/mm^2"),
+            f"{name}_radius": (roller.relative_radius, "mm"),
+            f"{later}roller_speed": (design.roller_speed(name, phi) / _RPM, "1/min"),
+            f"{later}entrainment": (design.entrainment(name, phi), "mm/s"),
+        }
+    return Table.of("contact", columns)
+
 
 CONTACT = (
     "contact_force_max",
@@ -33,7 +64,6 @@ CONTACT = (
 )
 _DERIVED = frozenset(CONTACT) - {"contact_force_max", "contact_force_min", "hertz_pressure_max"}
 _OF_EXTREMES = frozenset(CONTACT) - {"traction_needed", "cam_torque_rms", "preload_needed"}
-_RPM = 2.0 * math.pi / 60.0
 
 
 class CamLoadsDesign(LoadsDesign):
@@ -279,7 +309,7 @@ class CamLoadsDesign(LoadsDesign):
         """Force of a follower between two cams [N], positive on the main cam; of those `on_two_sides`."""
         raise NotImplementedError
 
-    table_contact: Any = tables.contact
+    table_contact: Any = contact
 
     check_contact_pressure, check_contact_loss = checks.contact_pressure, checks.contact_loss
     check_roller_skid, check_preload = checks.roller_skid, checks.preload
