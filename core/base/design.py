@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import count
 from operator import index
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, TypeVar
 
 from gearlink.core.base.errors import GearlinkError, named
 from gearlink.core.base.key_results import Key, key_results
@@ -48,11 +48,17 @@ class Found(NamedTuple):
     why: str = ""
 
 
+Made = TypeVar("Made", bound="Design")
+
+
 class Kin(Protocol):
     """The designs of one file: what makes that of any command which it asks for."""
 
     def of(self, command: str) -> Design:
         """The design that serves a command, the same one each time while it is in use."""
+
+    def of_class(self, cls: type[Made], spec: Any) -> Made:
+        """The design of a class, the same one each time while it is in use; another one for another spec."""
 
     def changed(self, spec: Any) -> Kin:
         """The designs of another file of the kind."""
@@ -125,6 +131,10 @@ class Design:
         """What judging the design takes, as far as that is known, that of most being 1 (0.7 ms): by what there is to
         compute, not by a clock. As many changes are tried for a finding as take a tenth of a second or so."""
         return 1.0
+
+    def of_file(self, cls: type[Made], /) -> Made:
+        """The design of another class for the same spec: of a file's designs the one that its other commands have."""
+        return cls(self.spec) if self.kin is None else self.kin.of_class(cls, self.spec)
 
     @cached_property
     def moving(self) -> Motion:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakValueDictionary
 
 if TYPE_CHECKING:
-    from gearlink.core.base.design import Design
+    from gearlink.core.base.design import Design, Made
     from gearlink.core.base.design_axis import Maker
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Motion
@@ -136,7 +136,13 @@ class FileDesigns:
 
     def of(self, command: str) -> Design:
         """The design that serves a command."""
-        cls = self._kind.class_for(command, self._spec)
+        found: Design = self.of_class(self._kind.class_for(command, self._spec), self._spec)
+        return found
+
+    def of_class(self, cls: type[Made], spec: Any) -> Made:
+        """The design of a class, that of a command or the geometry of one; one of its own for a completed spec."""
+        if spec is not self._spec:
+            return cls(spec)
         design = self._made.get(cls)
         if design is None:
             design = self._made[cls] = cls(self._spec)

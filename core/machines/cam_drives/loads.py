@@ -86,7 +86,7 @@ class CamGearLoads(_OfCams):
     @cached_property
     def design(self) -> CamGear:
         """The geometry."""
-        return CamGear(self.spec)
+        return self.of_file(CamGear)
 
 
 class CamLinkageLoads(_OfCams):
@@ -102,7 +102,7 @@ class CamLinkageLoads(_OfCams):
     @cached_property
     def design(self) -> CamLinkage:
         """The geometry."""
-        return CamLinkage(self.spec)
+        return self.of_file(CamLinkage)
 
 
 class LinkedCamsLoads(_OfCams):
@@ -119,4 +119,4 @@ class LinkedCamsLoads(_OfCams):
     @cached_property
     def design(self) -> LinkedCams:
         """The geometry."""
-        return LinkedCams(self.spec)
+        return self.of_file(LinkedCams)

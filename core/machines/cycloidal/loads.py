@@ -43,7 +43,7 @@ class ReducerLoads(LoadsDesign):
     @cached_property
     def design(self) -> CycloidalReducer:
         """The geometry."""
-        return CycloidalReducer(self.spec)
+        return self.of_file(CycloidalReducer)
 
     @property
     def own_links(self) -> tuple[str, ...]:

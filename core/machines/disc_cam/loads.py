@@ -257,7 +257,7 @@ class DiscCamLoads(FollowerCamLoads, CamLoadsDesign):
     @cached_property
     def design(self) -> DiscCamDesign:
         """The geometry."""
-        return DiscCamDesign(self.spec)
+        return self.of_file(DiscCamDesign)
 
 
 class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):
@@ -271,7 +271,7 @@ class MeasuredCamLoads(FollowerCamLoads, CamLoadsDesign):
         """The geometry, by the motion of the profile."""
         from gearlink.core.machines.disc_cam.measured import MeasuredCamDesign
 
-        return MeasuredCamDesign(self.spec)
+        return self.of_file(MeasuredCamDesign)
 
 
 class FaceOnCam:

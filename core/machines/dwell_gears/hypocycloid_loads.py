@@ -25,7 +25,7 @@ class HypocycloidDwellLoads(LoadsDesign):
     @cached_property
     def design(self) -> HypocycloidDwell:
         """The geometry."""
-        return HypocycloidDwell(self.spec)
+        return self.of_file(HypocycloidDwell)
 
     @property
     def own_links(self) -> tuple[str, ...]:

@@ -41,7 +41,7 @@ class MutilatedGearLoads(LoadsDesign):
     @cached_property
     def design(self) -> MutilatedGearDwell:
         """The geometry."""
-        return MutilatedGearDwell(self.spec)
+        return self.of_file(MutilatedGearDwell)
 
     @cached_property
     def linkage(self) -> FourBar:

@@ -31,7 +31,7 @@ class FiveBarLoads(LoadsDesign):
     @cached_property
     def design(self) -> GearedFiveBar:
         """The geometry."""
-        return GearedFiveBar(self.spec)
+        return self.of_file(GearedFiveBar)
 
     @cached_property
     def has_idler(self) -> bool:

@@ -137,7 +137,7 @@ class PressLoads(CamLoadsDesign):
     @cached_property
     def design(self) -> FlatbedPress:
         """The geometry."""
-        return FlatbedPress(self.spec)
+        return self.of_file(FlatbedPress)
 
     @property
     def given_speed(self) -> float:

@@ -57,7 +57,7 @@ class PressRegister(RegisterDesign):
     @cached_property
     def design(self) -> FlatbedPress:
         """The press."""
-        return FlatbedPress(self.spec)
+        return self.of_file(FlatbedPress)
 
     @property
     def parts(self) -> Parts:

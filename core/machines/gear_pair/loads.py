@@ -34,7 +34,7 @@ class GearPairLoads(LoadsDesign):
     @cached_property
     def design(self) -> GearPairDesign:
         """The geometry."""
-        return GearPairDesign(self.spec)
+        return self.of_file(GearPairDesign)
 
     @property
     def pair(self) -> GearPair:

@@ -41,7 +41,7 @@ class GenevaLoads(LoadsDesign):
     @cached_property
     def design(self) -> GenevaDrive:
         """The geometry."""
-        return GenevaDrive(self.spec)
+        return self.of_file(GenevaDrive)
 
     @property
     def transmission_angle(self) -> float | None:

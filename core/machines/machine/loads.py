@@ -227,7 +227,7 @@ class MachineLoads(OfMembers, LoadsDesign):
     @cached_property
     def design(self) -> Machine:
         """Timing and members."""
-        return Machine(self.spec)
+        return self.of_file(Machine)
 
     @property
     def members(self) -> Any:

@@ -54,7 +54,7 @@ class RegisterOfMachine(Design):
     @cached_property
     def design(self) -> Machine:
         """Timing and members."""
-        return Machine(self.spec)
+        return self.of_file(Machine)
 
     @cached_property
     def section(self) -> MachineRegister:

@@ -63,7 +63,7 @@ class PlanarLoads(LoadsDesign):
     @cached_property
     def design(self) -> PlanarMechanism:
         """The geometry."""
-        return PlanarMechanism(self.spec)
+        return self.of_file(PlanarMechanism)
 
     @property
     def own_names(self) -> tuple[str, ...]:

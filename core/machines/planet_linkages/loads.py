@@ -46,7 +46,7 @@ class TwoGearLoads(PlanetLinkageLoads):
     @cached_property
     def design(self) -> TwoGearFourBar:
         """The geometry."""
-        return TwoGearFourBar(self.spec)
+        return self.of_file(TwoGearFourBar)
 
     @cached_property
     def turns(self) -> int:
@@ -88,4 +88,4 @@ class GearedRockerLoads(PlanetLinkageLoads):
     @cached_property
     def design(self) -> GearedRocker:
         """The geometry."""
-        return GearedRocker(self.spec)
+        return self.of_file(GearedRocker)

@@ -35,6 +35,8 @@ class SixBarLoads(LoadsDesign):
     @cached_property
     def design(self) -> GearedSixBar:
         """The geometry over its whole period, whatever the range."""
+        if self.spec.range is None:
+            return self.of_file(GearedSixBar)
         return GearedSixBar(self.spec.model_copy(update={"range": None}))
 
     @cached_property

@@ -25,7 +25,7 @@ class SliderCrankLoads(LoadsDesign):
     @cached_property
     def design(self) -> SliderCrankDesign:
         """The geometry."""
-        return SliderCrankDesign(self.spec)
+        return self.of_file(SliderCrankDesign)
 
     @property
     def own_links(self) -> tuple[str, ...]:

@@ -46,7 +46,7 @@ class GripperLoads(CamLoadsDesign):
     @cached_property
     def design(self) -> SwingGripper:
         """The geometry."""
-        return SwingGripper(self.spec)
+        return self.of_file(SwingGripper)
 
     @property
     def given_speed(self) -> float:

@@ -56,7 +56,7 @@ class GripperRegister(RegisterDesign):
     @cached_property
     def design(self) -> SwingGripper:
         """The gripper."""
-        return SwingGripper(self.spec)
+        return self.of_file(SwingGripper)
 
     @property
     def parts(self) -> Parts:

@@ -33,7 +33,7 @@ class ThreeGearLoads(LoadsDesign):
     @cached_property
     def design(self) -> ThreeGearFourBar:
         """The geometry."""
-        return ThreeGearFourBar(self.spec)
+        return self.of_file(ThreeGearFourBar)
 
     @cached_property
     def turns(self) -> int:

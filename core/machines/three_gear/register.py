@@ -710,7 +710,7 @@ class ThreeGearRegister(RegisterDesign):
     @cached_property
     def design(self) -> ThreeGearFourBar:
         """The drive."""
-        return ThreeGearFourBar(self.spec)
+        return self.of_file(ThreeGearFourBar)
 
     @cached_property
     def parts(self) -> Parts:

@@ -641,7 +641,7 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def design(self) -> WideSwingDesign:
         """The geometry."""
-        return WideSwingDesign(self.spec)
+        return self.of_file(WideSwingDesign)
 
     @property
     def cam(self) -> AnyCam:

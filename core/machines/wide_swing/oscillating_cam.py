@@ -315,8 +315,15 @@ class OscillatingCam:
         """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
         return self._stop(self.middle)[0]
 
+    @cached_property
+    def _stops(self) -> dict[float, tuple[float, float]]:
+        return {k: self._stop_at(k) for k in (0.0, self.middle, 1.0)}
+
     def _stop(self, k: float) -> tuple[float, float]:
         """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
+        return self._stops[k]
+
+    def _stop_at(self, k: float) -> tuple[float, float]:
         _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
         swing, r = self.law.swing, self.ratio
         view = self.law.middle_view(np.array([k]))

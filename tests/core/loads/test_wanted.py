@@ -62,3 +62,15 @@ def test_findings_compute_no_quantity_that_no_check_looks_at() -> None:
     )
     peaks = {course for course, _ in loads._found if course.startswith("pin_")}
     assert peaks == {f"pin_{name}" for name in loads.section.bearings}
+
+
+def test_the_commands_of_a_file_share_its_geometry() -> None:
+    """What `swing` has found of the cams is not sought again by `loads`; a design by itself makes its own."""
+    from gearlink.core.base.kind import FileDesigns
+    from gearlink.core.base.kinds import KINDS
+
+    spec = design("loaded_wide_swing", command="loads").spec
+    designs = FileDesigns(KINDS[spec.kind], spec)
+    geometry, loads = designs.of("swing"), designs.of("loads")
+    assert loads.design is geometry  # type: ignore[attr-defined]
+    assert design("loaded_wide_swing", command="loads").design is not geometry
