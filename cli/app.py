@@ -225,11 +225,12 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
     complete(wrong, arguments, _tree())
     message = wrong.format_message()
     if not _wants_json(arguments):
+        wrong.message = wrong.message.replace("\n", "\n  help: ", 1)
         show = getattr(wrong, "show", None)  # errors of usage know the command's usage line
         if show is not None:
             show(file=sys.stderr)
         else:
-            typer.echo(f"error: {message}", err=True)
+            typer.echo(f"error: {wrong.format_message()}", err=True)
         return ExitCode.WRONG_INPUT
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import errors_as_json

@@ -93,11 +93,11 @@ def require_free(path: Path, option: str, *, force: bool) -> None:
     if not os.path.exists(path):
         return
     if os.path.isdir(path):
-        raise CannotWrite(f"{path} is a folder: give {option} the name of a file in it")
+        raise CannotWrite(f"{path} is a folder\ngive {option} the name of a file in it")
     if not os.path.isfile(path):
-        raise CannotWrite(f"{path} is no plain file: give another {option}, - for standard output")
+        raise CannotWrite(f"{path} is no plain file\ngive another {option}, - for standard output")
     if not force:
-        raise CannotWrite(f"{path} is there already: give another {option}, or --force to overwrite it")
+        raise CannotWrite(f"{path} exists already\ngive another {option}, or --force to overwrite it")
 
 
 def require_folder(path: Path) -> None:

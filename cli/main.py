@@ -163,12 +163,13 @@ def _fault(fault: Exception) -> int:
         print(f"error: {visible(f'{where}{fault.strerror or fault}')}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if isinstance(fault, MemoryError):
-        print("error: out of memory: take fewer rows, samples or processes, or raise the limit", file=sys.stderr)
+        print("error: out of memory\n  help: reduce rows, samples or --jobs, or raise the limit", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     from gearlink.cli.files import CannotWrite
 
     if isinstance(fault, CannotWrite):
-        print(f"error: {visible(str(fault))}", file=sys.stderr)
+        what, _, remedy = str(fault).partition("\n")
+        print(f"error: {visible(what)}" + (f"\n  help: {visible(remedy)}" if remedy else ""), file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if os.environ.get("GEARLINK_TRACEBACK"):
         import traceback

@@ -209,7 +209,7 @@ def _text(value: Any, key: str, indent: int | None = None) -> str:
     try:
         return json.dumps(value, indent=indent, default=_as_python)
     except _NoValue as error:
-        refusal = f"is of type {error}, which no design file can hold: give a number, text, a list or a dict"
+        refusal = f"is of type {error}, which no design file can hold\ngive a number, text, a list or a dict"
     except TypeError:
         refusal = "has a section whose keys are not text"
     except (ValueError, RecursionError):

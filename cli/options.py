@@ -24,7 +24,7 @@ def file(text: str) -> Path:
         ValueError - for an empty one, which a variable of a script leaves that is not set
     """
     if not text:
-        raise ValueError("the name is empty: give a file")
+        raise ValueError("the name is empty\ngive a file")
     path = Path(text)
     return path.absolute() if path == STREAM and text != "-" else path
 
@@ -45,7 +45,7 @@ def folder(text: str) -> Path:
         ValueError - for an empty one, and for `-`
     """
     if not text:
-        raise ValueError("the name is empty: give a folder, . for the current one")
+        raise ValueError("the name is empty\ngive a folder, . for the current one")
     return _no_stream(file(text), "folder")
 
 

@@ -49,26 +49,26 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     command: Any = getattr(getattr(wrong, "ctx", None), "command", None)
     message = str(getattr(wrong, "message", ""))
     if command is not None and (long := _with_one_dash(arguments, command)):
-        wrong.message = f"{message.removeprefix('Value error, ').rstrip('.')}; give -{long}, with two dashes"
+        wrong.message = f"{message.removeprefix('Value error, ').rstrip('.')}\ngive -{long}, with two dashes"
         if hasattr(wrong, "possibilities"):
             wrong.possibilities = None
     elif hasattr(wrong, "possibilities"):
         remedy = _of_option(wrong.option_name, arguments, command, tree)
         if remedy:
-            wrong.message, wrong.possibilities = f"{message}; {remedy}", None
+            wrong.message, wrong.possibilities = f"{message}\n{remedy}", None
     elif hasattr(wrong, "param_type"):
         wrong.message = message or str(getattr(wrong.param, "help", "") or "")
     elif getattr(wrong, "param", None) is not None:
         wrong.message = _of_value(wrong, arguments, command, tree)
     elif command is tree and (gone := _NO_MORE.get(message.removeprefix("No such command '").partition("'")[0])):
-        wrong.message = f"{message.partition('.')[0]}; {gone}"
+        wrong.message = f"{message.partition('.')[0]}\n{gone}"
     elif message.startswith("No such command") and "Did you mean" not in message:
         remedy = _of_command(message.split("'")[1], command, tree)
-        wrong.message = f"{message.rstrip('.')}; {remedy}" if remedy else message
+        wrong.message = f"{message.rstrip('.')}\n{remedy}" if remedy else message
     elif message.startswith("Got unexpected extra") and command.name == "laws":
-        wrong.message = f"{message}; {of_law(message.rpartition('(')[2].rstrip(').').split(' ')[0])}"
+        wrong.message = f"{message}\n{of_law(message.rpartition('(')[2].rstrip(').').split(' ')[0])}"
     elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
-        wrong.message = f"{message}; {command.name} takes one file, `gearlink batch` and `gearlink check` several"
+        wrong.message = f"{message}\n{command.name} takes one file, `gearlink batch` and `gearlink check` several"
 
 
 # Options
@@ -155,7 +155,7 @@ def _of_value(wrong: Any, arguments: Sequence[str], command: Any, tree: Any) -> 
     if message.startswith("Input should be") and value:
         return f"{value!r} is not {_number(wrong.param)}{_in_digits(value, wrong.param)}"
     remedy = _writer(value, command, tree) if value and _values(wrong.param) else ""
-    return f"{message}; {remedy}" if remedy else message
+    return f"{message}\n{remedy}" if remedy else message
 
 
 def _number(param: Any) -> str:
@@ -175,7 +175,7 @@ def _in_digits(value: str, param: Any) -> str:
     except ValueError:
         return ""
     low, high = (end if end is not None else number for end in (param.min, param.max))
-    return f"; write {number:.0f}" if number.is_integer() and low <= number <= high else ""
+    return f"\nwrite {number:.0f}" if number.is_integer() and low <= number <= high else ""
 
 
 def _with_one_dash(arguments: Sequence[str], command: Any) -> str:

@@ -116,7 +116,7 @@ def _folder(out: Path, parts: Sequence[str]) -> Path:
                 folder.mkdir()
             if not stat.S_ISDIR(folder.lstat().st_mode):
                 what = "a symbolic link, which results do not follow" if folder.is_symlink() else "no folder"
-                raise CannotWrite(f"cannot write below {folder}: it is {what}; remove it or choose another --out")
+                raise CannotWrite(f"cannot write below {folder}: it is {what}\nremove it, or give another --out")
     except OSError as error:
         raise CannotWrite(f"cannot write {folder}: {error.strerror or error}") from error
     return folder

@@ -125,8 +125,8 @@ def _vibrations(asked: Asked, options: Options) -> tuple[str, list[Vibration]]:
             raise wrong_kind(loaded, f"a {kind.name} has no motion laws, of which the chart residual is")
         found = design.vibrations(asked.samples - 1)
         if not found:
-            words = "no law of this file has natural periods: give loads.vibration.frequency, or frequency and time"
-            raise NoSolution(f"{words} of the law, and the speed")
+            fix = "give loads.vibration.frequency and the speed, or frequency and time of the law"
+            raise NoSolution("no law of this file has natural periods", fix=fix)
     return spec.name, found
 
 

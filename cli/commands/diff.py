@@ -216,9 +216,11 @@ def compared(before: Side, after: Side, files: tuple[str, str], tolerance: float
     """
     old, new = files
     if bool(before.inputs) != bool(after.inputs):
-        raise incomparable(new, "one file is a design, the other a result: give two of a sort")
+        raise incomparable(new, "one file is a design, the other a result\ngive two designs or two results")
     if before.kind != after.kind:
-        raise incomparable(new, f"a {before.kind} and a {after.kind} cannot be compared: give two of one kind")
+        raise incomparable(
+            new, f"a {before.kind} and a {after.kind} cannot be compared\ngive two files of the same kind"
+        )
     found = Difference(old, new, tolerance)
     units = {**before.units, **after.units}
     for path in _union(before.inputs, after.inputs):

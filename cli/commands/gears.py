@@ -98,7 +98,9 @@ def gears(
         least_teeth=least_teeth,
     )
     if internal and ratio <= 1.0:
-        raise typer.BadParameter("a ring has more teeth than its pinion: give a ratio above 1", param_hint="--ratio")
+        raise typer.BadParameter(
+            "a ring gear has more teeth than its pinion\ngive a ratio above 1", param_hint="--ratio"
+        )
     raise typer.Exit(run_gears(task, options, carried, sought=center_distance is None))
 
 
@@ -114,12 +116,14 @@ def _carried(torque: float, speed: float, life: float, material: str, *rest: Any
 
             near = get_close_matches(name, MATERIALS, 1, 0.6)
             text = f"did you mean {near[0]}?" if near else f"known are {', '.join(STEELS)}"
-            raise typer.BadParameter(f"no material is called {name}: {text}", param_hint="--material")
+            raise typer.BadParameter(f"no material is called {name}\n{text}", param_hint="--material")
         if name in CLASSES and CLASSES[name].needs_hardness:
-            text = f"the strength of {name} depends on its hardness: name a steel ({', '.join(STEELS)})"
+            text = f"the strength of {name} depends on its hardness\nname a steel: {', '.join(STEELS)}"
             raise typer.BadParameter(text, param_hint="--material")
     if len(names) > 2:
-        raise typer.BadParameter("give one steel, or one for each of the two gears", param_hint="--material")
+        raise typer.BadParameter(
+            f"{len(names)} materials for 2 gears\ngive one steel, or one for each gear", param_hint="--material"
+        )
     application, grade, vg, crowned, width_ratio = rest
     return Carried(
         torque=torque,

@@ -48,9 +48,9 @@ def laws(
     if spec and spec != STREAM.name and not Path(spec).suffix and not Path(spec).exists():
         from gearlink.cli.usage_errors import of_law
 
-        raise typer.BadParameter(f"no such file: {of_law(spec)}", param_hint=spec)
+        raise typer.BadParameter(f"no such file\n{of_law(spec)}", param_hint=spec)
     if spec and law:
-        raise typer.BadParameter("a design file names its law: omit --law, or the file", param_hint="--law")
+        raise typer.BadParameter("a design file names its law\nomit --law, or the file", param_hint="--law")
     if not spec:
         for name in _OF_FILES:
             if getattr(options, name) != getattr(Options(), name):

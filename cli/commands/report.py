@@ -121,7 +121,7 @@ def run_report(source: str, options: Options, asked: Asked | None = None) -> int
     asked = asked or Asked()
     try:
         if asked.show and asked.format == "pdf":
-            message = f"--show {asked.show} is for the animation, which a pdf has not: take --format html"
+            message = f"--show {asked.show} is for the animation, which a pdf does not have\ngive --format html"
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--show")])
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)

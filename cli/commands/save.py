@@ -91,7 +91,7 @@ def _as_rounded(kind: Kind, command: str, text: str, options: Options) -> Design
         _failing(design, command)
     except (DesignFileError, NoSolution) as error:
         reason = error.message if isinstance(error, NoSolution) else error.diagnostics[0].message
-        words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}; take a smaller step"
+        words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}\ngive a smaller --round"
         raise DesignFileError([Diagnostic("GL115", words, file="<command line>", key="--round")]) from error
     return design
 

@@ -168,16 +168,16 @@ def _scale(scale: str | None, paper: str | None, names: Sequence[str]) -> Scale 
 
     message = ""
     if scale is None:
-        message = "--paper goes with --scale: give --scale 1, or 1:2"
+        message = "--paper without --scale\ngive --scale 1, or 1:2"
     elif not names or any(name.rpartition("-")[0] != "drawing" and name != "drawing" for name in names):
-        message = "--scale is that of cams: name the sheet drawing, or drawing-1"
+        message = "--scale is for drawings of cams alone\nname the sheet drawing, or drawing-1"
     else:
         one, _, reduction = scale.partition(":")
         with suppress(ValueError):
             value = float(reduction or "1")
             if one == "1" and 0.01 <= value <= 1000.0:
                 return Scale(value, paper or "")
-        message = f"--scale {scale} is none: write 1, or 1:2 for half the size (1:N, N from 0.01 to 1000)"
+        message = f"--scale {scale} is no scale\ngive 1, or 1:2 for half the size (1:N, N from 0.01 to 1000)"
     raise DesignFileError([Diagnostic("GL115", message, "<command line>", key="--scale" if scale else "--paper")])
 
 

@@ -122,7 +122,7 @@ def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
         server = _Server((LOOPBACK, port), _handler(board, shell))
     except OSError as error:
         raise CannotWrite(
-            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}; choose another --port"
+            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}\ngive another --port"
         ) from error
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()

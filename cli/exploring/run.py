@@ -329,7 +329,7 @@ def run_explore(asked: Exploring) -> int:
 def _run(asked: Exploring) -> int:
     if asked.show and (asked.write is not None or asked.options.plot):
         other = "--plot" if asked.write is None else "--write"
-        raise _usage(f"--show prints one design and writes no file: omit {other}, or --show", "--show")
+        raise _usage(f"--show prints one design and writes no file\nomit {other}, or --show", "--show")
     for folder in (asked.write, asked.options.out if asked.options.plot else None):
         if folder is not None:
             require_folder(folder)

@@ -140,7 +140,7 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
         return contours[asked.curve]
     made = [contour for contour in contours[CurveForm.SPLINE] if not _is_path(contour)]
     if not made:
-        raise GearlinkError("a path is no body: take dxf, svg or csv")
+        raise GearlinkError("a path is no solid\ngive --as dxf, svg or csv")
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
 
@@ -219,7 +219,7 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
         return _svg(design), f"{points} points of {len(design.contour.lines)} lines"
     if form is FileFormat.CSV:
         return _csv(design), f"{points} points of {len(design.contour.lines)} lines"
-    raise NoContourFile(f"the blocking contour is no profile for {form}: take --as svg or --as csv")
+    raise NoContourFile(f"the blocking contour is no profile for {form}\ngive --as svg or --as csv")
 
 
 def _svg(design: Any) -> bytes:

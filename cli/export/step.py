@@ -87,11 +87,11 @@ def width_of(contour: Contour, width: float | None) -> float:
     part = contour.part
     if not part.closed or len(contour.lines) == 0 or not contour.lines[0].closed:
         raise NoStep(
-            f"the profile of {part.name} is open, a solid needs a closed one: take another --part, or --as dxf"
+            f"the profile of {part.name} is open, a solid needs a closed one\ngive another --part, or --as dxf"
         )
     across = part.width if width is None else width
     if across is None:
-        raise NoStep(f"a solid of {part.name} needs a width: give --width MM, or face_width in the file of a gear pair")
+        raise NoStep(f"a solid of {part.name} needs a width\ngive --width MM, or face_width in the file of a gear pair")
     return across
 
 
@@ -165,7 +165,7 @@ class _Occ:
             sewing.Add(self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(cylinder, 0.0, 2.0 * math.pi, 0.0, width).Face())
         sewing.Perform()
         if sewing.NbFreeEdges():
-            raise NoStep(f"the faces of the solid leave {sewing.NbFreeEdges()} gaps: take a finer --tolerance")
+            raise NoStep(f"the faces of the solid leave {sewing.NbFreeEdges()} gaps\ngive a smaller --tolerance")
         shell = _static(self.TopoDS.TopoDS, "Shell")(sewing.SewedShape())
         solid = self.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(shell).Solid()
         _static(self.BRepLib.BRepLib, "OrientClosedSolid")(solid)
@@ -296,6 +296,6 @@ def turning(angle: float, tolerance: float) -> Turning:
             return Turning(knots, control, heights, float(np.abs(off).max()))
         spans *= 2
     raise TooLong(
-        f"a helical gear that turns by {math.degrees(abs(angle)):.4g} deg over its width is too long for a file: "
-        "give a smaller --width, or a coarser --tolerance"
+        f"a helical gear that turns by {math.degrees(abs(angle)):.4g} deg over its width is too long for a file"
+        "\ngive a smaller --width, or a larger --tolerance"
     )

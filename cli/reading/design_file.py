@@ -51,7 +51,7 @@ def load(
     """
     name = "<stdin>" if source == "-" else os.fspath(source)
     if source != "-" and is_named_pipe(name):
-        message = "a pipe, for whose writer nothing waits here: give - and the pipe as standard input"
+        message = "a named pipe is not read\ngive - and the pipe as standard input"
         raise DesignFileError([Diagnostic("GL101", message, name)])
     if target := astray(name):
         message = f"a link to {target}, which is no design file ({', '.join(ENDINGS)})"
@@ -514,7 +514,7 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
             raise _NoPlace(f"{name} has {amount(len(node), 'element')}, counted from [0]")
         return [*node[:step], _with(node[step], rest, value, inner), *node[step + 1 :]]
     if node is not None and not isinstance(node, dict):
-        wanted = f": write {name}[{step}]" if isinstance(node, list) and step.isdecimal() and step.isascii() else ""
+        wanted = f"\nwrite {name}[{step}]" if isinstance(node, list) and step.isdecimal() and step.isascii() else ""
         raise _NoPlace(f"{name} is not a section, so it has no key '{step}'{wanted}")
     section = {} if node is None else node
     return {**section, step: _with(section.get(step), rest, value, inner)}

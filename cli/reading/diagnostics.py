@@ -20,7 +20,8 @@ _BREAK = re.compile(r"\r\n?|\n")
 class Diagnostic:
     """One error of a design file; line and column count from 1, `source` is the whole line they lie in.
 
-    An error has `help` where it is known, the finding of a check its fix and its notes.
+    An error has `help` where it is known, the finding of a check its fix and its notes. A message of two lines is
+    what is wrong and its help.
     """
 
     code: str
@@ -34,6 +35,12 @@ class Diagnostic:
     severity: str = "error"
     fix: str = ""
     note: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        what, _, below = self.message.partition("\n")
+        if below and not self.help:
+            object.__setattr__(self, "message", what)
+            object.__setattr__(self, "help", below)
 
     @property
     def lines(self) -> tuple[str, ...]:

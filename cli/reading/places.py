@@ -87,7 +87,7 @@ def _matched(pattern: str) -> list[Path]:
     try:
         return sorted(Path(name) for name in glob.glob(pattern, recursive=True))
     except RecursionError:
-        message = "the folders are too deep for a pattern: name the folder itself"
+        message = "the folders are too deep for a pattern\nname the folder itself"
         raise DesignFileError([Diagnostic("GL101", message, file=pattern)]) from None
 
 

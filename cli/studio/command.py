@@ -98,7 +98,7 @@ def _listening(port: int) -> socket.socket:
         made = socket.create_server((LOOPBACK, port))
     except OSError as error:
         raise CannotWrite(
-            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}; choose another --port"
+            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}\ngive another --port"
         ) from error
     return made
 

@@ -52,7 +52,7 @@ def with_value(text: str, path: KeyPath, value: Any, *, as_written: bool = False
     if value is None:
         return text
     if not isinstance(node, yaml.MappingNode) or not all(isinstance(step, str) for step in rest):
-        raise CannotPlace(f"{format_path(path)} is not in the file: type it")
+        raise CannotPlace(f"{format_path(path)} is not in the file\ntype it")
     for step in reversed(rest[1:]):
         value = {step: value}
     return _added(text, node, str(rest[0]), value, root is node)

@@ -46,7 +46,7 @@ class NoSolution(GearlinkError):
 
     `message` names the value and the limit, `fix` the change that would help, in the imperative. `key` is the dotted
     path of the design file's key to change; kernels, which know no design files, leave it empty and the design class
-    adds it with `at_key`.
+    adds it with `at_key`. A message of two lines is message and fix.
     """
 
     code = "GL112"
@@ -55,9 +55,9 @@ class NoSolution(GearlinkError):
 
     def __init__(self, message: str, *, key: str = "", fix: str = "") -> None:
         super().__init__(message)
-        self.message = message
+        self.message, _, below = message.partition("\n")
         self.key = key
-        self.fix = fix
+        self.fix = fix or below
 
     def __str__(self) -> str:
         return f"{self.message}; {self.fix}" if self.fix else self.message

@@ -9,6 +9,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.base.wording import apart
+
 if TYPE_CHECKING:
     from gearlink.core.base.report import Column
 
@@ -111,8 +113,9 @@ def other_speed(given: float | None, found: float) -> str:
 
     Example
         >>> other_speed(200.0, 200.0), other_speed(None, 200.0), other_speed(180.0, 200.0)
-        ('', '', 'input_speed is 180 rev/min, but speed: {min, max} requires 200 rev/min: omit it')
+        ('', '', 'input_speed: 180 rev/min (required by speed.min and speed.max: 200 rev/min)\\nomit input_speed')
     """
     if given is None or abs(given - found) <= 1e-9 * abs(found):
         return ""
-    return f"input_speed is {given:.9g} rev/min, but speed: {{min, max}} requires {found:.9g} rev/min: omit it"
+    now, required = apart(given, found)
+    return f"input_speed: {now} rev/min (required by speed.min and speed.max: {required} rev/min)\nomit input_speed"

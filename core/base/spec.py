@@ -48,13 +48,13 @@ MOST_NAME = 200
 
 def _fit_to_print(name: str) -> str:
     if len(name) > MOST_NAME:
-        raise PydanticCustomError("GL108", f"name has {len(name)} characters: shorten it to {MOST_NAME}")
+        raise PydanticCustomError("GL108", f"name has {len(name)} characters (limit <= {MOST_NAME})\nshorten it")
     if name.isprintable():
         return name
     import unicodedata
 
     if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
-        message = f"name holds the control character U+{ord(wrong):04X}: take it out"
+        message = f"name holds the control character U+{ord(wrong):04X}\nremove it"
         raise PydanticCustomError("GL108", message)
     return name
 

@@ -22,6 +22,7 @@ def amount(count: float, one: str, many: str = "", spec: str = "") -> str:
 
 DIGITS = 4
 """Significant digits of a number in a message."""
+_MOST_IN_FULL = 1e7
 _TYPED, _NOISE = 6, 1e-12
 """A limit of no more digits, but for rounding, is one that somebody wrote, and is shown as it stands."""
 
@@ -49,8 +50,16 @@ def short(value: float, digits: int = DIGITS) -> str:
 
 
 def plain(value: float) -> str:
-    """A rounded number without needless zeros."""
-    return f"{value + 0.0:.12g}"
+    """A rounded number without needless zeros, from ten million on with an exponent.
+
+    Example
+        >>> plain(10410.0), plain(1338000000.0), plain(-0.0)
+        ('10410', '1.338e9', '0')
+    """
+    if not _MOST_IN_FULL <= abs(value) < math.inf:
+        return f"{value + 0.0:.12g}"
+    mantissa, exponent = f"{value:.11e}".split("e")
+    return f"{mantissa.rstrip('0').rstrip('.')}e{int(exponent)}"
 
 
 def directed(value: float, way: int, digits: int = DIGITS) -> float:
@@ -104,6 +113,16 @@ def apart(one: float, other: float) -> tuple[str, str]:
         if one == other or short(one, digits) != short(other, digits):
             return short(one, digits), short(other, digits)
     return repr(one), repr(other)
+
+
+def unlike(value: float, other: float) -> str:
+    """A number to as many digits as tell it from another, at least four.
+
+    Example
+        >>> unlike(1.00001, 1.0), unlike(114.8527, 40.0)
+        ('1.00001', '114.9')
+    """
+    return apart(value, other)[0]
 
 
 def within(low: float, high: float, unit: str) -> str:

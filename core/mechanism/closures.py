@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.mechanism.rates import Point, Turn, cross, dot
 
 
@@ -38,7 +39,9 @@ def dyad(start: Point, end: Point, first: float, second: float, side: int) -> tu
     near, far = (n - first + second) * (n + first - second), (first + second - n) * (first + second + n)
     if not np.all((near > 0.0) & (far > 0.0)):
         row = int(np.argmin(np.minimum(near, far)))
-        raise NoSolution(f"two links of {first:.6g} and {second:.6g} mm do not close over {n[row]:.6g} mm")
+        raise NoSolution(
+            f"two links of {short(first)} and {short(second)} mm do not close over {unlike(n[row], first + second)} mm"
+        )
     along = 0.5 * (n + (first - second) * (first + second) / n)
     pin = way / n * (along + 0.5j * side * np.sqrt(near * far) / n)
     e2, e3 = pin / first, (pin - way) / second
@@ -76,7 +79,7 @@ def slider(pin: Point, rod: float, place: complex, along: complex) -> tuple[Turn
     local = np.conj(along) * (pin.value - place)
     sine = -local.imag / rod
     if not np.all(np.abs(sine) < 1.0):
-        raise NoSolution(f"a rod of {rod:.6g} mm does not reach the slide line")
+        raise NoSolution(f"a rod of {short(rod)} mm does not reach the slide line")
     cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
     psi, x = [np.angle(along) + np.arcsin(sine)], [local.real + rod * cosine]
     if pin.order > 0:

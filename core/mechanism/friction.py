@@ -41,8 +41,9 @@ _SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
 LOCKS = 0.9
 """A mechanism of which a pass leaves more of a change counts as self-locking."""
 LOCKED = (
-    "with this friction the mechanism locks itself: the forces grow from pass to pass; make pins thinner, or friction "
-    "smaller"
+    "with this friction the mechanism is self-locking: the forces grow from pass to pass\nreduce friction, or the "
+    "radii "
+    "of the pins"
 )
 
 

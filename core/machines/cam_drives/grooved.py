@@ -12,6 +12,7 @@ from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, within
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.spec import CamGearSpec, CamLinkageSpec
@@ -224,9 +225,8 @@ class CamGear(Grooved):
         if over >= low.value - _IN_LINE:
             raise NoSolution(
                 (
-                    "the lever becomes collinear with its carrier: its angle runs from "
-                    f"{math.degrees(low.value):.6g} to {math.degrees(top.value):.6g} deg, over "
-                    f"{math.degrees(over):.6g} deg"
+                    f"angle of the lever: {short(math.degrees(low.value))} to {short(math.degrees(top.value))} deg "
+                    f"(within 0 to 180 deg; at {short(math.degrees(over))} deg it is collinear with its carrier)"
                 ),
                 key="lever.angle",
                 fix="set lever.angle so that it keeps between 0 and 180 deg, or take fewer sun teeth",
@@ -319,9 +319,8 @@ class CamLinkage(Grooved):
         if open_at is not None:
             raise NoSolution(
                 (
-                    f"coupler and follower do not close at input angle {math.degrees(open_at.place):.6g} deg: "
-                    f"B and D are {open_at.value:.6g} mm apart there, it must be between {least:.6g} and "
-                    f"{most:.6g} mm"
+                    f"coupler and follower do not close: distance BD {short(open_at.value)} mm (reach "
+                    f"{within(least, most, 'mm')}) at input angle {short(math.degrees(open_at.place))} deg"
                 ),
                 key="links",
                 fix="change links.coupler or links.follower, or phase",

@@ -138,7 +138,9 @@ class LinkedPath(Spec):
         if (self.harmonics is None) == (self.points is None):
             if self.points is None:
                 raise PydanticCustomError("GL106", "give harmonics, or points instead", {"key": "harmonics"})
-            raise PydanticCustomError("GL111", "harmonics and points exclude each other\ngive one", {"key": "points"})
+            raise PydanticCustomError(
+                "GL111", "harmonics and points exclude each other\nomit harmonics or points", {"key": "points"}
+            )
         rows = self.points or [[0.0, 0.0, 0.0], [360.0, 0.0, 0.0]]
         ascending = all(before[0] < after[0] for before, after in pairwise(rows))
         if not ascending or rows[0][0] != 0.0 or rows[-1][0] != 360.0 or rows[0][1:] != rows[-1][1:]:

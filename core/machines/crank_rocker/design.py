@@ -117,8 +117,8 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         asked = [f"`{command}`" for command in self.spec.syntheses()]
         text = "`analyze` needs the section links: {crank, coupler, rocker, frame} (mm)"
         if len(asked) > 1:
-            return f"{text}; {' or '.join(asked)} finds it: keep one of their sections"
-        return f"{text}; a section swing or function would have it found"
+            return f"{text}; {' or '.join(asked)} finds it\nkeep one of their sections"
+        return f"{text}\nadd links, or a section swing or function and its synthesis"
 
     crank_length: float = placed("linkage.crank")
     coupler_length: float = placed("linkage.coupler")

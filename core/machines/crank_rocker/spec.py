@@ -104,7 +104,7 @@ class Function(Spec):
         needed, more = ("name", "x", "input_swing", "output_swing"), ("exponent", "input_start", "output_start")
         if self.pairs is not None:
             if wrong := next((key for key in (*needed, *more) if getattr(self, key) is not None), ""):
-                message = "pairs are the function: leave out {wrong}"
+                message = "{wrong} together with pairs, which are the function\nomit {wrong}"
                 raise PydanticCustomError("GL111", message, {"key": wrong, "wrong": wrong})
             return self
         if missing := next((key for key in needed if getattr(self, key) is None), ""):

@@ -15,7 +15,7 @@ from gearlink.core.base.errors import NoSolution, at_key, section_of
 from gearlink.core.base.remedies.ways import down, either
 from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.crank_rocker.codes import FULL_TURN
 from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
 from gearlink.core.numerics.roots import bracketed_root
@@ -115,7 +115,7 @@ def ratios_with_frame(frame: float, p: float, q: float) -> Ratios:
     if room <= 0.0 or turn == 0.0:
         least = abs(math.cos(q - p)) / math.sin(q)
         raise NoSolution(
-            f"frame over crank is {frame:.6g}; with this swing and ratio it is above {safely_above(least)}",
+            f"frame over crank: {unlike(frame, least)} (limit > {safely_above(least)} with this swing and time ratio)",
             fix="shorten the crank, or lengthen the frame",
         )
     found = ratios_of(math.sqrt(room) / turn, p, q)
@@ -319,7 +319,7 @@ def best_start(wanted: Wanted, given: tuple[float | None, float | None], least: 
     found = [one for a in starts for b in zeros if (one := generated(wanted, a, b, least)) is not None]
     if not found:
         raise NoSolution(
-            f"no linkage goes through this function with {math.degrees(least):.6g} deg of transmission angle",
+            f"no linkage goes through this function with a transmission angle of {math.degrees(least):g} deg",
             key="function",
             fix="take smaller swings, or lower limits.transmission_angle",
         )

@@ -11,7 +11,7 @@ from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, within
 from gearlink.core.machines.cycloidal.codes import INTERFERENCE, SHORTENING
 from gearlink.core.parts.gears.codes import PITTING, UNDERCUT
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
@@ -339,7 +339,7 @@ class CycloidalReducer(RealSpeed, Design):
             webs.append(("between these holes and the bearing", pins.circle_radius - hole - self.spec.bearing_radius))
         for where, web in webs:
             status: Status = "fail" if web <= 0.0 else "pass"
-            overlap, fix = f"overlap {where}", "take thinner output pins"
+            overlap, fix = f"overlap {where}", "reduce the radius of the output pins"
             yield SHAFT_CLEARANCE.check(status, f"web {where}", web, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_interference(self) -> Iterator[Check]:
@@ -356,7 +356,9 @@ class CycloidalReducer(RealSpeed, Design):
         """GL343."""
         k, (low, high) = self.shortening, _USUAL
         limit = low if k < low else high
-        what, aside, fix = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}", "change the eccentricity"
+        what, aside = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}"
+        ends = (self.spec.eccentricity * end / k for end in _USUAL) if k else ()
+        fix = f"set eccentricity to {within(*ends, 'mm')}" if k else "raise eccentricity"
         status: Status = "pass" if low <= k <= high else "warn"
         return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 
@@ -367,5 +369,5 @@ class CycloidalReducer(RealSpeed, Design):
             return
         safety, limit = bears / stress, self.spec.limits.safety_pitting
         status: Status = "fail" if safety < limit else "pass"
-        aside, fix = f"contact stress {short(stress)} N/mm^2", "widen the discs"
+        aside, fix = f"contact stress {short(stress)} N/mm^2", "raise width"
         yield PITTING.check(status, "pitting safety S_H", safety, limit, aside=aside, fix=fix)

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.base.report import safely_below
 from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, SignedLength, Spec
 
 Count = Annotated[int, Field(ge=3, le=1000, json_schema_extra={"unit": "1"})]
@@ -91,7 +92,7 @@ class CycloidalReducerSpec(DrivenSpec):
         most = self.pin_circle_radius / self.pins
         if self.eccentricity >= most:
             message = "the lobes have loops: eccentricity must lie below pin_circle_radius/pins, {most} mm"
-            raise PydanticCustomError("GL111", message, {"key": "eccentricity", "most": f"{most:.6g}"})
+            raise PydanticCustomError("GL111", message, {"key": "eccentricity", "most": safely_below(most)})
         if self.pin_radius >= self.pin_circle_radius - self.eccentricity:
             message = "a pin of {radius} mm leaves no disc: pin_radius below pin_circle_radius less eccentricity"
             raise PydanticCustomError("GL111", message, {"key": "pin_radius", "radius": f"{self.pin_radius:g}"})

@@ -13,6 +13,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, within
 from gearlink.core.machines.disc_cam.spec import ROLLER_SHARE, OscillatingFlat, OscillatingRoller, TranslatingRoller
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
@@ -138,7 +139,7 @@ class FollowerCams:
         if not isinstance(follower, TranslatingRoller):
             radius = cam.base_radius or flat_base_radius(self.motion, self._least_radius())
             if not radius > 0.0:
-                message = f"the minimum base radius is {radius:.6g} mm: the curvature sets none, give cam.base_radius"
+                message = f"minimum base radius: {short(radius)} mm, the curvature sets none\ngive cam.base_radius"
                 raise NoSolution(message, key="cam.size")
             return Place(radius)
         if cam.prime_radius is not None:
@@ -174,7 +175,7 @@ class FollowerCams:
         assert roller is not None
         assert roller.distance is not None
         if roller.distance < least * (1.0 - 1e-12):
-            message = f"at a roller distance of {roller.distance:.6g} mm the return cam does not keep cam.size"
+            message = f"at a roller distance of {short(roller.distance)} mm the return cam does not keep cam.size"
             fix = f"raise return_roller.distance to {safely_above(least)} mm, or omit it"
             raise NoSolution(message, key="return_roller.distance", fix=fix)
 
@@ -212,7 +213,7 @@ class FollowerCams:
             raise NoSolution(
                 message,
                 key="cam.prime_radius",
-                fix=f"take a prime_radius between {abs(distance - arm):.6g} and {distance + arm:.6g} mm",
+                fix=f"set cam.prime_radius to {within(abs(distance - arm), distance + arm, 'mm')}",
             )
         return Place(radius, 0.0, distance, math.acos(share))
 

@@ -127,10 +127,10 @@ def cutter_radius(design: DiscCamDesign) -> Iterator[Check]:
             "pass", "the profile has no concave flank: any cutter fits", cutter, None, "mm", shown=NO_NUMBER
         )
         return
-    what = "cutter radius against the minimum concave radius of the profile"
+    what, aside = "cutter radius", "minimum concave radius of the profile"
     status: Status = "fail" if cutter >= least else "pass"
-    fix = f"take a cutter of less than {safely_below(least)} mm"
-    yield codes.CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix)
+    fix = f"set cam.cutter_radius below {safely_below(least)} mm"
+    yield codes.CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix, aside=aside)
 
 
 def lift_off(design: DiscCamDesign) -> Iterator[Check]:

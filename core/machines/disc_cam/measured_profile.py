@@ -12,7 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.cams.laws import REST_TO_REST, law
 
@@ -165,10 +167,10 @@ class MeasuredCam:
         if np.min(square) <= 0.0:
             least = math.sqrt(float(np.min(q)))
             raise NoSolution(
-                f"the line of travel passes the cam axis at {abs(self.offset):.6g} mm, the roller's centre comes to "
-                f"{least:.6g} mm",
+                f"distance of the line of travel from the cam axis: {unlike(abs(self.offset), least)} mm (limit < "
+                f"{unlike(least, abs(self.offset))} mm, the minimum radius of the roller's centre)",
                 key="follower.offset",
-                fix=f"give an offset below {least:.6g} mm",
+                fix=f"set follower.offset below {safely_below(least)} mm",
             )
         y = np.sqrt(square)
         y1 = 0.5 * q1 / y
@@ -188,8 +190,9 @@ class MeasuredCam:
         if np.max(np.abs(c)) >= 1.0:
             low, high = math.sqrt(float(np.min(q))), math.sqrt(float(np.max(q)))
             raise NoSolution(
-                f"the roller's centre goes from {low:.6g} to {high:.6g} mm off the cam axis, the arm reaches "
-                f"{abs(f - l):.6g} to {f + l:.6g} mm",
+                f"distance of the roller's centre from the cam axis: {short(low)} to {short(high)} mm (reach of the "
+                "arm "
+                f"{within(abs(f - l), f + l, 'mm')})",
                 key="follower.arm",
                 fix="check pivot, arm and roller_radius against the machine",
             )

@@ -23,10 +23,10 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, either, up
-from gearlink.core.base.report import Check, Remedy, Shown, Status, Table, safely_below
+from gearlink.core.base.report import Check, Remedy, Shown, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.numerics.motion_extremes import names
@@ -78,14 +78,16 @@ class HypocycloidSlider:
         least = self.widest_offset
         if not least < self.rod < math.inf:
             usual = (
-                f" (tangent-circle {tangent_circle(self.planet_radius, self.cusps):.6g}, "
-                f"osculating {osculating(self.planet_radius, self.cusps):.6g} mm)"
+                f" (tangent-circle {short(tangent_circle(self.planet_radius, self.cusps))}, "
+                f"osculating {short(osculating(self.planet_radius, self.cusps))} mm)"
                 if self.ratio == 1.0
                 else ""
             )
             raise NoSolution(
-                f"the rod of {self.rod:.6g} mm cannot follow the point, which goes {least:.6g} mm from the slide line",
-                fix=f"make it longer than that{usual}",
+                f"rod: {unlike(self.rod, least)} mm (limit > {unlike(least, self.rod)} mm, the distance of the point "
+                "from the "
+                "slide line)",
+                fix=f"set rod above {safely_above(least)} mm{usual}",
             )
 
     @cached_property
@@ -235,9 +237,7 @@ class HypocycloidSlider:
         """
         limit = 0.5 * self.stroke
         if not 0.0 < tolerance < limit:
-            raise NoSolution(
-                f"tolerance is {tolerance:g} mm; it must be positive and below half the stroke, {limit:.6g} mm"
-            )
+            raise NoSolution(f"tolerance: {tolerance:g} mm (above 0, below {safely_below(limit)} mm, half the stroke)")
         low = high = 0.0
         for (t_0, _), (t_1, value) in zip(self.extremes, self.extremes[1:], strict=False):
             if max(high, value) - min(low, value) > 2.0 * tolerance:
@@ -311,8 +311,8 @@ def tangent_circle(planet_radius: float, cusps: int, angle: float | None = None)
     y, rise = _point(planet_radius, cusps, half).imag, _advance(planet_radius, cusps, half)
     if rise <= 0.0 or half <= 0.0:
         raise NoSolution(
-            f"no circle touches the arc over {math.degrees(2.0 * half):.6g} deg of the carrier",
-            fix=f"take at most the whole arc, {360.0 / cusps:.6g} deg",
+            f"no circle touches the arc over {short(math.degrees(2.0 * half))} deg of the carrier",
+            fix=f"specify at most the whole arc, {safely_below(360.0 / cusps)} deg",
         )
     return (rise * rise + y * y) / (2.0 * rise)
 
@@ -430,11 +430,8 @@ def _best(radius: float, cusps: int, quality: Callable[[float], float], angle: f
     """Rod of the maximum quality, sought over its curvature 1/L from well below to well above the named circles."""
     if angle is not None and not 0.0 < angle <= 2.0 * math.pi / cusps * (1.0 + 1e-12):
         raise NoSolution(
-            f"the dwell of {math.degrees(angle):.6g} deg is not on one arc",
-            fix=(
-                f"specify more than 0 and at most {safely_below(360.0 / cusps)} deg of the carrier, or for the "
-                "widest dwell of a tolerance"
-            ),
+            f"dwell: {short(math.degrees(angle))} deg (above 0, at most {safely_below(360.0 / cusps)} deg, one arc)",
+            fix=f"set dwell.angle to at most {safely_below(360.0 / cusps)} deg, or omit it for the widest dwell",
         )
     named = (tangent_circle(radius, cusps, angle), osculating(radius, cusps))
     shortest = max(0.7 * min(named), 1.001 * widest_offset(radius, cusps))
@@ -475,10 +472,10 @@ class SlottedArm:
         if not 0.0 < self.ratio < self.teeth - 1.0:
             raise NoSolution(
                 (
-                    f"the point turns the arm on only between 0 and {self.teeth - 1.0:.6g} planet radii from "
-                    f"the planet's axis, not at {self.ratio:g}"
+                    f"distance of the point from the planet's axis: {self.ratio:g} planet radii (above 0, below "
+                    f"{safely_below(self.teeth - 1.0)})"
                 ),
-                fix="choose a position between them",
+                fix=f"set point.ratio between 0 and {safely_below(self.teeth - 1.0)}",
             )
 
     @property
@@ -530,8 +527,8 @@ class SlottedArm:
         half = math.pi / self.teeth
         if not 0.0 < tolerance < half:
             raise NoSolution(
-                f"tolerance is {math.degrees(tolerance):g} deg; it must be positive and below half a step, "
-                f"{math.degrees(half):.6g} deg"
+                f"tolerance: {math.degrees(tolerance):g} deg (above 0, below {safely_below(math.degrees(half))} deg, "
+                "half a step)"
             )
         top = -self.angle(self.standstill)  # before the cusp
         if top <= tolerance:
@@ -710,13 +707,14 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         planet, ring = self.planet_teeth, self.ring_teeth
         if (far := self.spec.point.ratio) != 1.0 and far >= ring / planet - 1.0:
             most = ring / planet - 1.0
-            message = f"point.ratio must lie between 0 and ring/planet - 1 = {most:.6g}, not at {far:g}"
+            message = f"point.ratio: {far:g} (above 0, below ring/planet - 1 = {safely_below(most)})"
             raise NoSolution(message, key="point.ratio")
         if ring % planet:
             near = max(3, round(ring / planet))
             raise NoSolution(
                 (
-                    f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close "
+                    f"ring {ring} over planet {planet} teeth is {unlike(ring / planet, round(ring / planet))}: the "
+                    "curve does not close "
                     "in one revolution of the carrier"
                 ),
                 key="gears.ring",

@@ -44,7 +44,9 @@ class Rod(Spec):
         if self.length is None and self.rule is None:
             raise PydanticCustomError("GL106", "give length or rule", {"key": "rule"})
         if self.length is not None and self.rule is not None:
-            raise PydanticCustomError("GL111", "length and rule exclude each other\ngive one", {"key": "rule"})
+            raise PydanticCustomError(
+                "GL111", "length and rule exclude each other\nomit length or rule", {"key": "rule"}
+            )
         return self
 
 

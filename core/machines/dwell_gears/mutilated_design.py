@@ -83,7 +83,7 @@ def teeth_for_times(
         of = f"{driven} teeth" if driven is not None else f"{LEAST_DRIVEN} to {MOST_DRIVEN} teeth"
         raise NoSolution(
             (
-                f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.9g')} in {share:.6g} "
+                f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.4g')} in {short(share)} "
                 f"of a cycle with a wheel of at most {most_teeth} teeth"
             ),
             fix="raise most_teeth, take fewer groups, or another driven_turn",
@@ -532,9 +532,9 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     def check_start_shock(self) -> Check:
         """GL310: the driven gear starts at once at full speed, and the model ends at the pitch circles."""
         ratio = self.driven_speed_ratio
-        what = "speed ratio at which the driven gear starts and stops at once"
+        what = "step of the speed ratio at start and stop of the driven gear"
         note = "" if self.hardest_start is None else self._start_in_words(self.hardest_start)
-        fix = "add entry cams or springs; pitch circles do not show locking arcs and cut tips"
+        fix = "add entry cams or springs (not part of this model)"
         return START_SHOCK.check("warn", what, ratio, 0.0, fix=fix, note=note)
 
     def _start_in_words(self, start: Start) -> str:
@@ -553,9 +553,9 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         """GL316: how long no tooth is in contact."""
         free, subject = (
             self.mutilated.gap - self.mesh.contact_ratio,
-            "travel of the wheel without contact, in pitches",
+            "travel of the wheel without contact over the pitch",
         )
-        remedy = "take fewer teeth in a group: the locking arc needs it"
+        remedy = "reduce gears.group_teeth, so that the locking arc fits"
         return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -65,7 +65,7 @@ class WantedTimes(Spec):
                 message = "give {name}_turns, or {name}_time with input_speed"
                 raise PydanticCustomError("GL106", message, {"key": f"{name}_turns", "name": name})
             if len(given) > 1:
-                message = "{name}_turns and {name}_time exclude each other\ngive one"
+                message = "{name}_turns and {name}_time exclude each other\nomit {name}_turns or {name}_time"
                 raise PydanticCustomError("GL111", message, {"key": given[1], "name": name})
         return self
 

@@ -19,7 +19,7 @@ from gearlink.core.base.remedies.ways import down, either, modules, up
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
-from gearlink.core.base.wording import amount, short
+from gearlink.core.base.wording import amount, short, unlike
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
@@ -531,7 +531,7 @@ class FiveBarParts(Meshed):
         fixed = given is not None and self.spec.gears.profile_shift is None
         if fixed and abs(given - distance) > _LINK_TOLERANCE * distance:
             raise NoSolution(
-                f"{name} {given:.6g} mm is not the centre distance of the gears, {distance:.6g} mm",
+                f"{name}: {unlike(given, distance)} mm (centre distance of the gears {unlike(distance, given)} mm)",
                 key=f"links.{name}",
                 fix="omit it, or change module or teeth",
             )
@@ -699,9 +699,15 @@ class FiveBarParts(Meshed):
         one, ordered = len(set(found.assemblies)) == 1, found.in_order
         what, fix = "the poses follow each other in one assembly of the links", ""
         if not ordered:
-            what, fix = "the input angles neither rise nor fall in the order of the poses", "keep less, or reorder them"
+            what, fix = (
+                "the input angles neither rise nor fall in the order of the poses",
+                "reorder target.poses, or name fewer links in target.keep",
+            )
         elif not one:
-            what, fix = "two poses need different assemblies of the links", "keep less, or change a pose"
+            what, fix = (
+                "two poses need different assemblies of the links",
+                "change a pose, or name fewer links in target.keep",
+            )
         yield POSE_ORDER.check("pass" if one and ordered else "fail", what, fix=fix)
 
     @cached_property

@@ -21,6 +21,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
@@ -153,19 +154,19 @@ class FunctionFiveBar:
         if greatest >= longest:
             raise NoSolution(
                 (
-                    f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are "
-                    f"{greatest:.6g} mm apart, follower and output together only {longest:.6g} mm"
+                    f"the five-bar cannot be assembled: distance CE {unlike(greatest, longest)} mm (limit <= "
+                    f"{unlike(longest, greatest)} mm, follower + output) at input angle {short(math.degrees(high))} deg"
                 ),
-                fix=f"lengthen them by more than {safely_above(greatest - longest)} mm together"
+                fix=f"lengthen follower and output by more than {safely_above(greatest - longest)} mm together"
                 + _or("shorten the coupler", free),
             )
         if least <= shortest:
             raise NoSolution(
                 (
-                    f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.6g} "
-                    f"mm apart, follower and output differ by {shortest:.6g} mm"
+                    f"the five-bar cannot be assembled: distance CE {unlike(least, shortest)} mm (limit >= "
+                    f"{unlike(shortest, least)} mm, follower - output) at input angle {short(math.degrees(low))} deg"
                 ),
-                fix=f"make them more equal by more than {safely_above(shortest - least)} mm"
+                fix=f"reduce the difference of follower and output by more than {safely_above(shortest - least)} mm"
                 + _or("lengthen the frame", free),
             )
         return (low, least), (high, greatest)

@@ -182,7 +182,9 @@ def guide(task: Task) -> Guidance:
     exact = not task.free and task.places.size == 3 and not task.keep & {"links.input", "links.follower"}
     found = list(_three(task) if exact else _searched(task))
     if not found:
-        raise NoSolution("no five-bar goes through these poses: change them, or keep less")
+        raise NoSolution(
+            "no five-bar goes through these poses\nchange target.poses, or name fewer links in target.keep"
+        )
     return max(found, key=lambda each: each.quality)
 
 

@@ -17,6 +17,7 @@ from fractions import Fraction
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.parts.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
 
@@ -117,8 +118,9 @@ class PathFiveBar:
         if greatest >= longest:
             raise NoSolution(
                 (
-                    f"the five-bar opens: at input angle {math.degrees(high):.6g} deg (of {turn}) B and D are "
-                    f"{greatest:.6g} mm apart, coupler and follower together only {longest:.6g} mm"
+                    f"the five-bar cannot be assembled: distance BD {unlike(greatest, longest)} mm (limit <= "
+                    f"{unlike(longest, greatest)} mm, coupler + follower) at input angle "
+                    f"{short(math.degrees(high))} deg (of {turn})"
                 ),
                 fix=(
                     f"lengthen them by more than {safely_above(greatest - longest, 4)} mm together, or "
@@ -128,11 +130,13 @@ class PathFiveBar:
         if least <= shortest:
             raise NoSolution(
                 (
-                    f"the five-bar opens: at input angle {math.degrees(low):.6g} deg (of {turn}) B and D are "
-                    f"{least:.6g} mm apart, coupler and follower differ by {shortest:.6g} mm"
+                    f"the five-bar cannot be assembled: distance BD {unlike(least, shortest)} mm (limit >= "
+                    f"{unlike(shortest, least)} mm, coupler - follower) at input angle "
+                    f"{short(math.degrees(low))} deg (of {turn})"
                 ),
                 fix=(
-                    f"make them more equal by more than {safely_above(shortest - least, 4)} mm, or shorten "
+                    f"reduce the difference of coupler and follower by more than {safely_above(shortest - least, 4)} "
+                    "mm, or shorten "
                     "input or output"
                 ),
             )

@@ -175,7 +175,7 @@ class FiveBarTarget(Spec):
     def _one_target(self) -> FiveBarTarget:
         given = [name for name in ("poses", "points", "positions", "function") if getattr(self, name) is not None]
         if len(given) > 1:
-            message = "{one} and {other} exclude each other\ngive one"
+            message = "{one} and {other} exclude each other\nomit {one} or {other}"
             raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
         if self.poses is not None and self.tolerance is None and len(self.poses) > (exact := _EXACT_POSES[self.frame]):
             message = "with a {frame} frame at most {exact} poses are met exactly\ngive tolerance for {count}"

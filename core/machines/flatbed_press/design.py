@@ -13,6 +13,7 @@ from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_sec
 from gearlink.core.base.remedies.ways import MODULES
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import checks
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.machines.flatbed_press.checks import (
@@ -272,7 +273,7 @@ class PressMotion:
         if math.radians(given) <= self.sync_start:
             start = math.degrees(self.sync_start)
             raise NoSolution(
-                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg",
+                f"end of the zone: input angle {given:g} deg (limit > {safely_above(start)} deg, its start)",
                 key="sync.end",
                 fix=f"set sync.end above {safely_above(start)} deg, or omit it and give sync.length",
             )
@@ -470,7 +471,8 @@ class PressCams(DiscCams):
             low, high = high, 2.0 * high
             if high > 1000.0 * (roller + self.follower_stroke):
                 raise NoSolution(
-                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm",
+                    f"base radius of the cams for a roller of {roller:g} mm: above {short(low)} mm, none found "
+                    "(undercut)",
                     key="cam.roller_radius",
                     fix="raise cam.return_angle, or take a smaller roller",
                 )
@@ -806,9 +808,9 @@ class FlatbedPress(WithExtremes, WithShapedLaws, SliderCrankQuantities, GearQuan
         teeth = math.floor(distance / transverse * (1.0 + 1e-12))
         if teeth < 1:
             raise NoSolution(
-                f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm",
+                f"module {gears.module:g} mm leaves no tooth at the centre distance {short(distance)} mm",
                 key="input_gears.module",
-                fix="make it smaller",
+                fix="reduce input_gears.module",
             )
         with in_section("input_gears"):
             return pair_at(gears, (teeth, teeth), distance)

@@ -32,9 +32,7 @@ if TYPE_CHECKING:
 PLACE_CHECKS = PLACE.checks
 _NEAR = 1.0
 """A direction of whole degrees [deg]."""
-_DRAWN = (
-    "loads.bed_side -1, with gravity [9.81, 0], is the machine as drawn, in which it is above the bed and runs with it"
-)
+_DRAWN = "set loads.bed_side to -1 and gravity to [9.81, 0] (the machine as drawn: the cylinder is above the bed)"
 
 
 class _Places(NamedTuple):

@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press.chains import difference
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
 from gearlink.core.machines.flatbed_press.mechanism import bare
@@ -168,7 +169,7 @@ class PressRegister(RegisterDesign):
             start, end = (math.degrees(angle) for angle in self.stretch("zone"))
             raise MissingSection(
                 f"{self._where} nothing says where the lower rack stands: outside the synchronous "
-                f"zone, {start:.6g} to {end:.6g} deg, a register needs the section cam",
+                f"zone, {short(start)} to {short(end)} deg, a register needs the section cam",
                 key="cam",
             )
         return angles
@@ -217,7 +218,7 @@ class PressRegister(RegisterDesign):
         """What inertia makes jump: all but the input mesh [mm]."""
         return sum(jump for mesh, jump in self._jumps.items() if mesh != "mesh_12")
 
-    against_flips = "take the backlash out there, or preload it"
+    against_flips = "reduce the backlash of racks and gears, or preload them"
 
     @cached_property
     def flips(self) -> list[float] | None:

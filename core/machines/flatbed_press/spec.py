@@ -149,7 +149,7 @@ class PressCam(Spec):
                 "GL106", "either transition_end or transition_angle is needed", {"key": "transition_end"}
             )
         if self.transition_end is not None and self.transition_angle is not None:
-            message = "transition_end and transition_angle exclude each other\ngive one"
+            message = "transition_end and transition_angle exclude each other\nomit transition_end or transition_angle"
             raise PydanticCustomError("GL111", message, {"key": "transition_angle"})
         return self
 

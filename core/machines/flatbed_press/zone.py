@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.wording import unlike
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
 from gearlink.core.parts.linkages.slider_crank.position import dead_center_extended, dead_center_folded
@@ -70,7 +71,7 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     most = cylinder.turn
     if length >= most:
         raise NoSolution(
-            (f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm"),
+            (f"length of the zone: {length:g} mm (limit < {unlike(most, length)} mm, the cylinder's travel per sheet)"),
             key="sync.length",
             fix=f"set sync.length below {safely_below(most)} mm",
         )

@@ -152,7 +152,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
 def exclude_each_other(spec: Any, first: str, second: str) -> None:
     """Refuse a file that gives both of two keys."""
     if getattr(spec, first) is not None and getattr(spec, second) is not None:
-        message = f"{first} and {second} exclude each other\ngive one"
+        message = f"{first} and {second} exclude each other\nomit {first} or {second}"
         raise PydanticCustomError("GL111", message, {"key": second})
 
 

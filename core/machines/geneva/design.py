@@ -10,8 +10,9 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, in_section
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
-from gearlink.core.base.report import Check, Status, Table
+from gearlink.core.base.report import Check, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
 from gearlink.core.machines.geneva.codes import LOCKING, PIN_ENTRY, STEP_RATE
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
@@ -269,8 +270,8 @@ class GenevaDrive(RealSpeed, Design):
             turns = found.mean_ratio
         if abs(abs(turns) * self.spec.slots - 1.0) > _SAME:
             message = (
-                f"the linkage moves its output by {360.0 * turns:.6g} deg per revolution, this wheel by "
-                f"{math.degrees(self.drive.step):.6g} deg"
+                f"the linkage moves its output by {short(360.0 * turns)} deg per revolution, this wheel by "
+                f"{short(math.degrees(self.drive.step))} deg"
             )
             raise NoSolution(message, key="compare.gears", fix=f"choose teeth with crank/output 1/{self.spec.slots}")
         return found
@@ -374,5 +375,5 @@ class GenevaDrive(RealSpeed, Design):
         if rate is None:
             return
         over = rate > limit
-        fix = "run slower, or compare with a gear linkage"
+        fix = f"reduce input_speed to {safely_below(abs(self.spec.input_speed) * limit / rate)} 1/min or less"
         yield STEP_RATE.check("warn" if over else "pass", "step rate", rate, limit, "1/min", fix=fix)

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec
+from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
 Clearance = Annotated[float, Field(ge=0, le=1e3, json_schema_extra={"unit": "mm"})]
@@ -81,11 +82,11 @@ class GenevaDriveSpec(DrivenSpec):
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:
             message = "a step takes {step} deg of the crank: at most {most} pins fit in a revolution"
-            words = {"key": "pins", "step": f"{step:.6g}", "most": str(int((360.0 + 1e-9) // step))}
+            words = {"key": "pins", "step": short(step), "most": str(int((360.0 + 1e-9) // step))}
             raise PydanticCustomError("GL111", message, words)
         if self.pin_radius >= (crank := self._crank(sign)):
             message = "the pin's radius {pin} mm reaches over the crank's axis: below {crank} mm"
-            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": f"{crank:.6g}"}
+            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": short(crank)}
             raise PydanticCustomError("GL111", message, words)
         if self.locking_clearance and self.locking_radius is None:
             message = "locking_clearance is that of the locking disc: give locking_radius"

@@ -518,11 +518,11 @@ class Machine(OfMembers):
                 off = abs(abs(each.speed or 0.0) / abs(wanted) - 1.0)
                 speed = abs(wanted) / each.per
                 status: Status = "fail" if off > _SAME_SPEED else "pass"
-                what, shown = f"{name}: {each.key}", Shown(each.value, speed, "1", "")
-                fix, note = f"remove {each.key} of the member", ""
-                if off > _SAME_SPEED:
-                    note = "the speed of the machine holds here"
-                yield codes.MEMBER_SPEED.check(status, what, off, _SAME_SPEED, shown=shown, fix=fix, note=note)
+                unit = "1/min" if each.per == 1.0 else "sheets/h"
+                what, shown = f"{name}: {each.key}", Shown(each.value, speed, unit, "")
+                aside, fix = "by the speed of the machine", f"remove {each.key} of member {name}"
+                aside = aside if status == "fail" else ""
+                yield codes.MEMBER_SPEED.check(status, what, off, _SAME_SPEED, shown=shown, fix=fix, aside=aside)
 
     def check_critical_speed(self) -> Iterator[Check]:
         """GL532 of the first order; with `loads` of every harmonic of the torque."""
@@ -532,7 +532,7 @@ class Machine(OfMembers):
             off = abs(self.spec.speed / f - 1.0)
             status: Status = "warn" if off < 0.1 else "pass"
             what, shown = "distance of the speed from a critical speed", Shown(100.0 * off, 10.0, "%", ">=")
-            aside, fix = f"critical speed {short(f)} rev/min", "change the speed, or stiffen the main shaft"
+            aside, fix = f"critical speed {short(f)} rev/min", "run at another speed, or stiffen the main shaft"
             yield codes.CRITICAL_SPEED.check(status, what, off, 0.1, shown=shown, aside=aside, fix=fix)
 
     def require_named(self) -> None:

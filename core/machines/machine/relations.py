@@ -130,7 +130,7 @@ def parse(text: str) -> Relation:
     if found := _VALUE.fullmatch(line):
         of, _, quantity = found["of"].rpartition(".")
         if quantity not in VALUES or not of:
-            raise NotARelation(f"{named(found['of'])} is no value: write MEMBER.position, .velocity or .acceleration")
+            raise NotARelation(f"{named(found['of'])} is no value\nwrite MEMBER.position, .velocity or .acceleration")
         return Value(line, of, quantity, _moment(found["at"]), found["side"], float(found["limit"]))  # type: ignore[arg-type]
     raise NotARelation(f"{named(text)} is no relation: {_FORMS}")
 

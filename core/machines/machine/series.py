@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, in_section, named
+from gearlink.core.base.wording import short
 from gearlink.core.mechanism.motion import TURN, Course, Motion
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
@@ -176,8 +177,8 @@ class OnShaft:
         """Turns that make a share of periods a revolution a whole number."""
         found = Fraction(share).limit_denominator(_LARGEST)
         if abs(float(found) - share) > _WHOLE * max(1.0, share):
-            message = f"at ratio {self.ratio:.12g} its input never repeats with the machine within {_LARGEST} turns"
-            period = "" if self.period is None else f", its own period being {math.degrees(self.period):.6g} deg"
+            message = f"at ratio {self.ratio:.6g} its input never repeats with the machine within {_LARGEST} turns"
+            period = "" if self.period is None else f", its own period being {short(math.degrees(self.period))} deg"
             fix = "give a ratio of whole numbers, with all its digits"
             raise NoSolution(f"{message}{period}", key="ratio", fix=fix)
         return found.denominator
@@ -266,8 +267,9 @@ class OnShaft:
         if low < given.start - _AT_JOINT or high > given.end + _AT_JOINT:
             unit = "mm" if given.unit == "mm" else "deg"
             ends = [each / self.scale for each in (low, high, given.start, given.end)]
-            message = "its input goes from {:.6g} to {:.6g} {unit}, its range from {:.6g} to {:.6g}: change its phase"
-            raise NoSolution(f"{message.format(*ends, unit=unit)} or ratio", key="range")
+            message = "its input goes from {} to {} {unit}, outside of its range from {} to {} {unit}"
+            words = message.format(*map(short, ends), unit=unit)
+            raise NoSolution(words, key="range", fix="change its phase or ratio, or widen range")
         return np.asarray(np.minimum(np.maximum(u, given.start), given.end))
 
     @cached_property

@@ -183,7 +183,7 @@ class MainShaft(Spec):
         for name in ("members", "ratios"):
             given = getattr(self, name)
             if given is not None and len(given) != count:
-                raise _refuse("GL111", name, f"give one for each of the {count} discs, not {len(given)}")
+                raise _refuse("GL111", name, f"{name}: {len(given)} values (one for each of the {count} discs)")
         if self.ratios is not None and 0.0 in self.ratios:
             raise _refuse("GL108", f"ratios[{self.ratios.index(0.0)}]", "a disc with ratio 0 does not move")
         names = [name for disc in self.acting for name in disc]

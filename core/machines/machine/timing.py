@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key, named
+from gearlink.core.base.wording import short
 from gearlink.core.machines.machine.relations import (
     EXTREMES,
     RUNS,
@@ -277,7 +278,7 @@ class Timing:
 
     def _range(self, of: str) -> str:
         ends = [value for run in self.runs(of) for value in (run.of, run.to)]
-        return f"it goes from {min(ends):.6g} to {max(ends):.6g}"
+        return f"it goes from {short(min(ends))} to {short(max(ends))}"
 
     def _seen(self, name: str, event: Event) -> list[Run]:
         """The runs in which a value is looked for."""

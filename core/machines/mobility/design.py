@@ -15,6 +15,7 @@ from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
 
 if TYPE_CHECKING:
@@ -469,7 +470,7 @@ class GearTrainMobility(Design):
             return f"fix {times} to the link at its pin"
         more = count - free
         ends = "both ends of every train and " if free else ""
-        return f"fix {ends}both ends of {more} more {'train' if more == 1 else 'trains'}, each of which takes 1 away"
+        return f"fix {ends}both ends of {more} more {'train' if more == 1 else 'trains'} (each reduces F by 1)"
 
     def _fixing(self, train: Train) -> Iterator[tuple[str, str]]:
         """Why the fixing of the gears does not fit, and what would."""
@@ -523,14 +524,16 @@ class GearTrainMobility(Design):
         if length is not None:
             if abs(distance - length) > _DISTANCE_TOLERANCE * module:
                 yield (
-                    f"{which} mesh at {distance:.9g} mm, links.{link}.length is {length:.9g} mm",
+                    f"centre distance of {which}: {unlike(distance, length)} mm (links.{link}.length "
+                    f"{unlike(length, distance)} mm)",
                     f"set links.{link}.length to {distance:.9g} mm",
                 )
             return
         first, apart = self._first_distance[frozenset((one.at, other.at))]
         if abs(distance - apart) > _DISTANCE_TOLERANCE * module:
             yield (
-                f"{which} mesh at {distance:.9g} mm, train {first} holds {one.at} and {other.at} {apart:.9g} mm apart",
+                f"centre distance of {which}: {unlike(distance, apart)} mm (by train {first} "
+                f"{unlike(apart, distance)} mm between {one.at} and {other.at})",
                 "change module or teeth of one of the two",
             )
 

@@ -31,7 +31,7 @@ class MotionLawSpec(DesignSpec):
     @model_validator(mode="after")
     def _one_time(self) -> MotionLawSpec:
         if self.time is not None and self.speed is not None:
-            raise _refused("speed", "time and speed say the same\ngive one")
+            raise _refused("speed", "time and speed say the same\nomit time or speed")
         if (self.speed is None) != (self.angle is None):
             key = "angle" if self.angle is None else "speed"
             raise _refused(key, "speed and angle go together\ngive both, or time")

@@ -280,7 +280,9 @@ class CamJoint:
         place, jump = max(found.steps(1), key=lambda step: abs(step[1]))
         if abs(jump) > _STEP * fastest:
             words = f"the velocity of the lift jumps at cam angle {place}, which no mechanism follows"
-            raise NoSolution(words, key=f"{self.key}.motion", fix="let the laws at the joint have one velocity")
+            raise NoSolution(
+                words, key=f"{self.key}.motion", fix="use laws with the same velocity on both sides of the joint"
+            )
         return found
 
     def lift(self, size: float, phase: float) -> Lift:
@@ -590,7 +592,14 @@ def step_checks(structure: Structure) -> Iterator[Check]:
     for name, cam in structure.cams.items():
         unit = "mm/rad^2" if cam.slide is not None else "1/rad"
         steps = [(f"{place} of cam {name}", jump) for place, jump in cam.motion.steps(2)]
-        yield step_check(ACCELERATION_STEP, steps, cam.bend, unit, "warn", "take laws that end without acceleration")
+        yield step_check(
+            ACCELERATION_STEP,
+            steps,
+            cam.bend,
+            unit,
+            "warn",
+            "use laws that end with zero acceleration, such as cycloidal",
+        )
 
 
 def shaft_checks(structure: Structure) -> Iterator[Check]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.dyads import Dyad, dyads, mirrored
 from gearlink.core.machines.planar.structure import RackJoint, Structure
 from gearlink.core.machines.planar.system import (
@@ -116,7 +117,7 @@ class _Refusals:
             free = f"between {low:.6g} and {high:.6g} {unit}"
         ways = "keep range: {start, end}" if ranged else "let the input swing"
         return NoSolution(
-            f"the mechanism jams in a dead centre at input {here:.6g} {unit}",
+            f"the mechanism jams in a dead centre at input {short(here)} {unit}",
             key="range",
             fix=f"{ways} {free}{'' if ranged else ' (range: {start, end})'}",
         )

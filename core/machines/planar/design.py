@@ -669,7 +669,7 @@ class PlanarMechanism(Design):
                 continue
             _, t = self.course.at_start.closed
             found = math.degrees(float(t[self.structure.numbers[name]]))
-            what, fix = f"{name} at the start against start.{name}", f"set start.{name} nearer to the assembly meant"
+            what, fix = f"deviation of {name} from start.{name}", f"set start.{name} near the required assembly"
             aside = f"found {short(found)} deg, start.{name} {short(self.spec.start[name])} deg"
             yield ASSEMBLY.check("warn", what, off, _FAR_OFF, "deg", side="<=", aside=aside, fix=fix)
 

@@ -103,7 +103,10 @@ class Teeth(Spec):
                 "GL106", "{message}", {"key": "rack", "message": f"{missing} is missing: {words}"}
             )
         if isinstance(self.at, list) or isinstance(self.teeth, list):
-            _refuse("at" if isinstance(self.at, list) else "teeth", "a rack meets one pinion\ngive one, without a list")
+            _refuse(
+                "at" if isinstance(self.at, list) else "teeth",
+                "a rack meets one pinion\ngive one value instead of a list",
+            )
         if isinstance(self.teeth, int) and self.teeth < 1:
             _refuse("teeth", "a pinion has 1 tooth or more")
         if self.carrier is not None:

@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.wiring import FRAME, bearer_of, carrier_of, tied
 
 if TYPE_CHECKING:
@@ -231,11 +232,11 @@ class Structure:
         if cosine >= 1.0:
             raise NoSolution(
                 (
-                    f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {distance:.6g} "
-                    "mm, their base circles alone specify more"
+                    f"gears of module {module:g} mm with {z1} and {z2} teeth do not mesh at {short(distance)} "
+                    "mm, less than their base radii together"
                 ),
                 key=f"meshes.{name}.module",
-                fix=f"take module {2.0 * distance / abs(z1 + z2):.6g} mm, or omit it",
+                fix=f"set module to {2.0 * distance / abs(z1 + z2):.6g} mm, or omit it",
             )
         tangent = math.sqrt(1.0 - cosine * cosine) / cosine
         radii = distance * z1 / (z1 + z2), distance * z2 / (z1 + z2)

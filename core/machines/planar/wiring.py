@@ -156,16 +156,16 @@ def _cam(spec: PlanarSpec, key: str, cam: CamPair) -> Iterator[Fault]:
         if link not in spec.links:
             yield "GL111", f"{key}.{part}", f"no link is called {named(link)}: {_near(link, spec.links)}"
     if cam.cam == cam.follower:
-        yield "GL111", f"{key}.follower", "cam and follower are one link: name two"
+        yield "GL111", f"{key}.follower", "cam and follower are one link\nname two"
     yield from _point(spec, cam.point, cam.follower, f"{key}.point")
     if cam.on is not None:
         yield from _body(spec, cam.on, f"{key}.on")
     if bearer_of(spec, cam) is None:
         words = f"no body carries {cam.cam} on a pin and {cam.follower} on a pin or slide"
-        yield "GL111", f"{key}.on" if cam.on else key, f"{words}: give both one body that they turn or slide on"
+        yield "GL111", f"{key}.on" if cam.on else key, f"{words}\ngive both one body that they turn or slide on"
     own = spec.slid.get(cam.follower, cam.follower)
     if own in (spec.drive.main, *spec.drive.others):
-        yield "GL111", f"{key}.follower", f"{own} is driven already: the cam needs a link that is free"
+        yield "GL111", f"{key}.follower", f"{own} is driven already\nname a follower that is free"
 
 
 def bearer_of(spec: PlanarSpec, cam: CamPair) -> str | None:

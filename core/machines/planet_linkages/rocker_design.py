@@ -12,6 +12,7 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.planet_linkages.bodies import rocker_layout
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.numerics.motion_extremes import names
@@ -136,10 +137,10 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
     reach = math.degrees(greatest + swing)
     raise NoSolution(
         (
-            f"no crank gives a swing of {math.degrees(swing):.6g} deg: with these links and gears the "
-            f"output reaches {math.floor(reach * 10.0) / 10.0:g} deg at most"
+            f"swing: {unlike(math.degrees(swing), reach)} deg (limit <= {math.floor(reach * 10.0) / 10.0:g} deg "
+            "with these links and gears)"
         ),
-        fix=f"specify less, or take more teeth on the coupler gear (now z2/z5 = {abs(ratio):.6g})",
+        fix=f"reduce swing, or take more teeth on the coupler gear (now z2/z5 = {short(abs(ratio))})",
     )
 
 
@@ -152,8 +153,8 @@ def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -
     crank = limit * _SMALLEST
     if (over := excess(crank)) >= 0.0:
         raise NoSolution(
-            f"a swing of {math.degrees(swing):.6g} deg is next to a standstill",
-            fix=f"specify {safely_above(math.degrees(over + swing), 3)} deg or more",
+            f"swing: {short(math.degrees(swing))} deg, too small to be computed",
+            fix=f"set swing to at least {safely_above(math.degrees(over + swing), 3)} deg",
         )
     return crank
 
@@ -302,7 +303,7 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
         given = rocker if links.rocker is None or self.spec.gears.profile_shift is not None else links.rocker
         if abs(given - rocker) > _LINK_TOLERANCE * rocker:
             raise NoSolution(
-                f"rocker {given:.6g} mm is not the centre distance of the gears, {rocker:.6g} mm",
+                f"rocker: {unlike(given, rocker)} mm (centre distance of the gears {unlike(rocker, given)} mm)",
                 key="links.rocker",
                 fix="omit it, or change module or teeth",
             )
@@ -310,8 +311,9 @@ class GearedRocker(OutputRates, OutputSpeed, RealSpeed, Meshed):
             linkage = FourBar(self.crank_length, links.coupler, rocker, links.frame, self.spec.assembly)
             if check_linkage(linkage) != "crank-rocker":
                 raise NoSolution(
-                    (f"the frame {links.frame:.6g} mm is the shortest link, so that the rocker goes all the way round"),
-                    fix=f"make it longer than the crank, {self.crank_length:.6g} mm",
+                    f"frame: {unlike(links.frame, self.crank_length)} mm, the shortest link, with which the rocker "
+                    "turns fully",
+                    fix=f"set links.frame above the crank, {safely_above(self.crank_length)} mm",
                 )
         return linkage
 

@@ -13,7 +13,7 @@ from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
 from gearlink.core.base.report import Check, Remedy, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
@@ -245,7 +245,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         given, crank = self.spec.links.crank, self.crank_length
         if given is not None and self.spec.gears.profile_shift is None and abs(given - crank) > _LINK_TOLERANCE * crank:
             raise NoSolution(
-                f"crank {given:.6g} mm is not the centre distance of the gears, {crank:.6g} mm",
+                f"crank: {unlike(given, crank)} mm (centre distance of the gears {unlike(crank, given)} mm)",
                 key="links.crank",
                 fix="omit it, or change module or teeth",
             )
@@ -448,7 +448,7 @@ class TwoGearFourBar(OutputRates, OutputSpeed, FeedResults, Meshed):
         if limit is None:
             return "change the links: these stop the output with no number of teeth"
         if asked == MOMENTARY_DWELL:
-            return f"set z5/z2 to {limit:.6g} (now {short(have)})"
+            return f"set z5/z2 to {short(limit)} (now {short(have)})"
         side, bound = ("above", safely_above(limit)) if asked == UNIDIRECTIONAL else ("below", safely_below(limit))
         return f"set z5/z2 {side} {bound} (now {short(have)})"
 

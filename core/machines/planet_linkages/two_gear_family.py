@@ -27,6 +27,7 @@ from functools import lru_cache
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
@@ -87,21 +88,22 @@ def frame_range(family: Family) -> tuple[float, float]:
         if not a < min(b, c):
             raise NoSolution(
                 (
-                    f"with a ring gear the output stops in a crank-rocker alone: the crank, {a:.6g} mm "
-                    "by the gears, must be shorter than coupler and rocker"
+                    f"crank by the gears: {unlike(a, min(b, c))} mm (limit < {unlike(min(b, c), a)} mm, the shorter of "
+                    "coupler and rocker; with a ring gear only a crank-rocker stops)"
                 ),
                 key="links.coupler" if b <= c else "links.rocker",
-                fix="make both longer than that, or the module smaller",
+                fix=f"set links.coupler and links.rocker above {safely_above(a)} mm, or reduce gears.module",
             )
         return math.fsum((a, abs(b - c))), math.fsum((b, c, -a))
     longest = max(a, b, c)
     high = math.fsum((a, b, c, -2.0 * longest))
+    others = math.fsum((a, b, c, -longest))
     if high <= 0.0:
         raise NoSolution(
-            f"with a sun the output stops in a drag link alone, the frame its shortest link; with crank "
-            f"{a:.6g} (by the gears), coupler {b:.6g} and rocker {c:.6g} mm there is none: the longest must be "
-            f"shorter than the other two together, {a + b + c - longest:.6g} mm",
+            f"longest of crank (by the gears), coupler and rocker: {unlike(longest, others)} mm (limit < "
+            f"{unlike(others, longest)} mm, the other two together; with a sun only a drag link stops)",
             key="links.rocker" if c == longest else "links.coupler",
+            fix=f"shorten it below {safely_below(others)} mm",
         )
     return 0.0, high
 
@@ -163,8 +165,8 @@ def beyond_reach(what: str, most: float, drive: PlanetLinkage) -> str:
     """The refusal of a request that is more than the most [rad] of a family, which one of its drives reaches."""
     angle = math.degrees(drive.linkage.min_transmission_angle())
     return (
-        f"{what} is more than these gears and links reach, {safely_below(math.degrees(most))} deg, and that with a "
-        f"transmission angle of {angle:.3g} deg; specify less"
+        f"{what} is out of reach: at most {safely_below(math.degrees(most))} deg with these gears and links "
+        f"(transmission angle {angle:.3g} deg)\nreduce it, or change gears or links"
     )
 
 
@@ -172,25 +174,25 @@ def never(family: Family) -> str:
     """Why gears and links have no momentary dwell, and the teeth that have."""
     low, high = frame_range(family)
     margin = _AT_CHANGE_POINT * (high - low)
-    limits = f"frames between {low:.9g} and {high:.9g} mm"
+    limits = f"frames of {within(low, high, 'mm')}"
     teeth = abs(1.0 / family.ratio)
     if not family.ring:
         reach = max(t.value for t in coupler_turnings(family.drive(high - margin))) - 1.0
         return (
-            f"with {limits} the output never stops: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
-            "with links of these lengths; take fewer teeth on the sun or more on the planet"
+            f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
+            "take fewer teeth on the sun or more on the planet"
         )
     reach, least = (
         1.0 - min(t.value for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
     )
     if teeth < least:
         return (
-            f"with {limits} the output steps back always, with no momentary dwell to start from: z5/z2 = {teeth:.6g} "
-            f"must be above {safely_above(least)} with links of these lengths; take more teeth on the ring gear"
+            f"no momentary dwell, the output always steps back: z5/z2 {unlike(teeth, least)} (limit > "
+            f"{safely_above(least)} for {limits})\ntake more teeth on the ring gear"
         )
     return (
-        f"with {limits} the output never stops: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} with "
-        "links of these lengths; take fewer teeth on the ring gear or more on the planet"
+        f"the output never stops: z5/z2 {unlike(teeth, reach)} (limit < {safely_below(reach)} for {limits})\n"
+        "take fewer teeth on the ring gear or more on the planet"
     )
 
 
@@ -349,7 +351,7 @@ def filling(family: Family, tolerance: float) -> float | None:
     """
     if back_step_of(family.drive(stepping(family)[1])) < 2.0 * tolerance:
         return None
-    return solved(family, back_step_of, 2.0 * tolerance, f"a tolerance of {math.degrees(tolerance):.9g} deg", 0.5)
+    return solved(family, back_step_of, 2.0 * tolerance, f"a tolerance of {short(math.degrees(tolerance))} deg", 0.5)
 
 
 def longest(family: Family, tolerance: float) -> tuple[float, float] | None:

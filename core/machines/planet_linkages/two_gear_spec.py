@@ -38,7 +38,7 @@ class PlanetGears(TrainKeys):
         if self.sun is None and self.ring is None:
             raise PydanticCustomError("GL106", "give sun or ring, the output gear on A", {"key": "sun"})
         if self.sun is not None and self.ring is not None:
-            raise PydanticCustomError("GL111", "sun and ring exclude each other\ngive one", {"key": "ring"})
+            raise PydanticCustomError("GL111", "sun and ring exclude each other\nomit sun or ring", {"key": "ring"})
         if self.ring is not None and self.ring <= self.planet:
             raise PydanticCustomError(
                 "GL111",
@@ -138,7 +138,7 @@ class TwoGearFourBarSpec(DrivenSpec):
     @model_validator(mode="after")
     def _lay_has_a_speed(self) -> TwoGearFourBarSpec:
         if self.feed is not None and self.feed.lay is not None and self.input_speed is None:
-            message = "the speed at the lay needs the input's: give input_speed"
+            message = "the speed at the lay needs the speed of the input\ngive input_speed"
             raise PydanticCustomError("GL106", message, {"key": "input_speed"})
         return self
 

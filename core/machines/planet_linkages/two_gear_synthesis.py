@@ -10,6 +10,7 @@ from gearlink.core.base.design import Found, Outline
 from gearlink.core.base.errors import NoSolution, at_key, section_of
 from gearlink.core.base.report import Check, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.planet_linkages import two_gear_family as kernel
 from gearlink.core.machines.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
 from gearlink.core.machines.planet_linkages.two_gear_family import (
@@ -256,7 +257,7 @@ class DwellSynthesis(TwoGearFourBar):
     def _filled_frame(self) -> float:
         """The frame of the longest dwell in the band but for its margin; the whole band limits the tolerance."""
         whole, aimed = self.asked_tolerance or 0.0, self._aimed_at
-        words = f"a tolerance of {math.degrees(whole):.9g} deg"
+        words = f"a tolerance of {short(math.degrees(whole))} deg"
         most = kernel.back_step_of(self.family.drive(kernel.stepping(self.family)[1]))
         if 2.0 * whole > most:
             kernel.solved(self.family, kernel.back_step_of, 2.0 * whole, words, 0.5)
@@ -273,10 +274,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and band >= math.pi * self._mean:
             raise NoSolution(
-                f"a band of +-{math.degrees(band):.6g} deg holds the output over the whole revolution: the "
-                f"tolerance must be "
-                f"below {safely_below(180.0 * self._mean)} deg, half of what the output gains in a revolution "
-                f"of the crank",
+                f"dwell tolerance: {unlike(math.degrees(band), 180.0 * self._mean)} deg (limit < "
+                f"{safely_below(180.0 * self._mean)} deg, half of the output angle per revolution of the crank)",
                 key="dwell.tolerance",
             )
 
@@ -284,8 +283,8 @@ class DwellSynthesis(TwoGearFourBar):
         band = self.asked_tolerance
         if band is not None and self._mean * window <= 2.0 * band:
             raise NoSolution(
-                (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
-                fix="specify a longer window or a smaller tolerance",
+                f"uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage needed",
+                fix="raise dwell.window, or reduce dwell.tolerance",
             )
 
     def _refuse_long_window(self, window: float) -> None:
@@ -295,11 +294,11 @@ class DwellSynthesis(TwoGearFourBar):
             return
         raise NoSolution(
             (
-                f"the output cannot stop and stay within +-{math.degrees(band):.6g} deg over "
-                f"{self._request.window:g} deg with these gears and links: at most over "
-                f"{safely_below(math.degrees(longest))} deg{self._there()}"
+                f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
+                "with "
+                f"these gears and links: max. {safely_below(math.degrees(longest))} deg{self._there()}"
             ),
-            fix="specify that",
+            fix=f"set dwell.window to {safely_below(math.degrees(longest))} deg",
         )
 
     def _refuse_narrow_band(self, least: float) -> None:
@@ -309,11 +308,12 @@ class DwellSynthesis(TwoGearFourBar):
         longest = safely_below(math.degrees(limit))
         raise NoSolution(
             (
-                f"the output cannot stop and stay within +-{math.degrees(band):.6g} deg over "
-                f"{self._request.window:g} deg with these gears and links: at most over {longest} deg{self._there()}, "
-                f"or within +-{safely_above(math.degrees(least))} deg"
+                f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
+                "with "
+                f"these gears and links: max. {longest} deg{self._there()}, or "
+                f"+-{safely_above(math.degrees(least))} deg"
             ),
-            fix="specify one of these",
+            fix=f"set dwell.window to {longest} deg, or dwell.tolerance to {safely_above(math.degrees(least))} deg",
         )
 
     def _there(self) -> str:

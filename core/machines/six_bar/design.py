@@ -493,7 +493,9 @@ def _between(f: Function, low: Reals, high: Reals, ends: tuple[Reals, Reals]) ->
     found = bracketed_roots(f, low, high, ends=ends)
     if np.isnan(found).any():
         at = float(np.degrees(low[np.isnan(found)][0]))
-        raise NoSolution(f"the six-bar has no rates next to the input angle {at:.6g} deg: it is in a dead centre there")
+        raise NoSolution(
+            f"the six-bar has no rates next to the input angle {short(at)} deg: it is in a dead centre there"
+        )
     return [float(x) for x in found]
 
 
@@ -628,7 +630,7 @@ class _Refusals:
             low, high = sorted((math.degrees(q), math.degrees(back)))
             free = f"between {low:.6g} and {high:.6g} deg"
         return NoSolution(
-            f"the six-bar meets a dead centre at input angle {math.degrees(q):.6g} deg, where it jams",
+            f"the six-bar meets a dead centre at input angle {short(math.degrees(q))} deg, where it jams",
             key="range" if ranged else "links",
             fix=(
                 f"let the input swing {free} (range: {{start, end}}), lengthen the couplers, or shorten "

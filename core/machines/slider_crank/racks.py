@@ -38,7 +38,7 @@ class Racks(PairKeys):
     @model_validator(mode="after")
     def _moves(self) -> Racks:
         if self.side == "same" and self.fixed == self.moving:
-            message = "equal teeth on the same side leave the rack at rest: give other teeth, or side: opposite"
+            message = "equal teeth on the same side leave the rack at rest\ngive other teeth, or side: opposite"
             raise PydanticCustomError("GL111", message, {"key": "moving"})
         return self
 

@@ -81,7 +81,9 @@ class SliderCrankSpec(DrivenSpec):
         if (self.stroke is None) == (self.crank is None):
             if self.stroke is None:
                 raise PydanticCustomError("GL106", "give stroke, or crank instead", {"key": "stroke"})
-            raise PydanticCustomError("GL111", "stroke and crank exclude each other\ngive one", {"key": "crank"})
+            raise PydanticCustomError(
+                "GL111", "stroke and crank exclude each other\nomit stroke or crank", {"key": "crank"}
+            )
         return self
 
     def slider_crank(self) -> SliderCrank:

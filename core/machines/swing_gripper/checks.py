@@ -144,11 +144,12 @@ def stop_settling(design: SwingGripper) -> Iterator[Check]:
         return
     margin, least = design.stop.margin, _SETTLED_SHARE * design.motion.phases.near_dwell
     status: Status = "fail" if margin < 0.0 else "warn" if margin < least else "pass"
-    what, at = "rest on the stop before the pick-up", f"{short(design.stop.impact_degrees)} deg"
+    what, overlap = "rest on the stop before the pick-up", "settling on the stop beyond the pick-up"
+    at = f"{short(design.stop.impact_degrees)} deg"
     limit = 0.0 if status == "fail" else least
     fix = "lower stop.restitution or stop.clearance" if status != "pass" else ""
     aside = f"settled in {short(design.stop.settling_time)} ms"
-    yield codes.STOP_SETTLING.check(status, what, margin, limit, "deg", at=at, fix=fix, aside=aside)
+    yield codes.STOP_SETTLING.check(status, what, margin, limit, "deg", at=at, fix=fix, aside=aside, overlap=overlap)
 
 
 def finger_release(design: SwingGripper) -> Iterator[Check]:

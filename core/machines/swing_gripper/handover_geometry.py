@@ -14,6 +14,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
+from gearlink.core.base.wording import unlike
 from gearlink.core.numerics.arrays import Reals
 
 
@@ -104,7 +105,7 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
     """
     if gap >= 2.0 * arm:
         raise NoSolution(
-            f"no turn takes the tip {gap:.6g} mm off the pitch circle",
+            f"gap of the tip from the pitch circle: {unlike(gap, 2.0 * arm)} mm (limit < {unlike(2.0 * arm, gap)} mm)",
             fix=f"specify less than {safely_below(2.0 * arm)} mm",
         )
     square = gap * (2.0 * radius + gap) / (4.0 * arm * (arm + radius))

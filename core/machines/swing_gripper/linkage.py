@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
@@ -246,7 +246,7 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
             change = f"bring input and coupler {safely_above(low - float(reach.min()), 4)} mm nearer"
         raise NoSolution(
             f"the linkage cannot be assembled at cylinder angle {short(linkage.law.reaches(float(swing[first])))} deg: "
-            f"AD {reach[first]:.6g} mm (reach {low:.6g} to {high:.6g} mm)",
+            f"AD {unlike(reach[first], low if reach[first] < low else high)} mm (reach {within(low, high, 'mm')})",
             key="links",
             fix=change,
         )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike, within
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.law import SixPhaseLaw, SixPhases
@@ -61,8 +62,8 @@ class Motion:
         start, end = found.accelerate, found.accelerate + found.constant
         if self.spec.handover is not None and not start <= self.spec.handover <= end:
             raise NoSolution(
-                f"handover outside the constant-speed phase: {self.spec.handover:g} deg (balanced: {start:.6g} to "
-                f"{end:.6g} deg)",
+                f"handover outside the constant-speed phase: {self.spec.handover:g} deg (balanced: "
+                f"{within(start, end, 'deg')})",
                 key="handover",
                 fix="omit it for the middle of the phase",
             )
@@ -146,8 +147,8 @@ class Motion:
             return
         raise NoSolution(
             (
-                f"the arm swings {swing:.6g} deg, a revolution or more: the tip's speed R/l_EF = {law.speed:.6g} "
-                "is too high for these phases"
+                f"swing of the arm: {unlike(swing, 360.0)} deg (limit < 360 deg; speed of the tip R/l_EF = "
+                f"{law.speed:.4g})"
             ),
             key="arm.length",
             fix=(
@@ -165,7 +166,7 @@ class Motion:
         kappa = law.accelerate.kappa + short / (law.speed * self.phases.accelerate)
         free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
         raise NoSolution(
-            (f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg"),
+            f"total_swing: {unlike(stated, swing)} deg (laws, phases and R/l_EF give {unlike(swing, stated)} deg)",
             key="total_swing",
             fix=(
                 f"set arm.length to {self.spec.arm.length * swing / stated:.6g}, or change "

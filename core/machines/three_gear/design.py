@@ -198,8 +198,8 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         """Who finds what the file leaves out."""
         asked = [f"`{command}`" for command in self.spec.syntheses()]
         if not asked:
-            return "; a section dwell, back_step, speed or momentary would have it found"
-        several = ": keep one of their sections" if len(asked) > 1 else ""
+            return "\ngive it, or add a section dwell, back_step, speed or momentary and run its synthesis"
+        several = "\nkeep one of their sections" if len(asked) > 1 else ""
         return f"; {' or '.join(asked)} finds it{several}"
 
     crank_teeth: int = placed("spec.gears.crank")

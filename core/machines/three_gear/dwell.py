@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, within
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.three_gear.momentary import (
     Tangency,
     crank_angle,
@@ -200,8 +200,8 @@ def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:
     rocker = scale * abs(z3 + z5)
     if abs(rocker - linkage.rocker) > _LINK_TOLERANCE * rocker:
         raise NoSolution(
-            f"the rocker {linkage.rocker:.6g} mm does not fit the gears: with the coupler {linkage.coupler:.6g} mm and "
-            f"{z1:g}, {z3:g}, {z5:g} teeth it must be {rocker:.6g} mm"
+            f"rocker: {unlike(linkage.rocker, rocker)} mm (required {unlike(rocker, linkage.rocker)} mm by the coupler "
+            f"{short(linkage.coupler)} mm and {z1:g}, {z3:g}, {z5:g} teeth)"
         )
     return r1, r3, linkage.rocker * z5 / abs(z3 + z5)
 

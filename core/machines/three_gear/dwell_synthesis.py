@@ -226,7 +226,7 @@ class DwellTask(FamilyTask):
         from gearlink.core.machines.three_gear.families import back_step_of, solved
 
         whole, aimed = self.tolerance or 0.0, self.aimed_at
-        words = f"a tolerance of {math.degrees(whole):.9g} deg"
+        words = f"a tolerance of {short(math.degrees(whole))} deg"
         most = back_step_of(train)(family.linkage(family.stepping()[1]))
         target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
         return solved(family, back_step_of(train), target, words, share)
@@ -235,8 +235,8 @@ class DwellTask(FamilyTask):
         band, window = self.band, self.window
         if band is not None and window is not None and ratio * window <= 2.0 * band:
             raise NoSolution(
-                (f"an even motion stays within +-{math.degrees(band):.6g} deg over that window: it needs no linkage"),
-                fix="specify a longer window or a smaller tolerance",
+                f"uniform motion stays within +-{short(math.degrees(band))} deg over this window: no linkage needed",
+                fix="raise dwell.window, or reduce dwell.tolerance",
             )
 
     def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:
@@ -492,6 +492,6 @@ class DwellSynthesis(ThreeGearFourBar):
         half, limit = 0.5 * step.angle, self.task.tolerance or math.radians(PLAIN_TOLERANCE)
         yield back_step_judged(math.degrees(half), math.degrees(limit)).check(
             "half of the back-step of the output during the dwell",
-            "specify dwell: {window: deg, tolerance: deg} for an output that stays within a tolerance",
+            "give dwell.window and dwell.tolerance instead of dwell.angle",
             aside=f"dwell angle {short(asked)} deg",
         )

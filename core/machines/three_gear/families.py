@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
-from gearlink.core.base.wording import within
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, valley
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
@@ -111,8 +111,9 @@ def frames_of(crank: float, b: float, c: float) -> tuple[float, float]:
     least, high = max(abs(b - c) + crank, crank), b + c - crank
     if not least < high:
         raise NoSolution(
-            f"a crank of {crank:.6g} mm cannot turn with a coupler of {b:.6g} and a rocker of {c:.6g} mm: it must be "
-            f"shorter than {safely_below(min(b, c))} mm"
+            f"crank: {unlike(crank, min(b, c))} mm (limit < {unlike(min(b, c), crank)} mm to turn fully; coupler "
+            f"{short(b)}, rocker {short(c)} mm)",
+            fix=f"set the crank below {safely_below(min(b, c))} mm",
         )
     return least, high
 
@@ -126,10 +127,17 @@ def longest_crank(frame: float, b: float, c: float) -> float:
     high = min(frame - abs(b - c), b + c - frame, frame)
     if not high > 0.0:
         raise NoSolution(
-            f"no crank turns in a frame of {frame:.6g} mm with a coupler of {b:.6g} and a rocker of {c:.6g} mm: it "
-            f"must be {within(abs(b - c), b + c, 'mm')}"
+            f"frame: {short(frame)} mm, in which no crank turns fully (coupler {short(b)}, rocker {short(c)} mm)",
+            fix=f"set the frame to {within(abs(b - c), b + c, 'mm')}",
         )
     return high
+
+
+def _never_stops(crank: float, low: float) -> str:
+    return (
+        f"crank: {unlike(crank, low)} mm (limit > {unlike(low, crank)} mm for the output to stop)\n"
+        f"set the crank above {safely_above(low)} mm"
+    )
 
 
 def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
@@ -155,7 +163,7 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         low = None
     elif crank < e_up:
         low = max(least, momentary_frame_length(r1, r3, r5, crank))
-    why = f"a crank of {crank:.9g} mm never stops the output: it must be longer than {e_lo:.9g} mm"
+    why = _never_stops(crank, e_lo)
     return Family(lambda d: FourBar(crank, b, c, d, assembly), least, low, high, why)
 
 
@@ -212,16 +220,16 @@ def solved(
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
         raise NoSolution(
             (
-                f"{what} is more than these gears reach, {safely_below(math.degrees(share * most), 9)} deg, with a "
-                f"transmission angle of {angle} deg"
+                f"{what} is out of reach: at most {safely_below(math.degrees(share * most))} deg with these gears "
+                f"(transmission angle {angle} deg)"
             ),
-            fix="specify less",
+            fix="reduce it, or change the gears",
         )
     if not target >= least:
         raise NoSolution(
             (
                 f"{what} is less than that of any crank-rocker with this crank: its output steps back "
-                f"with every frame, and the minimum is {safely_above(math.degrees(share * least), 9)} deg"
+                f"with every frame, and the minimum is {safely_above(math.degrees(share * least))} deg"
             ),
             fix="take a shorter crank",
         )
@@ -263,8 +271,8 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> Fo
     most, least = reached(low), reached(high)
     if not min(least, most) <= quotient <= max(least, most):
         raise NoSolution(
-            f"no linkage of these gears gives min/max = {quotient:.6g}: it must lie between "
-            f"{safely_above(min(least, most), 4)} and {safely_below(max(least, most), 4)}"
+            f"min/max of the output speed: {short(quotient)} (from {safely_above(min(least, most), 4)} to "
+            f"{safely_below(max(least, most), 4)} with these gears)"
         )
     ends = (most - quotient, least - quotient)
     return family.linkage(bracketed_root(lambda x: reached(x) - quotient, low, high, ends=ends))
@@ -333,7 +341,7 @@ def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
 
 
 def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.6g}"
+    return short(math.degrees(angle))
 
 
 class Room(NamedTuple):
@@ -437,23 +445,22 @@ def words(found: tuple[Room, ...]) -> str:
 def _ring_with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
     """`with_crank` of a train with a ring."""
     b, c = abs(r1 + r3), abs(r3 + r5)
-    short, long = frames_of(crank, b, c)
+    shortest, longest = frames_of(crank, b, c)
 
     def linkage(d: float) -> FourBar:
         return FourBar(crank, b, c, d, assembly)
 
     found = shape(r1, r3, r5)
-    least, high = (short, long) if found.sigma > 0 else (long, short)
+    least, high = (shortest, longest) if found.sigma > 0 else (longest, shortest)
     if crank >= found.high:  # steps back with every frame
         return Family(linkage, least, least, high)
     if not found.low < crank:
-        why = f"a crank of {crank:.9g} mm never stops the output: it must be longer than {found.low:.9g} mm"
-        return Family(linkage, least, None, high, why)
+        return Family(linkage, least, None, high, _never_stops(crank, found.low))
     touching = ring_tangency(r1, r3, r5, crank)
     assert touching is not None, "a crank in the range has a frame that just stops the output"
-    inside = min(max(touching.frame, short), long)
+    inside = min(max(touching.frame, shortest), longest)
     if inside == high:
-        why = f"a crank of {crank:.9g} mm makes no crank-rocker whose output steps back: choose another"
+        why = f"crank: {short(crank)} mm, of which no crank-rocker steps back\nchange the crank or the gears"
         return Family(linkage, least, None, high, why)
     return Family(linkage, least, inside, high)
 
@@ -462,7 +469,7 @@ def _ring_with_frame(r1: float, r3: float, r5: float, frame: float, assembly: in
     """`with_frame` of a train with a ring."""
     b, c = abs(r1 + r3), abs(r3 + r5)
     high = longest_crank(frame, b, c)
-    why = f"no crank makes the output step back with a frame of {frame:.9g} mm"
+    why = f"frame: {short(frame)} mm, with which no crank makes the output step back\nchange the frame or the gears"
     return _rising(r1, r3, r5, lambda e: FourBar(e, b, c, frame, assembly), min(high, abs(r1)), why)
 
 
@@ -473,7 +480,7 @@ def _ring_balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family
     def linkage(e: float) -> FourBar:
         return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
 
-    why = "these gears have no balanced linkage whose output steps back; give crank or frame"
+    why = "these gears have no balanced linkage whose output steps back\ngive crank or frame"
     return _rising(r1, r3, r5, linkage, min(b, c, abs(r1)), why)
 
 
@@ -491,13 +498,13 @@ def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assemb
         raise NoSolution(family.why)
     if crank >= found.high:
         raise NoSolution(
-            f"a crank of {crank:.6g} mm never just stops the output: it must lie between {found.low:.6g} and "
-            f"{found.high:.6g} mm"
+            f"crank: {unlike(crank, found.high)} mm (for a momentary dwell {within(found.low, found.high, 'mm')})",
+            fix=f"set the crank to {within(found.low, found.high, 'mm')}",
         )
     if family.low == family.least:
         raise NoSolution(
-            f"a crank of {crank:.6g} mm cannot turn with the frame of its momentary dwell",
-            fix=f"choose another of {within(found.low, found.high, 'mm')}",
+            f"crank: {short(crank)} mm, which does not turn fully with the frame of its momentary dwell",
+            fix=f"set the crank to {within(found.low, found.high, 'mm')}",
         )
     return family.linkage(family.low)
 

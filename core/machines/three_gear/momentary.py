@@ -27,7 +27,8 @@ import math
 from typing import Any, NamedTuple
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.report import safely_above
+from gearlink.core.base.wording import short, unlike, within
 from gearlink.core.machines.three_gear.motion import GearTrain, output_acceleration, output_speed
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -171,9 +172,9 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     if not low < high:
         raise NoSolution(
             (
-                f"gears of {2 * r1:.6g}, {2 * r3:.6g} and {2 * r5:.6g} mm reference diameter have no "
-                f"crank-rocker with a momentary dwell: the crank would have to be longer than {safely_above(low)} "
-                f"mm and shorter than {safely_below(high)} mm"
+                f"no crank-rocker with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and "
+                f"{short(2 * r5)} mm reference diameter: crank above {unlike(low, high)} and below "
+                f"{unlike(high, low)} mm"
             ),
             fix="take a larger idler or an output gear not smaller than the crank gear",
         )
@@ -206,11 +207,10 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     e_lo, e_hi = tangency_range(r1, r3, r5)
     if not e_lo < e < e_hi:
         raise NoSolution(
-            (
-                f"a crank of {e:.6g} mm never stops the output, whatever the frame: it must lie between "
-                f"{e_lo:.6g} and {e_hi:.6g} mm"
-            ),
-            fix="choose it between them or change the gears",
+            f"crank: {unlike(e, e_lo if e <= e_lo else e_hi)} mm (for the output to stop above {unlike(e_lo, e_hi)}, "
+            "below "
+            f"{unlike(e_hi, e_lo)} mm)",
+            fix=f"set the crank between {unlike(e_lo, e_hi)} and {unlike(e_hi, e_lo)} mm, or change the gears",
         )
     return touching(r1, r3, r5, e, e_lo if e < r1 else e_hi)
 
@@ -330,10 +330,11 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
             what = "cannot turn with the frame of its momentary dwell"
         raise NoSolution(
             (
-                f"a crank of {eccentricity:.6g} mm {what}: for a momentary dwell of these gears it must "
-                f"lie between {low:.6g} and {high:.6g} mm"
+                f"crank: {unlike(eccentricity, low if eccentricity <= low else high)} mm, which {what} (for a "
+                "momentary "
+                f"dwell of these gears above {unlike(low, high)}, below {unlike(high, low)} mm)"
             ),
-            fix="choose it between them or change the gears",
+            fix=f"set the crank between {unlike(low, high)} and {unlike(high, low)} mm, or change the gears",
         )
     return tangency(r1, r3, r5, eccentricity)
 
@@ -364,8 +365,8 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
     shortest = math.sqrt(r5 * r5 + (r1 - high) * (r1 + high) * kappa)
     if not shortest < frame < longest:
         raise NoSolution(
-            f"no crank gives these gears a momentary dwell with a frame of {frame:.6g} mm: it must lie between "
-            f"{shortest:.6g} and {longest:.6g} mm"
+            f"frame: {unlike(frame, shortest if frame <= shortest else longest)} mm (for a momentary dwell of these "
+            f"gears {within(shortest, longest, 'mm')})"
         )
     return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
 
@@ -423,8 +424,8 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     if not low * low < square < high * high:
         raise NoSolution(
             (
-                f"gears of {2 * r1:.6g}, {2 * r3:.6g} and {2 * r5:.6g} mm reference diameter have no "
-                "balanced linkage with a momentary dwell"
+                f"no balanced linkage with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and "
+                f"{short(2 * r5)} mm reference diameter"
             ),
             fix="give crank or frame",
         )
@@ -607,7 +608,7 @@ def _ring_eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) 
         ends = [r5 * r5 + (r1 - e) * (r1 + e) * found.kappa for e in (found.low, found.high)]
         low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
         raise NoSolution(
-            f"no crank gives these gears a momentary dwell with a frame of {frame:.6g} mm: it must lie between "
-            f"{low:.6g} and {high:.6g} mm"
+            f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
+            f"{within(low, high, 'mm')})"
         )
     return math.sqrt(square)

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.checks import check_linkage
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
@@ -323,8 +324,8 @@ def idler_for_ratio(i3: float, output_teeth: int) -> int:
     teeth = math.floor(-i3 * output_teeth + 0.5) if math.isfinite(i3) else 0
     if teeth < 1:
         raise NoSolution(
-            f"no idler has the ratio i3 = {i3:.6g} to an output gear of {output_teeth} teeth; i3 must be at most "
-            f"{-1.0 / output_teeth:.6g}, one tooth"
+            f"i3: {unlike(i3, -1.0 / output_teeth)} (limit <= {unlike(-1.0 / output_teeth, i3)}, an idler of one tooth "
+            f"with an output gear of {output_teeth})"
         )
     return teeth
 

@@ -64,7 +64,7 @@ class Gears(TrainKeys):
     @model_validator(mode="after")
     def _one_ratio(self) -> Gears:
         if self.i3 is not None and self.idler is not None:
-            raise PydanticCustomError("GL111", "i3 and idler exclude each other\ngive one", {"key": "i3"})
+            raise PydanticCustomError("GL111", "i3 and idler exclude each other\nomit i3 or idler", {"key": "i3"})
         if self.i3 is not None and self.crank != self.output:
             message = "i3 goes with equal crank and output teeth\nset output to {crank}, or give idler instead of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
@@ -127,13 +127,15 @@ class ThreeGearSpec(DrivenSpec):
     def _one_tolerance(self) -> ThreeGearSpec:
         if self.dwell_tolerance is not None and self.dwell_backlash is not None:
             raise PydanticCustomError(
-                "GL111", "dwell_tolerance and dwell_backlash exclude each other\ngive one", {"key": "dwell_backlash"}
+                "GL111",
+                "dwell_tolerance and dwell_backlash exclude each other\nomit dwell_tolerance or dwell_backlash",
+                {"key": "dwell_backlash"},
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
-            message = "dwell_tolerance and dwell.tolerance specify the same\ngive one"
+            message = "dwell_tolerance and dwell.tolerance specify the same\nomit dwell_tolerance or dwell.tolerance"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
-            message = "dwell_window goes with dwell_tolerance or dwell_backlash\ngive one of them"
+            message = "dwell_window goes with dwell_tolerance or dwell_backlash\nadd dwell_tolerance or dwell_backlash"
             raise PydanticCustomError("GL111", message, {"key": "dwell_window"})
         return self
 

@@ -35,7 +35,7 @@ from typing import Any, NamedTuple
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear.dwell import Output
 from gearlink.core.machines.three_gear.motion import Extremes, GearTrain
 from gearlink.core.numerics.elementary import SCALARS, Elementary
@@ -118,8 +118,7 @@ def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: fl
     low, high = lowest_speed, highest_speed
     if not (0.0 <= low < high < math.inf):
         raise NoSolution(
-            f"no speed band from {low:.6g} to {high:.6g} rev/min: the output of this synthesis turns one way, so the "
-            "lower speed must not be below 0 and the upper one must be above it"
+            f"speed: {short(low)} to {short(high)} rev/min (0 <= min < max: the output of this synthesis turns one way)"
         )
     found: float = frame_ratio_between(i3, low, high)
     return found
@@ -204,21 +203,21 @@ def crank_length(d: Any, center_distance: Any, fn: Elementary = SCALARS) -> Any:
 def check_ratio(i3: float) -> None:
     """Refuse a ratio of idler and output gear that is not an external mesh's."""
     if not -math.inf < i3 < 0.0:
-        raise NoSolution(f"i3 is {i3:.6g}; idler and output gear mesh externally, so i3 = -z3/z5 must be negative")
+        raise NoSolution(f"i3: {short(i3)} (limit < 0: i3 = -z3/z5, idler and output gear mesh externally)")
 
 
 def check_back_step_crank_angle(phi12: float) -> None:
     """Refuse a crank angle of the back-step outside [0, pi)."""
     if not 0.0 <= phi12 < math.pi:
         raise NoSolution(
-            f"the crank angle of the back-step is {math.degrees(phi12):.6g} deg; it must lie from 0 (momentary "
-            "dwell) to below 180 deg"
+            f"crank angle of the back-step: {unlike(math.degrees(phi12), 180.0)} deg (from 0, a momentary dwell, to "
+            "below 180 deg)"
         )
 
 
 def _check_frame_ratio(d: float) -> None:
     if not 1.0 < d < math.inf:
-        raise NoSolution(f"the frame ratio is {d:.6g}; frame/crank must be above 1 (at 1 the linkage folds flat)")
+        raise NoSolution(f"frame over crank: {unlike(d, 1.0)} (limit > 1, where the linkage folds flat)")
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -275,8 +274,9 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
             (
-                f"no gear ratio gives a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} "
-                f"deg of the crank: the back-step must lie between 0 and {_deg(limit)} deg"
+                f"back-step within {_deg(2.0 * h)} deg of the crank: {_deg(back_step_angle, limit)} deg (above 0, "
+                "below "
+                f"{_deg(limit, back_step_angle)} deg)"
             ),
             fix="reduce it or enlarge the crank angle",
         )
@@ -316,10 +316,11 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
     if not 0.0 < back_step_angle < limit:
         raise NoSolution(
             (
-                f"no frame length gives a back-step of {_deg(back_step_angle)} deg with i3 = {i3:.6g}: it "
-                f"must lie between 0 and -i3 * 180 = {_deg(limit)} deg"
+                f"back-step: {_deg(back_step_angle, limit)} deg (above 0, below -i3 * 180 = "
+                f"{_deg(limit, back_step_angle)} "
+                f"deg; i3 {short(i3)})"
             ),
-            fix="reduce it or take an idler of more teeth",
+            fix="reduce the back-step, or take an idler of more teeth",
         )
     v = i3 / (i3 - 1.0)
     return 2.0 * _rising_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
@@ -394,10 +395,10 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     if not 0.0 < dwell_angle < limit:
         raise NoSolution(
             (
-                f"the dwell angle {_deg(dwell_angle)} deg is out of reach with i3 = {i3:.6g}: it must lie "
-                f"above 0 and below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg"
+                f"dwell angle: {_deg(dwell_angle, limit)} deg (above 0, below 360 (1 - i3)/(2 - i3) = "
+                f"{_deg(limit, dwell_angle)} deg; i3 {short(i3)})"
             ),
-            fix=f"reduce it{_ratio_remedy(dwell_angle)}",
+            fix=f"reduce dwell.angle{_ratio_remedy(dwell_angle)}",
         )
     high = min(0.5 * dwell_angle, 0.5 * math.pi)
     h = _rising_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
@@ -447,10 +448,11 @@ def crank_angle_for_window(i3: float, window: float) -> float:
     if not 0.0 < window < limit:
         raise NoSolution(
             (
-                f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.6g}: it must lie above 0 "
-                f"and below {_deg(limit)} deg, whatever the tolerance that a back-step fills"
+                f"dwell window: {_deg(window, limit)} deg (above 0, below {_deg(limit, window)} deg with any "
+                "tolerance that "
+                f"a back-step fills; i3 {short(i3)})"
             ),
-            fix="reduce it",
+            fix=f"set dwell.window below {safely_below(math.degrees(limit))} deg",
         )
     y = 0.5 * window
     h = _rising_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
@@ -589,10 +591,10 @@ def check_tolerance(i3: float, tolerance: float) -> None:
         limit = min(math.pi, -0.5 * i3 * math.pi)
         raise NoSolution(
             (
-                f"a tolerance of {_deg(tolerance)} deg has no longest window with i3 = {i3:.6g}: it must "
-                f"lie above 0 and below {_deg(limit)} deg"
+                f"dwell tolerance: {_deg(tolerance, limit)} deg (above 0, below {_deg(limit, tolerance)} deg; i3 "
+                f"{short(i3)})"
             ),
-            fix="reduce it",
+            fix=f"set dwell.tolerance below {safely_below(math.degrees(limit))} deg",
         )
 
 
@@ -754,8 +756,8 @@ def window_of_large_idler(tolerance: float) -> float:
     return 2.0 * y
 
 
-def _deg(angle: float) -> str:
-    return f"{math.degrees(angle):.6g}"
+def _deg(angle: float, other: float = math.nan) -> str:
+    return unlike(math.degrees(angle), math.degrees(other))
 
 
 class SymmetricOutput(Output):

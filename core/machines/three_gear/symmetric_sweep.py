@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.three_gear import symmetric
 from gearlink.core.machines.three_gear.dwell import tolerance_dwell
 from gearlink.core.machines.three_gear.motion import GearTrain
@@ -111,7 +112,9 @@ def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
     d = np.asarray(frame_ratio, dtype=float)
     wrong = ~((d >= 1.0) & (d < np.inf))
     if np.any(wrong):
-        raise NoSolution(f"the frame ratio is {d[wrong].flat[0]:.6g}; frame/crank starts at 1 in the family I = 1")
+        raise NoSolution(
+            f"frame over crank: {unlike(float(d[wrong].flat[0]), 1.0)} (limit > 1, where the linkage folds flat)"
+        )
     return np.asarray(1.0 / (d + 1.0 / d))
 
 
@@ -140,10 +143,10 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
         at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
         raise NoSolution(
             (
-                f"no frame ratio gives the nonuniformity {value:.6g} at i3 = {at:.6g}: it must lie above "
-                f"0 and below 2 (1 - i3) = {2.0 * (1.0 - at):.6g}"
+                f"nonuniformity: {unlike(value, 2.0 * (1.0 - at))} (above 0, below 2 (1 - i3) = "
+                f"{unlike(2.0 * (1.0 - at), value)}; i3 {short(at)})"
             ),
-            fix="reduce it or make -i3 larger",
+            fix="reduce the nonuniformity, or take an idler of more teeth",
         )
     q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
     return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
@@ -154,7 +157,7 @@ def _ratios(i3: ArrayLike) -> Reals:
     wrong = ~((ratio > -np.inf) & (ratio < 0.0))
     if np.any(wrong):
         raise NoSolution(
-            f"i3 = {ratio[wrong].flat[0]:.6g}: -idler/output teeth must be negative and finite (external meshes)"
+            f"i3: {ratio[wrong].flat[0]:.4g} (limit < 0: i3 = -z3/z5, idler and output gear mesh externally)"
         )
     return ratio
 
@@ -164,8 +167,8 @@ def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
     wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
     if np.any(wrong):
         raise NoSolution(
-            f"the crank angle of the back-step is {math.degrees(float(phi12[wrong].flat[0])):.6g} deg; it must lie "
-            "from 0 (momentary dwell) to below 180 deg"
+            f"crank angle of the back-step: {unlike(math.degrees(float(phi12[wrong].flat[0])), 180.0)} deg (from 0, a "
+            "momentary dwell, to below 180 deg)"
         )
     return np.asarray(0.5 * phi12)
 

@@ -512,7 +512,7 @@ class SpeedTask(FamilyTask):
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
         if self.request.uniform_angle is not None:
-            message = "an even stretch is sought of equal crank and output gears: give output as many teeth as crank"
+            message = "an even stretch is found of equal crank and output gears alone\nset gears.output to gears.crank"
             raise NoSolution(message, key="gears.output")
         from gearlink.core.machines.three_gear.families import with_speed_quotient
 

@@ -27,7 +27,7 @@ class Placing(Spec):
     def _one_placing(self) -> Placing:
         given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
         if len(given) > 1:
-            message = "crank, frame and balanced exclude each other\ngive one"
+            message = "crank, frame and balanced exclude each other\nkeep one of them"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         return self
 
@@ -92,7 +92,7 @@ class Speed(Placing):
         band = [name for name in ("min", "max") if getattr(self, name) is not None]
         even = [name for name in ("uniform_angle", "uniform_tolerance") if getattr(self, name) is not None]
         if band and even:
-            message = "uniform_angle and uniform_tolerance replace min and max\ngive one pair"
+            message = "uniform_angle and uniform_tolerance replace min and max\nomit min and max, or the other two"
             raise PydanticCustomError("GL111", message, {"key": even[0]})
         pair = ("uniform_angle", "uniform_tolerance") if even else ("min", "max")
         missing = [name for name in pair if getattr(self, name) is None]
@@ -119,7 +119,7 @@ class Momentary(Spec):
         if not given:
             raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
         if len(given) > 1:
-            message = "eccentricity, frame, gap and balanced exclude each other\ngive one"
+            message = "eccentricity, frame, gap and balanced exclude each other\nkeep one of them"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         return self
 

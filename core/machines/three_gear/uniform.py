@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.standstills import Turning
 
@@ -113,7 +114,8 @@ def frame_ratio_for_window(angle: float, share: float, n: float, transmission: f
         d = before + step
         if d > _MOST:
             raise NoSolution(
-                f"a window of {math.degrees(angle):.6g} deg within +-{100.0 * share:g} % takes a frame of more than "
-                f"{_MOST:g} cranks: specify a smaller angle or a greater tolerance"
+                f"frame over crank for {short(math.degrees(angle))} deg within +-{100.0 * share:g} %: above {_MOST:g} "
+                "(not computed)",
+                fix="reduce the uniform angle, or raise uniform_tolerance",
             )
     return bracketed_root(lambda x: window_of_family(x, n, share) - angle, before, d)

@@ -21,7 +21,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
@@ -183,8 +183,10 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
     if room[0] <= 0.0:
         most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
         raise NoSolution(
-            (f"roller radius {roller_radius:.6g} mm: where the roller is at rest it covers the whole profile"),
-            fix=f"make it less than {safely_below(most)} mm, or the centre distance larger",
+            f"roller radius: {unlike(roller_radius, most)} mm (limit < {unlike(most, roller_radius)} mm, where the "
+            "roller "
+            "at rest covers the whole profile)",
+            fix=f"set cam.roller_radius below {safely_below(most)} mm, or raise cam.center_distance",
         )
     within = np.flatnonzero(room < 0.0)
     if not within.size:
@@ -414,7 +416,8 @@ class WideSwingCam:
         _require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
         if not 0.0 < self.cycle_angle <= 2.0 * math.pi:
             raise NoSolution(
-                f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: a stroke needs more than 0, at most 360 deg"
+                f"cam angle of the stroke: {unlike(math.degrees(self.cycle_angle), 360.0)} deg (above 0, at most 360 "
+                "deg)"
             )
         if self.speed_ratio_peak < LEAST_SPEED_RATIO:
             raise too_small_swing(self.law.swing, self.speed_ratio_peak)
@@ -422,12 +425,13 @@ class WideSwingCam:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
                 (
-                    f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker "
-                    "needs more than 1"
+                    f"peak speed of the rocker over that of the cam: {unlike(self.speed_ratio_peak, 1.0)} (limit > 1 "
+                    "for "
+                    "a twin-rocker)"
                 ),
                 fix=(
-                    f"reduce {self.angle_words} below {safely_below(limit)} deg, best to "
-                    f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
+                    f"set {self.angle_words} to at most {safely_below(0.5 * limit)} deg (possible below "
+                    f"{safely_below(limit)} deg), or increase the swing"
                 ),
             )
 
@@ -609,10 +613,11 @@ class WideSwingCam:
         if self._middle_gap < 0.0:
             raise NoSolution(
                 (
-                    f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm "
-                    "and the pitch curve has a loop"
+                    f"rocker radius: {unlike(self.rocker_radius, self.nominal_rocker_radius)} mm (limit <= "
+                    f"{unlike(self.nominal_rocker_radius, self.rocker_radius)} mm, beyond it the pitch curve has a "
+                    "loop)"
                 ),
-                fix=(f"leave the rocker radius out, or make it at most {safely_below(self.nominal_rocker_radius)} mm"),
+                fix=f"omit the rocker radius, or set it to at most {safely_below(self.nominal_rocker_radius)} mm",
             )
         if self.loop_margin <= 0.0:
             raise self._loop(self.loop_margin)
@@ -718,10 +723,7 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     """
     least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
     return NoSolution(
-        (
-            f"a swing of {math.degrees(swing):.6g} deg is too small to compute a cam with: the roller "
-            "would hardly leave the cam's own circle"
-        ),
+        (f"swing: {short(math.degrees(swing))} deg, too small to compute a cam with"),
         key="swing",
         fix=f"set swing to at least {least} deg",
     )
@@ -739,4 +741,4 @@ def _require_lengths(center_distance: float, roller_radius: float, rocker_radius
         lengths["rocker radius"] = rocker_radius
     for name, value in lengths.items():
         if not 0.0 < value < math.inf:
-            raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+            raise NoSolution(f"{name}: {value:.4g} mm (limit > 0)")

@@ -191,7 +191,7 @@ def force_reserve(design: WideSwingDesign) -> Check:
         speed,
         "1/min",
         recommended=1.1 * speed,
-        aside=f"{short(back.value)} times the force of the stroke" if back is not None and governs else "",
+        aside=f"the return stroke requires {short(back.value)} times the force" if back is not None and governs else "",
         at=at,
         fix=fix,
     )

@@ -13,6 +13,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Reals
 
 WIDEST_SWING = math.radians(340.0)
@@ -48,7 +49,7 @@ class Spring:
         _require_pivot_ratio(self.pivot_ratio)
         if not 0.0 <= self.stretch_ratio < math.inf:
             raise NoSolution(
-                f"stretch ratio {self.stretch_ratio:.6g}: the spring is slack at mid-swing",
+                f"stretch ratio {short(self.stretch_ratio)}: the spring is slack at mid-swing",
                 fix="give it a mounting stretch of at least 0 times its stroke",
             )
 
@@ -72,7 +73,7 @@ Device = Pneumatic | Spring | Gravity
 def _require_pivot_ratio(ratio: float) -> None:
     if not 1.0 < ratio < math.inf:
         raise NoSolution(
-            (f"pivot ratio {ratio:.6g} is not above 1: the base pin must lie outside the circle of the arm"),
+            f"pivot ratio: {unlike(ratio, 1.0)} (limit > 1: the base pin is outside the circle of the arm)",
             fix="increase the pivot distance or reduce the arm",
         )
 
@@ -87,7 +88,7 @@ def require_swing(swing: float) -> None:
     """
     if not 0.0 < swing <= WIDEST_SWING * (1.0 + 1e-14):
         raise NoSolution(
-            f"swing {math.degrees(swing):.6g} deg: it must be above 0 and at most 340 deg",
+            f"swing: {unlike(math.degrees(swing), 340.0)} deg (above 0, at most 340 deg)",
             fix="reduce it or add a gear stage",
         )
 
@@ -210,7 +211,7 @@ def least_pivot_ratio_pneumatic(swing: float, extension_ratio: float = STANDARD_
     require_swing(swing)
     q = extension_ratio
     if not 1.0 < q < math.inf:
-        raise NoSolution(f"extension ratio {q:.6g} is not above 1: a cylinder must extend; 13/9 is usual")
+        raise NoSolution(f"extension ratio of the cylinder: {unlike(q, 1.0)} (limit > 1; usual 13/9)")
     excess = 2.0 * math.sin(0.25 * swing) ** 2 / ((q - 1.0) * (q + 1.0))
     return 1.0 + excess + math.sqrt(excess * (excess + 2.0))
 
@@ -244,9 +245,9 @@ def least_pivot_ratio_spring(
     Spring(2.0, stretch_ratio)
     for name, value in (("arm", arm), ("closed length of the spring", closed_length)):
         if not 0.0 < value < math.inf:
-            raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+            raise NoSolution(f"{name}: {value:.4g} mm (limit > 0)")
     if not 0.0 <= end_fittings < math.inf:
-        raise NoSolution(f"the end fittings are {end_fittings:.6g} mm long; the length must be 0 or more")
+        raise NoSolution(f"length of the end fittings: {end_fittings:.4g} mm (limit >= 0)")
     dead, square = (closed_length + end_fittings) / arm, 4.0 * math.sin(0.25 * swing) ** 2
     # (1 + 2 eps) D^2 + (2 dead - eps square) D - square (1 + dead) = 0
     half = dead - 0.5 * stretch_ratio * square
@@ -283,8 +284,8 @@ def least_pivot_ratio_spring_material(
     Spring(2.0, stretch_ratio)
     if not (0.0 < stretch_capacity < math.inf and 0.0 <= end_fittings_ratio < math.inf):
         raise NoSolution(
-            f"stretch capacity {stretch_capacity:.6g} must be above 0 (steel: 1 to 2) and the end fittings "
-            f"{end_fittings_ratio:.6g} arms 0 or more"
+            f"stretch capacity {stretch_capacity:.4g} (limit > 0; steel 1 to 2), end fittings {end_fittings_ratio:.4g} "
+            "arms (limit >= 0)"
         )
     kappa = stretch_ratio + (1.0 + stretch_ratio) / stretch_capacity
     q, mu = 1.0 + 1.0 / kappa, end_fittings_ratio / kappa
@@ -356,4 +357,4 @@ def _require_positive(energy_parameter: float, inertia: float, swing: float, arm
     }
     for name, (value, unit) in values.items():
         if not 0.0 < value < math.inf:
-            raise NoSolution(f"the {name} is {value:.6g}{unit}; it must be a number above 0")
+            raise NoSolution(f"{name}: {value:.4g}{unit} (limit > 0)")

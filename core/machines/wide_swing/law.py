@@ -21,6 +21,7 @@ import numpy.typing as npt
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.device import (
     Device,
     DeviceGeometry,
@@ -170,7 +171,7 @@ class ElasticLaw:
     @cached_property
     def clock(self) -> CosineSeries:
         """gamma sqrt(N) dk/dz as a cosine series over half the stroke."""
-        refusal = "the law of motion turns over too sharply at mid-swing: raise the pivot ratio, or reduce the swing"
+        refusal = "the law of motion reverses too sharply at mid-swing\nraise unloader.pivot_ratio, or reduce swing"
         with at_key("unloader.pivot_ratio"):
             return cosine_series(self._integrand, complete_integral(self.modulus_complement), refusal)
 
@@ -533,9 +534,10 @@ def slider_law(device: Device, swing: float, inertia: Callable[[float], float], 
         parameter *= scale
     speed = ways[0].velocity(ends[0], parameter)
     raise NoSolution(
-        f"the source's iteration does not converge here: velocity invariant {speed:.4g} at half the time, it must be "
-        "below 4; omit method",
+        f"the iteration of the source does not converge: velocity invariant {unlike(speed, 4.0)} at half the time "
+        "(limit < 4)",
         key="method",
+        fix="omit method",
     )
 
 
@@ -560,9 +562,9 @@ class _HalfSwing:
         x = 4.0 * self.device.pivot_ratio * product / (longest + length)
         if x < 0.0:
             raise NoSolution(
-                f"the source's iteration leaves the swing, at {a:.6g} of it",
+                f"the source's iteration leaves the swing, at {short(a)} of it",
                 key="method",
-                fix=f"give more iteration_steps, or {_otherwise(1)}",
+                fix=f"raise iteration_steps, or {_otherwise(1)}",
             )
         energy = x
         if isinstance(self.device, Spring):
@@ -576,8 +578,9 @@ def _require_rest(guess: float, following: float, start: float) -> None:
     """Refuse a step that does not settle; one that swings between its last bits has."""
     if not abs(following - guess) <= 1e-13 * abs(following):
         raise NoSolution(
-            f"a step of the source's iteration does not settle, at {start:.4g} of the swing: give more iteration_steps",
+            f"a step of the source's iteration does not settle, at {start:.4g} of the swing",
             key="iteration_steps",
+            fix="raise iteration_steps",
         )
 
 

@@ -22,6 +22,7 @@ from gearlink.core.base.remedies.ways import at_least
 from gearlink.core.base.report import Check, Quantity, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
+from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing import bodies
 from gearlink.core.machines.wide_swing.cam import WideSwingCam
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
@@ -722,9 +723,11 @@ class WideSwingLoads(LoadsDesign):
         given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
         if self.whole or given is None:
             return
-        message = f"{given} needs the whole revolution of the cam: give cycle instead of cycle_angle"
+        message = f"{given} needs the whole revolution of the cam\ngive cycle instead of cycle_angle"
         if self.spec.slider is not None:
-            message = f"{given} needs the full revolution of the cam; with slider only the stroke is known: omit it"
+            message = (
+                f"{given} needs the full revolution of the cam; with slider only the stroke is known\nomit {given}"
+            )
         raise MissingSection(message, key=f"loads.{given}")
 
     def _require_own_directions(self) -> None:
@@ -745,7 +748,7 @@ class WideSwingLoads(LoadsDesign):
         given, down = self.section.device_direction, math.degrees(cmath.phase(gravity))
         if given is None or abs(math.remainder(given - down, 360.0)) > _HANGS:
             message = "the mass of type: gravity hangs along loads.gravity at mid-swing"
-            raise NoSolution(message, key="loads.device_direction", fix=f"set loads.device_direction to {down:.6g}")
+            raise NoSolution(message, key="loads.device_direction", fix=f"set loads.device_direction to {short(down)}")
 
     @property
     def own_joints(self) -> list[float]:

@@ -263,7 +263,7 @@ class OscillatingCam:
     def __post_init__(self) -> None:
         for name, value in (("centre distance", self.center_distance), ("roller radius", self.roller_radius)):
             if not 0.0 < value < math.inf:
-                raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+                raise NoSolution(f"{name}: {value:.4g} mm (limit > 0)")
 
     @property
     def cycle_angle(self) -> float:

@@ -9,6 +9,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
+from gearlink.core.base.wording import unlike
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
@@ -219,8 +220,9 @@ class DeviceSize:
         swept = 1e-6 * self._area * self.device_stroke
         if swept >= litres:
             least = safely_above(1.05 * swept)
-            message = f"the piston sweeps {swept:.5g} l, all of the reservoir of {litres:g} l: take at least {least} l"
-            raise NoSolution(message, key="unloader.reservoir")
+            message = f"reservoir: {unlike(litres, swept)} l (limit > {unlike(swept, litres)} l, swept by the piston)"
+            fix = f"set unloader.reservoir to at least {least} l"
+            raise NoSolution(message, key="unloader.reservoir", fix=fix)
         return math.pow(litres / (litres - swept), ISENTROPIC) - 1.0
 
     # Pendulum
@@ -307,8 +309,10 @@ def free_stretch(free: float, arm: float, shortest: float, stroke: float) -> flo
     left = arm * shortest - free
     if left < 0.0:
         raise NoSolution(
-            f"a spring of free length {free:g} mm is slack at mid-swing, where the pins are {arm * shortest:.6g} mm "
-            f"apart: at most {safely_below(arm * shortest)} mm",
+            f"free length of the spring: {unlike(free, arm * shortest)} mm (limit <= {unlike(arm * shortest, free)} "
+            "mm, "
+            "distance of the pins at mid-swing: it is slack there)",
             key="unloader.free_length",
+            fix=f"set unloader.free_length to at most {safely_below(arm * shortest)} mm",
         )
     return left / (arm * stroke)

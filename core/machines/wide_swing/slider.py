@@ -18,6 +18,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.machines.wide_swing.cam import CamPoints, WideSwingCam
 from gearlink.core.machines.wide_swing.device import Device, DeviceGeometry
 from gearlink.core.machines.wide_swing.law import ElasticLaw, Kept, MiddleView, kept_for
@@ -32,8 +33,9 @@ from gearlink.core.parts.linkages.slider_crank.sweep import slider
 
 _NEWTON_STEPS = 60
 _TOO_SHARP = (
-    "the slider changes the inertia of the rocker too sharply within the stroke: move the stroke away from the "
-    "position where rod and arm are collinear (slider.middle_angle), lengthen the rod, or give the rocker more inertia"
+    "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
+    "the "
+    "position where rod and arm are collinear, or lengthen slider.rod"
 )
 _GRID = np.linspace(0.0, math.pi, 257)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
@@ -64,7 +66,7 @@ def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: 
     total = rocker_inertia + mass * (1e-3 * stroke / swing) ** 2
     if not (rocker_inertia >= 0.0 and mass >= 0.0 and 0.0 < total < math.inf):
         raise NoSolution(
-            f"inertia {rocker_inertia:.6g} kg m^2 and mass {mass:.6g} kg: neither may be negative, one must be above 0"
+            f"inertia {rocker_inertia:.4g} kg m^2 and mass {mass:.4g} kg: neither may be negative, one must be above 0"
         )
     return total, rocker_inertia / total
 
@@ -92,8 +94,8 @@ class SliderDrive:
         if not 0.0 < self.crank + abs(self.offset) < self.rod:
             reach = self.crank + abs(self.offset)
             raise NoSolution(
-                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, {reach:.6g} mm",
-                fix=f"lengthen the rod, best to {safely_above(3.0 * reach)} mm or more",
+                f"rod: {unlike(self.rod, reach)} mm (limit > {unlike(reach, self.rod)} mm, crank + offset)",
+                fix=f"lengthen the rod above {safely_above(reach)} mm, best to {safely_above(3.0 * reach)} mm or more",
             )
 
     def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
@@ -158,7 +160,7 @@ class SliderLaw:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.rocker_share <= 1.0:
-            raise NoSolution(f"rocker share {self.rocker_share:.6g} of the inertia: it must lie between 0 and 1")
+            raise NoSolution(f"share of the rocker in the inertia: {self.rocker_share:.4g} (above 0, below 1)")
         if abs(self._stroke) <= 1e-12 * self.drive.crank:
             raise NoSolution("the slider ends where it began", fix="turn the arm's mid-swing away from the slide line")
         if self.rocker_share == 0.0:

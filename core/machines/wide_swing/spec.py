@@ -89,7 +89,7 @@ class Pneumatic(Spec):
     def _one_size(self) -> Pneumatic:
         _refuse_reserve(self, "force")
         if self.bore is not None and self.pressure is not None:
-            _refuse("bore", "bore and pressure exclude each other\ngive one: the other is a result")
+            _refuse("bore", "bore and pressure exclude each other\nomit bore or pressure: it is a result")
         if self.bore is not None and self.bore <= self.rod_diameter:
             size = f"{self.bore:g} mm"
             words = "bore {size}: it must be above rod_diameter, {rod}\nraise bore, or reduce rod_diameter"
@@ -142,9 +142,14 @@ class SpringDevice(Spec):
     def _one_length(self) -> SpringDevice:
         _refuse_reserve(self, "rate")
         if self.free_length is not None and self.stretch_ratio is not None:
-            _refuse("free_length", "free_length and stretch_ratio exclude each other\ngive one")
+            _refuse(
+                "free_length", "free_length and stretch_ratio exclude each other\nomit free_length or stretch_ratio"
+            )
         if self.closed_length is not None and self.stretch_capacity is not None:
-            _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other\ngive one")
+            _refuse(
+                "stretch_capacity",
+                "closed_length and stretch_capacity exclude each other\nomit closed_length or stretch_capacity",
+            )
         return self
 
 
@@ -396,7 +401,7 @@ class WideSwingSpec(TolerancedSpec):
                 "GL108",
             )
         if self.cycle is not None and self.cycle_angle is not None:
-            _refuse("cycle_angle", "cycle_angle and cycle exclude each other\ngive one")
+            _refuse("cycle_angle", "cycle_angle and cycle exclude each other\nomit cycle_angle or cycle")
         if self.drive is not None:
             self._agree_with_drive()
         self._shafts_agree()

@@ -18,6 +18,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
@@ -50,7 +51,7 @@ def stroke_time(cycle_angle: float, speed: float) -> float:
     """
     if not (0.0 < cycle_angle < math.inf and 0.0 < speed < math.inf):
         raise NoSolution(
-            f"cycle angle {math.degrees(cycle_angle):.6g} deg and speed {speed * 30.0 / math.pi:.6g} rev/min: "
+            f"cycle angle {math.degrees(cycle_angle):.4g} deg and speed {speed * 30.0 / math.pi:.4g} rev/min: "
             "both must be above 0"
         )
     return cycle_angle / speed
@@ -79,7 +80,7 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
         wide-swing dissertation (1)
     """
     if not (0.0 < inertia < math.inf and 0.0 < time < math.inf):
-        raise NoSolution(f"moment of inertia {inertia:.6g} kg m^2 and time {time:.6g} s must both be above 0")
+        raise NoSolution(f"moment of inertia {inertia:.4g} kg m^2 and time {time:.4g} s must both be above 0")
     return inertia * law.swing * law.acceleration_peak / time**2
 
 
@@ -212,8 +213,8 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
         (4.934802200545, True)
     """
     refusal = (
-        "the rocker turns over so sharply within the stroke that its drive's oscillations cannot be summed: raise the "
-        "pivot ratio, reduce the swing, or omit the drive (shaft)"
+        "the rocker reverses so sharply within the stroke that the oscillations of its drive cannot be summed\n"
+        "raise unloader.pivot_ratio, reduce swing, or omit shaft"
     )
     probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, refusal, first=32)
     values = acceleration((np.arange(probe.nodes) + 0.5) / probe.nodes)
@@ -242,9 +243,9 @@ class TorsionResponse:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.stiffness < math.inf:
-            raise NoSolution(f"natural frequency times stroke time is {self.stiffness:.6g}; it must be above 0")
+            raise NoSolution(f"natural frequency times stroke time: {self.stiffness:.4g} (limit > 0)")
         if not 0.0 <= self.damping < 1.0:
-            raise NoSolution(f"damping ratio {self.damping:.6g}: it must be at least 0 and below 1")
+            raise NoSolution(f"damping ratio: {self.damping:.4g} (at least 0, below 1)")
 
     def __call__(self, k: Reals) -> Reals:
         """y at fractions k of the stroke.
@@ -344,12 +345,11 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
     if stiffness > STIFFEST:
         raise NoSolution(
             (
-                f"natural frequency times stroke time is {stiffness:.6g}, "
-                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke: above {STIFFEST:g} the "
-                "drive is rigid to the stroke"
+                f"natural frequency times stroke time: {unlike(stiffness, STIFFEST)} (limit <= {STIFFEST:g}; "
+                f"{stiffness / (2.0 * math.pi):.4g} oscillations in a stroke, a rigid drive)"
             ),
             fix=(
-                f"leave the section shaft out, or make speed {stiffness / STIFFEST:.4g} times higher or "
+                f"omit the section shaft, or make speed {stiffness / STIFFEST:.4g} times higher or "
                 "natural_frequency as much lower"
             ),
         )

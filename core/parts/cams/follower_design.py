@@ -142,11 +142,15 @@ class OfFollower(WithExtremes, WithShapedLaws):
 
     def check_velocity_step(self) -> Check:
         """GL403."""
-        return step_check(VELOCITY_STEP, *self._steps(1), "fail", "let the laws at the joint have one velocity")
+        return step_check(
+            VELOCITY_STEP, *self._steps(1), "fail", "use laws with the same velocity on both sides of the joint"
+        )
 
     def check_acceleration_step(self) -> Check:
         """GL404."""
-        return step_check(ACCELERATION_STEP, *self._steps(2), "warn", "take laws that end without acceleration")
+        return step_check(
+            ACCELERATION_STEP, *self._steps(2), "warn", "use laws that end with zero acceleration, such as cycloidal"
+        )
 
     def check_jerk_step(self) -> Check:
         """GL407."""

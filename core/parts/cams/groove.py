@@ -71,7 +71,7 @@ class Groove:
         if np.any(still):
             place = math.degrees(float(theta[int(np.argmax(still))]))
             raise NoSolution(
-                f"the roller is at rest in its groove at input angle {place:.6g} deg", fix="change the motion"
+                f"the roller is at rest in its groove at input angle {short(place)} deg", fix="change the motion"
             )
         return np.asarray(path.first / speed)
 

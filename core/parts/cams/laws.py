@@ -18,6 +18,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.errors import NoSolution, named
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.parts.cams.motion_law import Law as Law
 
@@ -156,7 +157,8 @@ def _checked_shares(a: float, b: float, c: float, d: float) -> tuple[float, floa
     total = math.fsum(shares)
     if not abs(total - 1.0) <= 1e-9:
         raise NoSolution(
-            f"scca shares {list(shares)} sum to {total:.6g}, not 1", fix=f"change one by {1.0 - total:+.9g}"
+            f"scca shares {list(shares)} have the sum {unlike(total, 1.0)} (required 1)",
+            fix=f"change one by {1.0 - total:+.9g}",
         )
     if d >= 1.0:
         raise NoSolution("scca share d = 1 leaves no time to accelerate", fix="keep d below 1 (0.2 to 0.5 is usual)")
@@ -613,8 +615,8 @@ def _free(key: str, kappa: float) -> Law:
     if not low <= kappa <= high:
         nearest = min(max(kappa, low), high)
         raise NoSolution(
-            f"{key} law with kappa = {kappa:.6g} reverses its acceleration",
-            fix=(f"keep kappa in {ends} (the nearest is {nearest:.6g}); change the swing or the phase length"),
+            f"{key} law with kappa {short(kappa)} reverses its acceleration",
+            fix=f"keep kappa in {ends} (nearest {short(nearest)}): change the swing or the phase length",
         )
     name = f"{key} {kappa!r}"
     if key == "quintic":

@@ -85,5 +85,5 @@ def _check_range(name: str, x: Any) -> None:
         low, high = float(x.min()), float(x.max())
     if not (low >= -_REACH and high <= 1.0 + _REACH):
         raise NoSolution(
-            f"motion law {name}: x from {low:.9g} to {high:.9g} is outside 0 to 1", fix="reduce it to the phase"
+            f"motion law {name}: x from {low:.4g} to {high:.4g} is outside 0 to 1", fix="reduce it to the phase"
         )

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Entries, Spec, Speed
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.spec import SegmentLaw
 
 Lift = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "mm"})]
@@ -86,15 +87,20 @@ def require_closed(motion: list[Segment] | MotionTable, initial_lift: float) -> 
     ends = [segment.to for segment in motion]
     for before, after in pairwise(ends):
         if after <= before:
-            raise _refused(f"the segments must ascend: one ends at {after:.9g} deg, after {before:.9g} deg")
+            raise _refused(
+                f"the segments must ascend: one ends at {unlike(after, before)} deg, after {unlike(before, after)} deg"
+            )
     if ends[-1] != 360.0:
-        raise _refused(f"the last segment ends at {ends[-1]:.9g} deg: the motion takes a whole revolution, to: 360")
+        raise _refused(f"end of the last segment: {unlike(ends[-1], 360.0)} deg (required 360 deg)\nset its to: 360")
     if motion[-1].return_ is None:
         last = next((each.lift for each in reversed(motion) if each.lift is not None), initial_lift)
         if any(each.return_ for each in motion):
             return  # the lift after a mirrored rise is known with the laws
         if last != initial_lift:
-            raise _refused(f"the lift ends at {last:.9g} and starts at {initial_lift:.9g}\nlet it return")
+            raise _refused(
+                f"the lift ends at {unlike(last, initial_lift)} and starts at {unlike(initial_lift, last)}\nadd a "
+                "segment that returns"
+            )
 
 
 def _require_table(rows: list[list[float]]) -> None:

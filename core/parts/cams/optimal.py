@@ -22,6 +22,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import safely_below
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.linear_program import Solution, proved_bound, solution
@@ -385,14 +386,14 @@ class Programme:
     def _impossible(self) -> NoSolution:
         wish = self.wish
         given = ", ".join(f"{key} {limit:g}" for key, limit in self.limits)
-        text = f"no law of degree {wish.degree} keeps {given}: raise the degree or a limit"
+        text = f"no law of degree {wish.degree} keeps {given}"
         if not wish.to_speed and wish.jerk is not None:
             least = 0.25 * wish.jerk * (1.0 - math.sqrt(1.0 - 32.0 / wish.jerk))
-            text += f" (with jerk {wish.jerk:g} the acceleration of any law reaches {least:.6g})"
+            text += f" (with jerk {wish.jerk:g} the acceleration of any law reaches {safely_below(least)})"
         elif not wish.to_speed and wish.acceleration is not None:
             least = _ramp(wish.acceleration)
-            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {least:.6g})"
-        return NoSolution(text)
+            text += f" (with acceleration {wish.acceleration:g} the velocity of any law reaches {safely_below(least)})"
+        return NoSolution(text, fix="raise degree or a limit")
 
     # What is proved
 

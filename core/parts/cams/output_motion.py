@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.spec import Spec
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.cams.motion_spec import MotionTable, Segment
 from gearlink.core.parts.cams.spec import SegmentLaw
 
@@ -48,9 +49,9 @@ def _whole_turns(motion: list[OutputSegment] | MotionTable) -> list[OutputSegmen
     if any(after <= before for before, after in pairwise(ends)):
         raise _refused("the input angles of the motion must ascend")
     if first != 0.0 or ends[-1] != 360.0:
-        raise _refused(f"the motion takes a whole revolution of the input, up to 360 deg, not to {ends[-1]:.9g}")
+        raise _refused(f"end of the last segment: input angle {unlike(ends[-1], 360.0)} deg (required 360 deg)")
     if abs(gained - 360.0 * round(gained / 360.0)) > _FIT:
-        raise _refused(f"the output ends at {gained:.9g} deg: it must end with whole revolutions, such as 0 or 360")
+        raise _refused(f"end of the output: {gained:.6g} deg (required whole revolutions, such as 0 or 360 deg)")
     return motion
 
 

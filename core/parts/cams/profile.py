@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import BLOCK, Points, Reals
 from gearlink.core.parts.cams.codes import LARGER
 
@@ -106,7 +107,9 @@ def translating(
         array([10.+90.j])
     """
     if not abs(abs(direction) - 1.0) <= 1e-9:
-        raise NoSolution(f"direction of travel {direction} has length {abs(direction):.6g}", fix="give a unit vector")
+        raise NoSolution(
+            f"direction of travel {direction} has length {abs(direction):.4g} (required 1)", fix="give a unit vector"
+        )
     u = complex(direction) / abs(direction)
     y, y1, y2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (displacement, first, second)))
     return RollerPath(u * (y - 1j * offset), u * y1, u * y2, np.broadcast_to(np.complex128(u), y.shape))
@@ -220,8 +223,8 @@ def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
     if across.size and not (across.min() > 0.0 or across.max() < 0.0):
         place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
         raise NoSolution(
-            f"the roller passes the relative pole near cam angle {place:.6g} deg (pressure angle 90 deg): "
-            f"{LARGER} or lengthen the rise"
+            f"pressure angle: 90 deg at cam angle {short(place)} deg, where the roller passes the relative pole",
+            fix=f"{LARGER} or lengthen the rise",
         )
 
 
@@ -327,8 +330,8 @@ def _speed(cam_angle: ArrayLike, path: RollerPath, d1: Points) -> Reals:
     if still.any():
         place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
         raise NoSolution(
-            f"the pitch curve is at rest at cam angle {place:.6g} deg: the follower moves with the cam; "
-            f"{LARGER} or change the law"
+            f"the pitch curve has a cusp at cam angle {short(place)} deg, where the follower moves with the cam",
+            fix=f"{LARGER} or change the law",
         )
     return speed
 

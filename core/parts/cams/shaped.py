@@ -17,6 +17,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics import bernstein
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import roots_on
@@ -174,9 +175,9 @@ def _through_points(points: Sequence[Sequence[float]], *, to_speed: bool) -> Law
 
     (x, s), last = zip(*points, strict=True), len(points) - 1
     if not to_speed and s[-1] != 1.0:
-        raise NoSolution(f"last s of a law from rest to rest: {s[-1]:.9g} (required 1)", key=f"points[{last}]")
+        raise NoSolution(f"last s of a law from rest to rest: {unlike(s[-1], 1.0)} (required 1)", key=f"points[{last}]")
     if s[-1] <= 0.0:
-        raise NoSolution(f"last s of a law from rest to speed: {s[-1]:.9g} (above 0)", key=f"points[{last}]")
+        raise NoSolution(f"last s of a law from rest to speed: {s[-1]:.4g} (above 0)", key=f"points[{last}]")
     spline = TableSpline(x, s, 1.0 if to_speed else 0.0)
     shaping = Shaping("table", least_speed=None if to_speed else spline.least_speed())
     found = _law("table", spline.derivatives, spline.peaks(), shaping)
@@ -298,7 +299,9 @@ def of_acceleration(coefficients: Sequence[float], name: str, shaping: Shaping |
     size = float(np.max(np.abs(v))) or 1.0
     rests, runs = abs(v[-1]) <= _SAME * size, abs(v[-1] - 1.0) <= _SAME * size
     if not runs and not (rests and abs(s[-1] - 1.0) <= _SAME * size):
-        message = f"this acceleration ends with s = {s[-1]:.9g}, v = {v[-1]:.9g}: from rest to rest they are 1 and 0, "
+        message = (
+            f"this acceleration ends with s = {short(s[-1])}, v = {short(v[-1])}: from rest to rest they are 1 and 0, "
+        )
         raise NoSolution(f"{message}from rest to speed v is 1", key="acceleration")
     if rests:
         c, v, s = c / s[-1], v / s[-1], s / s[-1]

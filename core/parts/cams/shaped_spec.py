@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.wording import short, unlike
 
 PLAIN = {"unit": "1"}
 Number = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra=PLAIN)]
@@ -87,7 +88,7 @@ class Polydyne(Spec):
     @model_validator(mode="after")
     def _one(self) -> Polydyne:
         if self.periods is not None and self.frequency is not None:
-            raise _refused("frequency", "periods and frequency say the same\ngive one")
+            raise _refused("frequency", "periods and frequency say the same\nomit periods or frequency")
         if self.periods is not None and self.speed is not None:
             raise _refused("speed", "speed goes with frequency; periods need none")
         return self
@@ -135,7 +136,7 @@ class OptimalLaw(Spec):
         places = [at for at in (self, self.limit) if at is not None]
         bounded = any(getattr(at, key) is not None for at in places for key in ("acceleration", "jerk"))
         if self.minimize == "residual" and not bounded:
-            raise _refused("acceleration", "minimize: residual needs a limit of acceleration or jerk\ngive one")
+            raise _refused("acceleration", "minimize: residual needs a limit\nadd acceleration or jerk")
         return self
 
 
@@ -168,19 +169,23 @@ class TableLaw(Spec):
     @model_validator(mode="after")
     def _ascends(self) -> TableLaw:
         if self.points is not None and self.file is not None:
-            raise _refused("file", "points and file exclude each other\ngive one")
+            raise _refused("file", "points and file exclude each other\nomit points or file")
         if self.points is None:
             raise _refused("points", "a table law needs points, or file")
         if len(self.points) < FEWEST_POINTS:
             raise _refused("points", f"points of a table law: {len(self.points)} (at least {FEWEST_POINTS})")
         x = [place for place, _ in self.points]
         if x[0] != 0.0 or x[-1] != 1.0:
-            raise _refused("points", f"x of a table law runs from 0 to 1, not from {x[0]:.9g} to {x[-1]:.9g}")
+            raise _refused(
+                "points", f"x of a table law runs from 0 to 1, not from {unlike(x[0], 0.0)} to {unlike(x[-1], 1.0)}"
+            )
         for k, (before, after) in enumerate(pairwise(x), 1):
             if after <= before:
-                raise _refused(f"points[{k}]", f"x of a table law ascends: {after:.9g} follows {before:.9g}")
+                raise _refused(
+                    f"points[{k}]", f"x of a table law ascends: {unlike(after, before)} follows {unlike(before, after)}"
+                )
         if self.points[0][1] != 0.0:
-            raise _refused("points[0]", f"the first s of a table law is 0, not {self.points[0][1]:.9g}")
+            raise _refused("points[0]", f"the first s of a table law is 0, not {short(self.points[0][1])}")
         return self
 
 

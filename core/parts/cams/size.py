@@ -104,8 +104,7 @@ def _rocker_planes(roller: RockingRoller, slope: float, sense: int, sign: int, p
 def _checked_slope(max_pressure_angle: float) -> float:
     if not 0.0 < max_pressure_angle < math.pi / 2.0:
         raise NoSolution(
-            f"max_pressure_angle = {math.degrees(max_pressure_angle):.6g} deg must lie between 0 and 90 deg: "
-            "30 deg is usual"
+            f"pressure angle: {math.degrees(max_pressure_angle):g} deg (above 0, below 90 deg; usual 30 deg)"
         )
     return math.tan(max_pressure_angle)
 
@@ -128,8 +127,8 @@ def _nearest_admissible(
         cuts = [*cuts, *(cut for violation, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
     raise NoSolution(
-        (f"the smallest cam is not determined by a pressure angle of {math.degrees(max_pressure_angle):.6g} deg"),
-        fix="allow a little more",
+        f"a pressure angle of {math.degrees(max_pressure_angle):g} deg does not determine the smallest cam",
+        fix="raise the pressure angle of cam.size slightly",
     )
 
 

@@ -438,9 +438,9 @@ def backlash_check(least: float, greatest: float, limit: float, module: float, j
         least, greatest, limit, module : float [mm] - minimum and maximum backlash, limit of the minimum
         jammed : str - what it means where there is none
     """
-    aside, fix = f"maximum {short(greatest)} mm", "thin the teeth (allowances)"
+    aside, fix = f"maximum backlash {short(greatest)} mm", "reduce the tooth thickness (allowances)"
     if least < _NEGATIVE * module:
-        what = f"lacking backlash, {jammed}"
+        what = f"interference of the flanks: {jammed}"
         return BACKLASH.check("fail", what, least, limit, "mm", overlap=what, aside=aside, fix=fix)
     status: Status = "warn" if least < limit else "pass"
     return BACKLASH.check(status, "minimum theoretical normal backlash", least, limit, "mm", aside=aside, fix=fix)

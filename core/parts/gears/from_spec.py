@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution, at_key
+from gearlink.core.base.wording import short, within
 from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.measures.allowances import js7, thickness_allowances
 from gearlink.core.parts.gears.mesh.pair import GearPair
@@ -138,9 +139,11 @@ def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
     if abs(shift) > _MOST_SHIFT:
         low, high = (max(0.0, radius + sign * _MOST_SHIFT * spec.module) for sign in (-1.0, 1.0))
         raise NoSolution(
-            f"centre distance {spec.center_distance:.6g} mm would be a profile shift of {shift:.4g}: the datum line of "
-            f"the rack must lie from {low:.6g} to {high:.6g} mm from the axis",
+            f"centre distance: {short(spec.center_distance)} mm, a profile shift of {shift:.4g} (datum line of the "
+            "rack "
+            f"{within(low, high, 'mm')} from the axis)",
             key="center_distance",
+            fix=f"set center_distance to {within(low, high, 'mm')}",
         )
     return beside_a_rack(known, shift)
 

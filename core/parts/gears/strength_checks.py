@@ -68,7 +68,7 @@ def _contact_inputs(data: GearData) -> str:
     k = data.factors
     return (
         f"K_A {k.application:.4g}, {_shared(k.distribution)}K_v {k.dynamic:.4g}, K_Hb {k.face_contact:.4g}, "
-        f"K_Ha {k.transverse_contact:.4g} and the life factors {_origin(data)}"
+        f"K_Ha {k.transverse_contact:.4g}; {_origin(data)}"
     )
 
 
@@ -77,7 +77,7 @@ def _bending_inputs(data: GearData) -> str:
     edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
     return (
         f"K_A {k.application:.4g}, {_shared(k.distribution)}K_v {k.dynamic:.4g}, K_Fb {k.face_bending:.4g}, "
-        f"K_Fa {k.transverse_bending:.4g} and the life factors {_origin(data)}{edition}"
+        f"K_Fa {k.transverse_bending:.4g}; {_origin(data)}{edition}"
     )
 
 
@@ -87,13 +87,13 @@ def _shared(distribution: float) -> str:
 
 def _origin(data: GearData) -> str:
     if data.rated is not None:
-        return "by rating: see the table factors"
-    return "are not computed: 1 unless given"
+        return "K and life factors by rating (table factors)"
+    return "K and life factors are those of the file, else 1"
 
 
 def pitting(data: GearData, limits: Any) -> Iterator[Check]:
     """GL210 of both gears."""
-    called, note = "pitting safety S_H", f"with {_contact_inputs(data)}"
+    called, note = "pitting safety S_H", _contact_inputs(data)
     yield from _safety(PITTING, data, data.safety_pitting, limits.safety_pitting, called, note)
 
 
@@ -102,7 +102,7 @@ def bending(data: GearData, limits: Any) -> Iterator[Check]:
     if data.load is not None:
         yield from _out_of_range(data)
     ring = shaped_root(data)
-    called, note = "tooth root safety S_F", f"with {_bending_inputs(data)}" + (f"; {ring}" if ring else "")
+    called, note = "tooth root safety S_F", _bending_inputs(data) + (f"; {ring}" if ring else "")
     yield from _safety(BENDING, data, data.safety_bending, limits.safety_bending, called, note)
 
 
@@ -137,9 +137,9 @@ def _uneven(rule: Rule, data: GearData, gear: int) -> tuple[str, str] | None:
     at, contact = rated.at_load, rule is PITTING
     taken = 1.0 - (at.face_contact**-0.5 if contact else 1.0 / at.face_bending)
     symbol, value = ("K_Hb", at.face_contact) if contact else ("K_Fb", at.face_bending)
-    text = f"{symbol} = {value:.3g} takes {100.0 * taken:.0f} % of the safety"
+    text = f"{symbol} {value:.3g} reduces the safety by {100.0 * taken:.0f} %"
     if given.modification != "none" or given.misalignment is not None:
-        return text, "take a greater face width, a larger module or a better material"
+        return text, f"reduce {symbol}: a stiffer shaft, a smaller face width or less misalignment (rating.face)"
     crowned = replace(rated, conditions=replace(given, modification="crowning"))
     safety = (crowned.safety_pitting if contact else crowned.safety_bending)[gear]
     return text, f"set rating.face.modification to crowning, which gives a safety of {safety:.3g}"
@@ -183,8 +183,8 @@ def rating_range(data: GearData, _limits: Any) -> Iterator[Check]:
     outside, symbols = list(_outside(data.rated)), unconfirmed(data.rated)
     parts = [f"{amount(len(outside), 'value')} outside the range of its formula"] if outside else []
     if symbols:
-        parts.append(f"{', '.join(symbols)} not confirmed by a printed number")
-    what = "; ".join(parts) or "every formula of the rating is in its range and met by a printed number"
+        parts.append(f"without a published check value: {', '.join(symbols)}")
+    what = "; ".join(parts) or "every formula of the rating is in its range and has a published check value"
     note, fix = "; ".join(outside), "check these factors yourself (table factors)"
     yield RATING_RANGE.check("warn" if parts else "pass", what, fix=fix, note=note)
 

@@ -17,6 +17,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import unlike
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 
 _TURN = 2.0 * math.pi
@@ -175,8 +176,8 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     limit = math.pi * valley.mean
     if not 0.0 < tolerance < limit:
         raise NoSolution(
-            f"the tolerance of the dwell is {math.degrees(tolerance):.6g} deg; it must be positive and below "
-            f"{math.degrees(limit):.6g} deg, half of what the output gains in a revolution of the crank"
+            f"dwell tolerance: {unlike(math.degrees(tolerance), math.degrees(limit))} deg (above 0, below "
+            f"{unlike(math.degrees(limit), math.degrees(tolerance))} deg, half of the output angle per revolution)"
         )
     drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
     # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.

@@ -119,8 +119,8 @@ def check_linkage(linkage: FourBar) -> str:
     if kind == "change-point":
         found = "the linkage is at its change point"
     raise NoSolution(
-        f"{found}, not a crank-rocker or drag link ({wrong}): crank {linkage.crank:.6g}, coupler "
-        f"{linkage.coupler:.6g}, rocker {linkage.rocker:.6g}, frame {linkage.frame:.6g} mm",
+        f"{found}, not a crank-rocker or drag link ({wrong}): crank {short(linkage.crank)}, coupler "
+        f"{short(linkage.coupler)}, rocker {short(linkage.rocker)}, frame {short(linkage.frame)} mm",
         fix=_full_turn(excess, shortest, longest, linkage),
     )
 

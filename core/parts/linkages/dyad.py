@@ -6,6 +6,7 @@ import math
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
+from gearlink.core.base.wording import unlike
 
 
 def close_dyad(start: complex, end: complex, first: float, second: float, side: int) -> complex:
@@ -83,11 +84,12 @@ def require_dyad(distance: float, first: float, second: float) -> None:
     longest, shortest = first + second, abs(first - second)
     if distance > longest:
         raise NoSolution(
-            f"{distance:.6g} mm apart, more than the two links together, {longest:.6g} mm",
-            fix=f"lengthen them by {safely_above(distance - longest, 4)} mm",
+            f"{unlike(distance, longest)} mm apart (limit <= {unlike(longest, distance)} mm, the two links together)",
+            fix=f"lengthen the links by {safely_above(distance - longest, 4)} mm",
         )
     if distance < shortest or distance == 0.0:
         raise NoSolution(
-            f"{distance:.6g} mm apart, less than the difference of the two links, {shortest:.6g} mm",
-            fix=f"make them more equal by {safely_above(shortest - distance, 4)} mm",
+            f"{unlike(distance, shortest)} mm apart (limit >= {unlike(shortest, distance)} mm, the difference of the "
+            "two links)",
+            fix=f"reduce their difference by {safely_above(shortest - distance, 4)} mm",
         )

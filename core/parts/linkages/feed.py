@@ -16,7 +16,7 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.report import Check, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import apart, short
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.codes import LAY_SPEED
 from gearlink.core.parts.linkages.standstills import Turning
@@ -178,7 +178,8 @@ class FeedResults(RealSpeed, Design):
         with at_key("feed.lay.distance"):
             if turned >= 2.0 * math.pi * abs(self.mean_ratio):
                 step = 2.0 * math.pi * abs(self.mean_ratio) * self.travel_radius
-                what = f"{given.distance:g} mm is the feed per revolution, {step:.6g} mm, or more"
+                now, limit = apart(given.distance, step)
+                what = f"distance to the lay: {now} mm (limit < {limit} mm, feed per revolution)"
                 raise NoSolution(what, fix=f"set feed.lay.distance below {safely_below(step)} mm")
             if given.angle is None:
                 return gentlest(*self.running, turned)

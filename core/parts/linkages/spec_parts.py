@@ -51,6 +51,7 @@ def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth
     if rim <= root:
         raise PydanticCustomError(
             "GL111",
-            "the rim's radius {rim} mm lies within the root circle of the ring gear, {root} mm\nmake it larger",
+            "radius of the rim: {rim} mm (limit > {root} mm, the root radius of the ring gear)\nraise rim above "
+            f"{root} mm",
             {"key": "rim", "rim": f"{rim:g}", "root": f"{root:g}"},
         )

@@ -60,7 +60,9 @@ class Feed(Spec):
         if self.step is not None:
             return self._of_step()
         if self.radius is not None and chain:
-            message = "radius goes with a roller or a belt, pitch and teeth with a chain\ngive one of them"
+            message = (
+                "radius goes with a roller or a belt, pitch and teeth with a chain\nomit radius, or pitch and teeth"
+            )
             raise PydanticCustomError("GL111", message, {"key": chain[0]})
         if self.radius is None and len(chain) < 2:
             raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})

@@ -117,7 +117,7 @@ def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Ch
         else:
             aside = f"axes {short(pair.distance)} mm apart"
     overlap = f"overlap of {one} and {other}"
-    return judged.check(f"{one} to {other}", fix, at=_place(pair), aside=aside, overlap=overlap)
+    return judged.check(f"distance of {one} from {other}", fix, at=_place(pair), aside=aside, overlap=overlap)
 
 
 def _thin_rim(seat: Seat) -> Check:

@@ -116,12 +116,13 @@ class Exploration(Design):
     def check_feasible_designs(self) -> Check:
         """GL161."""
         share = self.feasible / self.designs
-        what = f"share of designs that satisfy {self.problem.asked} ({self.feasible} of {self.designs})"
+        what = f"share of designs that satisfy {self.problem.asked}"
         note = "checks.must_pass: all requires it too" if self.problem.waived else ""
         name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
-        aside = f"{name} alone removes {worst.alone}" if worst.alone and share < _FEW else ""
+        aside = f"{self.feasible} of {self.designs}"
+        aside += f"; {name} alone removes {worst.alone}" if worst.alone and share < _FEW else ""
         status: Status = "pass" if share >= _FEW else "warn" if self.feasible else "fail"
-        fix = "see the table why"
+        fix = f"relax {name}, or widen the ranges (table why)" if name else "widen the ranges"
         return FEASIBLE.check(status, what, share, _FEW, side=">=", aside=aside, fix=fix, note=note)
 
     def check_range_end(self) -> Iterator[Check]:
@@ -136,7 +137,7 @@ class Exploration(Design):
                 if count:
                     share_of_rows = f"{count} of {amount(len(rows), 'row')}"
                     what = f"{variable.path} at the {end} end of its range"
-                    shown, fix = Shown(float(limit)), "widen the range"
+                    shown, fix = Shown(float(limit)), f"extend the range of {variable.path} beyond {limit:g}"
                     yield RANGE_END.check(
                         "warn", what, float(limit), float(limit), shown=shown, aside=share_of_rows, fix=fix
                     )

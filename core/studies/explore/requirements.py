@@ -119,7 +119,7 @@ class Names:
             return
         helps = self.nearest(name, [*self.defined, *self.known])
         if name in self.later:
-            helps = f"{name} is defined below: list it before, and let no definition go back to itself"
+            helps = f"list {name} before, and let no definition go back to itself"
         raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
 
     def unit(self, expression: Expression) -> str | None:

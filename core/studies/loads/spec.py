@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Angle, Entries, Length, Share, Spec
+from gearlink.core.base.wording import unlike
 
 Kilograms = Annotated[float, Field(ge=0, le=1e9, json_schema_extra={"unit": "kg"})]
 Inertia = Annotated[float, Field(ge=0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
@@ -70,8 +71,8 @@ class Course(Spec):
             back = next((i for i, (a, b) in enumerate(itertools.pairwise(angles), 1) if b <= a), 0)
             if back:
                 message = (
-                    f"the angles of a table must ascend: table[{back}] is at {angles[back]:.9g} deg, after "
-                    f"{angles[back - 1]:.9g} deg"
+                    f"the angles of a table must ascend: table[{back}] is at "
+                    f"{unlike(angles[back], angles[back - 1])} deg, after {unlike(angles[back - 1], angles[back])} deg"
                 )
                 raise PydanticCustomError("GL111", "{message}", {"message": message, "key": f"table[{back}]"})
             if angles[-1] - angles[0] > 360.0:
@@ -191,7 +192,9 @@ class Motor(Spec):
         if self.slope is None and (self.rated_speed is None or self.rated_torque is None):
             raise PydanticCustomError("GL106", "give rated_speed and rated_torque, or slope", {"key": "rated_speed"})
         if self.slope is not None and self.rated_speed is not None:
-            raise PydanticCustomError("GL111", "slope excludes rated_speed\ngive one", {"key": "slope"})
+            raise PydanticCustomError(
+                "GL111", "slope and rated_speed exclude each other\nomit slope or rated_speed", {"key": "slope"}
+            )
         if self.rated_speed is not None and self.rated_speed >= self.no_load_speed:
             message = (
                 f"rated_speed, {self.rated_speed:g} 1/min, must lie below no_load_speed, {self.no_load_speed:g} 1/min"

@@ -49,11 +49,11 @@ def bounded(frequency: float, speed: float, key: str) -> float:
     ratio = frequency / abs(speed)
     if _LEAST_RATIO <= ratio <= _MOST_RATIO:
         return frequency
-    remedy = "moves as a rigid one does: omit vibration"
+    what, fix = "moves as a rigid one does", "omit vibration"
     if ratio < _LEAST_RATIO:
-        remedy = "does not follow its drive: make it stiffer"
+        what, fix = "does not follow its drive", f"raise {key}"
     message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
-    raise NoSolution(f"{message}{_MOST_RATIO:g}; such an output {remedy}", key=key)
+    raise NoSolution(f"{message}{_MOST_RATIO:g}; such an output {what}", key=key, fix=fix)
 
 
 @dataclass(frozen=True)

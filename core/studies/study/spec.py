@@ -51,7 +51,9 @@ class VariableSpec(Spec):
             missing = "from" if self.from_ is None else "to"
             raise PydanticCustomError("GL106", "give from and to, or values", {"key": missing})
         if self.step is not None and self.points is not None:
-            raise PydanticCustomError("GL111", "step and points exclude each other\ngive one", {"key": "points"})
+            raise PydanticCustomError(
+                "GL111", "step and points exclude each other\nomit step or points", {"key": "points"}
+            )
         if self.times is not None and self.points is not None:
             raise PydanticCustomError("GL111", "points goes without times\ngive step", {"key": "points"})
         if self.to < self.from_:

@@ -35,7 +35,7 @@ def coordinate_root(section: Tolerance, sources: Sequence[Scatter]) -> Reals | N
                 matrix[i, j] = group.rho
     values, vectors = np.linalg.eigh(matrix)
     if values[0] < -_ROUNDING:
-        message = f"these correlations contradict each other (minimum eigenvalue {values[0]:.3g}): make them smaller"
+        message = f"these correlations contradict each other (minimum eigenvalue {values[0]:.3g})\nreduce rho"
         raise WrongStudy([Fault("GL176", message, ("tolerance", "correlated"))])
     # The symmetric root: coordinates that are apart from all others stay their own.
     root: Reals = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
@@ -85,7 +85,7 @@ def of_sizes(section: Tolerance, sources: Sequence[Scatter]) -> dict[tuple[str, 
     for i, group in enumerate(section.correlated):
         vectors = [key for key in group.sources if kinds.get(key) in ("pin", "gear")]
         if vectors:
-            message = f"{vectors[0]} has a direction: a register correlates sizes alone; take it out of this group"
+            message = f"{vectors[0]} has a direction, and a register correlates sizes alone\nremove it from this group"
             raise WrongStudy([Fault("GL176", message, ("tolerance", "correlated", i))])
     coordinate_root(section, sources)
     return pairs(section, sources)

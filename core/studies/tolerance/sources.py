@@ -142,11 +142,16 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
     if faults:
         raise WrongStudy(faults)
     if not found:
-        raise _no("GL170", "no source: name at least one toleranced dimension", ("tolerance", "sources"))
+        raise _no(
+            "GL170",
+            "no toleranced dimension\nadd at least one entry, such as crank: {plus_minus: 0.05}",
+            ("tolerance", "sources"),
+        )
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
         raise _no(
             "GL175",
-            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): omit the minimum",
+            f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two)\nomit those with the smallest "
+            "tolerances",
             ("tolerance", "sources"),
         )
     return tuple(found)
@@ -193,7 +198,7 @@ def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place
         least, greatest = entry.clearance
     else:
         raise _no(
-            "GL171", f"a pin has a clearance, not {entry.form}: give fit and size, group and bore, or clearance", place
+            "GL171", f"a pin has a clearance, not {entry.form}\ngive fit and size, group and bore, or clearance", place
         )
     return Scatter(key, "pin", 0.0, _law(entry, least, greatest, place), entry)
 
@@ -225,11 +230,11 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
         what = "holds a whole number, which does not vary" if nominal is not None else "is no key with a number"
-        raise _no("GL170", f"{named(key)} {what}: name a length or an angle of this file", place)
+        raise _no("GL170", f"{named(key)} {what}\nname a length or an angle of this file", place)
     unit = "mm" if group == "centers" or key in parts.others else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
         what = "class" if entry.form == "class" else "grades"
-        message = f"{what} takes its width from the length of a part, and {key} is in {unit}: give plus_minus or limits"
+        message = f"{what} takes its width from the length of a part, and {key} is in {unit}\ngive plus_minus or limits"
         raise _no("GL173", message, (*place, what))
     lower, upper = _limits(entry, nominal, place)
     return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
@@ -251,7 +256,7 @@ def _limits(entry: ToleranceSource, nominal: float, place: Place) -> tuple[float
     if form == "class":
         return limit_deviations(abs(nominal), entry.class_ or "")
     raise _no(
-        "GL171", f"{form} belongs to pins, bearings or gears: give plus_minus, limits, class, sigma or measured", place
+        "GL171", f"{form} belongs to pins, bearings or gears\ngive plus_minus, limits, class, sigma or measured", place
     )
 
 

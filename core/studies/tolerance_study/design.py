@@ -222,7 +222,7 @@ def _why_not(sampled: float | None) -> str:
     """Why grades that reach the target by the slopes are not taken."""
     if sampled is None:
         return "by the sensitivities alone; samples of like grades missed the target"
-    return f"by the sensitivities alone; samples prove no more than {100 * sampled:.6g} %"
+    return f"by the sensitivities alone; samples prove no more than {safely_below(100 * sampled)} %"
 
 
 def require(made: Problem) -> None:
@@ -236,7 +236,7 @@ def require(made: Problem) -> None:
         window = getattr(made.base.spec(), "dwell_window", None)
         line = "QUANTITY >= NUMBER" if window is None else f"tolerance_dwell_angle >= {window:g} deg"
         message = (
-            f"--allocate chooses by the sensitivities of quantities, and a check names none: add require: [{line}]"
+            f"--allocate chooses by the sensitivities of quantities, and a check names none\nadd require: [{line}]"
         )
         raise no("GL171", message, "require")
 
@@ -344,12 +344,12 @@ def _confirmed(
         if choice.reached < 1.0:
             more = max(more, (1.0 - low) / (1.0 - choice.reached))
     if not tried:
-        message = "even the finest grades miss the target yield: widen grades, or loosen the requirement"
+        message = "even the finest grades miss the target yield\nwiden grades, or relax the requirement"
         raise no("GL171", message, "target_yield")
     low, best = max(tried, key=lambda one: one[0])
     named = ", ".join(f"{made.sources[i].key} IT{grade}" for i, grade in zip(places, best.grades, strict=True))
-    message = f"by the slopes {named} reach the target yield, but samples of them prove no more than {100 * low:.6g} %"
-    raise no("GL171", f"{message}: take finer grades or more --samples, or loosen the requirement", "target_yield")
+    message = f"by the sensitivities {named} reach the target yield, samples prove {safely_below(100 * low)} %"
+    raise no("GL171", f"{message}\ntake finer grades or more --samples, or relax the requirement", "target_yield")
 
 
 def _expected_to_miss(choice: Choice, more: float, target: float) -> bool:

@@ -75,7 +75,7 @@ class Problem:
             found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
         found = tuple(one for one in found if one.kind != "gear")
         if not found:
-            raise no("GL170", "these parts count in `register` alone: name a size of the file", "sources")
+            raise no("GL170", "these parts count in `register` alone\nname a size of the file", "sources")
         for one in found:
             self._possible(one)
         return found

@@ -331,7 +331,7 @@ def test_rounding_past_the_end_is_no_error() -> None:
         ("mcv-100", "0 to 99"),
         ("mcv-often", "percentage"),
         ({"half-scca": [0.5, 0.5, 0.0, 0.0]}, "jumps"),
-        ({"quintic": 0.61}, "2/5 to 3/5 (the nearest is 0.6)"),
+        ({"quintic": 0.61}, "2/5 to 3/5 (nearest 0.6)"),
         ({"quintic": math.nan}, "not one number"),
         ({"quintic": True}, "not one number"),
         ({"septic": 0.42}, "3/7 to 4/7"),

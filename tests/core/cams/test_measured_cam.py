@@ -158,8 +158,12 @@ def test_profiles_that_serve_no_series_are_refused(keys: dict[str, Any], key: st
 @pytest.mark.parametrize(
     ("keys", "key", "words"),
     [
-        ({"follower__arm": 20.0}, "follower.arm", "the arm reaches"),
-        ({"follower": {"type": "translating", "offset": 80.0}}, "follower.offset", "passes the cam axis"),
+        ({"follower__arm": 20.0}, "follower.arm", "reach of the arm"),
+        (
+            {"follower": {"type": "translating", "offset": 80.0}},
+            "follower.offset",
+            "distance of the line of travel from the cam axis",
+        ),
     ],
 )
 def test_a_follower_that_does_not_reach_the_cam_is_refused(keys: dict[str, Any], key: str, words: str) -> None:

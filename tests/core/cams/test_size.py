@@ -202,7 +202,7 @@ def test_a_wider_limit_gives_a_smaller_cam() -> None:
 
 @pytest.mark.parametrize("limit", [0.0, -0.1, 90.0, math.nan])
 def test_refuses_a_limit_out_of_range(limit: float) -> None:
-    with pytest.raises(NoSolution, match="between 0 and 90 deg"):
+    with pytest.raises(NoSolution, match="above 0, below 90 deg"):
         smallest_cam(math.radians(limit))
 
 

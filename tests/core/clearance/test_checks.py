@@ -120,7 +120,9 @@ def test_rim_of_a_ring_gear_over_the_axis_of_the_rocker(teeth: tuple[int, int], 
     assert "overlap of the ring gear and the axis of the shaft at D" in check.message
     # a rim only just outside the root circle clears an axis that lies outside it, a thick one does not
     assert (
-        finding(RING, "the ring gear to the axis of the shaft at D: 0.5 mm", **keys, gears__rim=frame - 0.5).value
+        finding(
+            RING, "distance of the ring gear from the axis of the shaft at D: 0.5 mm", **keys, gears__rim=frame - 0.5
+        ).value
         == 0.5
     )
     assert finding(RING, "overlap of the ring gear and the shaft at D", **keys, shafts__D_radius=3.0).status == "fail"
@@ -160,7 +162,7 @@ def test_least_shaft_beside_a_bare_axis(least: float | None, status: str) -> Non
 def test_least_shaft_of_two_bare_axes_counts_twice() -> None:
     checks = design(EXAMPLE_3, limits__least_shaft=62.0).check("shaft-clearance")
     assert (checks[-1].limit, checks[-1].status) == (124.0, "warn")
-    assert "the axis of the input shaft to the axis of the output shaft" in checks[-1].message
+    assert "distance of the axis of the input shaft from the axis of the output shaft" in checks[-1].message
 
 
 def test_shaft_over_a_bare_axis() -> None:
@@ -265,8 +267,8 @@ def test_coupler_joint_of_a_drag_link() -> None:
 @pytest.mark.parametrize(
     ("data", "keys", "words"),
     [
-        (RING, {"gears__rim": 77.5}, "lies within the root circle of the ring gear, 77.5 mm"),
-        (FIXED_RING, {"gears__rim": 60.0}, "lies within the root circle"),
+        (RING, {"gears__rim": 77.5}, "limit > 77.5 mm, the root radius of the ring gear"),
+        (FIXED_RING, {"gears__rim": 60.0}, "the root radius"),
         (FIXED_SUN, {"gears__rim": 90.0}, "rim goes with a ring gear"),
         (IDLER, {"gears__rim": 90.0}, "rim goes with a ring gear"),
         (FIXED_SUN, {"shafts__O_radius": 5.0}, "O_radius goes with an idler"),

@@ -172,8 +172,11 @@ def test_least_transmission_angle_against_sampling():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"coupler": 100.0}, "287.114 deg .* differ by 40 mm; .* by more than 4.645 mm"),
-        ({"coupler": 40.0, "follower": 42.0}, "135 deg .* 83.2372 mm apart.* only 82 mm; .* than 1.238 mm"),
+        ({"coupler": 100.0}, "limit >= 40 mm, .* at input angle 287.1 deg .* by more than 4.645 mm"),
+        (
+            {"coupler": 40.0, "follower": 42.0},
+            "BD 83.24 mm .limit <= 82 mm, .* at input angle 135 deg .* than 1.238 mm",
+        ),
         ({"ratio": Fraction(-3, 2), "coupler": 40.0, "follower": 42.0}, "of 720"),
     ],
 )

@@ -451,13 +451,13 @@ def test_change_point_itself_has_a_position_and_no_rates() -> None:
 def test_refusal_names_angle_distance_limits_and_remedy() -> None:
     with pytest.raises(NoSolution) as caught:
         solve(DOUBLE_ROCKER, math.radians(75.0))
-    for part in ("crank angle 75 deg", "BD 298.7 mm", "60 to 260 mm", "60.0734833 deg", "too long"):
+    for part in ("crank angle 75 deg", "BD 298.7 mm", "60 to 260 mm", "60.07 deg", "too long"):
         assert part in str(caught.value)
     with pytest.raises(NoSolution, match=r"too short \(reach 60 to 260 mm\)"):
         solve(FourBar(90.0, 160.0, 100.0, 140.0), 0.1)
-    with pytest.raises(NoSolution, match=r"rocker angle 10 deg: AC .* too long.*between .* deg"):
+    with pytest.raises(NoSolution, match=r"rocker angle 10 deg: AC .* too long.* to .* deg"):
         solve_inverse(CRANK_ROCKER, math.radians(10.0))
-    with pytest.raises(NoSolution, match=r"closes nowhere: the longest link, 61 mm.*60 mm"):
+    with pytest.raises(NoSolution, match=r"shorten the longest link, 61 mm, below 60 mm"):
         solve(FourBar(10.0, 20.0, 30.0, 61.0), 1.0)
 
 

@@ -230,8 +230,8 @@ def test_centre_distance_against_the_link():
         (FOUR_BAR, [train("B:crank", "C", "D:frame")], "free one end gear"),
         (FOUR_BAR, [train("B", "C", "D")], "fix one end gear"),
         (FIVE_BAR, [train("A:input", "E")], "fix one end gear"),
-        (FIVE_BAR, [], "both ends of 1 more train,"),
-        (SIX_LOOP, [], "both ends of 2 more trains,"),
+        (FIVE_BAR, [], "both ends of 1 more train (each"),
+        (SIX_LOOP, [], "both ends of 2 more trains (each"),
     ],
 )
 def test_wrong_freedom_names_the_remedy(links, trains, remedy):
@@ -290,7 +290,7 @@ def test_a_length_that_does_not_fit_is_named_by_its_key():
         links[name]["length"] = 52.0
         made = factory.design({"kind": "gear-train-mobility", "links": links, "trains": [data]})
         (found,) = made.findings("analyze", "train-fit")
-        assert f"links.{name}.length is 52 mm" in found.message
+        assert f"links.{name}.length 52 mm" in found.message
         # a name of digits alone is no key of a path: the teeth are changed there
         assert (
             found.remedy == ((f"links.{name}.length", 54.0),) if name == "crank" else found.remedy[0][0][-5:] == "teeth"

@@ -280,9 +280,9 @@ def test_designs_of_uneven_ends_reach_the_limit(margin: float) -> None:
 @pytest.mark.parametrize(
     ("family", "words", "nearer"),
     [
-        (Family(100.0, 80.0, 60.0, -0.05), "must be below ", -2e-3),
-        (Family(20.0, 80.0, 90.0, 0.15), "must be below ", -2e-3),
-        (Family(20.0, 30.0, 35.0, 0.95), "must be above ", 2e-3),
+        (Family(100.0, 80.0, 60.0, -0.05), "limit < ", -2e-3),
+        (Family(20.0, 80.0, 90.0, 0.15), "limit < ", -2e-3),
+        (Family(20.0, 30.0, 35.0, 0.95), "limit > ", 2e-3),
     ],
 )
 def test_teeth_that_a_refusal_names(family: Family, words: str, nearer: float) -> None:
@@ -391,23 +391,23 @@ def test_short_windows_keep_their_digits(degrees: float) -> None:
 @pytest.mark.parametrize(
     ("command", "data", "sections", "key", "words"),
     [
-        ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "at most over 65.7"),
-        ("dwell", RINGS, {"dwell": {"window": 2.0, "tolerance": 0.5}}, "dwell.window", "needs no linkage"),
-        ("dwell", RINGS, {"dwell": {"tolerance": 72.0}}, "dwell.tolerance", "below 72 deg"),
+        ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "max. 65.7"),
+        ("dwell", RINGS, {"dwell": {"window": 2.0, "tolerance": 0.5}}, "dwell.window", "no linkage needed"),
+        ("dwell", RINGS, {"dwell": {"tolerance": 72.0}}, "dwell.tolerance", "limit < 72 deg"),
         ("back-step", SUNS, {"back_step": {"angle": 300.0}}, "back_step.angle", "173.9"),
         (
             "momentary-dwell",
             SUNS | {"links": {"coupler": 20.0, "rocker": 80.0}},
             MOMENTARY,
             "links.rocker",
-            "shorter than the other two together, 74 mm",
+            "limit < 74 mm, the other two together",
         ),
         (
             "momentary-dwell",
             RINGS | {"links": {"coupler": 31.0, "rocker": 80.0}},
             MOMENTARY,
             "links.coupler",
-            "crank-rocker alone",
+            "only a crank-rocker",
         ),
     ],
 )
@@ -423,11 +423,11 @@ NARROW = {"gears": {"module": 2.0, "planet": 28, "ring": 71}, "links": {"coupler
 
 def test_a_tolerance_that_no_back_step_fills_is_met_the_better() -> None:
     """Its limit is that of a tolerance, half the back-step; a window asks for no more than it needs."""
-    with pytest.raises(NoSolution, match=r"a tolerance of 4\.975 deg is more") as refusal:
+    with pytest.raises(NoSolution, match=r"a tolerance of 4\.975 deg is out of reach") as refusal:
         made("dwell", NARROW, dwell={"tolerance": 4.975}).linkage  # noqa: B018
-    limit = float(str(refusal.value).partition("reach, ")[2].split()[0])
+    limit = float(str(refusal.value).partition("at most ")[2].split()[0])
     assert made("dwell", NARROW, dwell={"tolerance": limit}).window_limit is not None
-    with pytest.raises(NoSolution, match="is more"):
+    with pytest.raises(NoSolution, match="is out of reach"):
         made("dwell", NARROW, dwell={"tolerance": 1.001 * limit}).linkage  # noqa: B018
     wide = made("dwell", NARROW, dwell={"window": 65.87, "tolerance": 4.975})
     assert wide.linkage == made("dwell", NARROW, dwell={"window": 65.87}).linkage

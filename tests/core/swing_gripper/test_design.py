@@ -178,7 +178,7 @@ def test_rows_of_the_tables() -> None:
         ({"laws__accelerate": {"quintic": 0.7}}, "laws.accelerate", "keep kappa in 2/5 to 3/5"),
         ({"laws__accelerate": "half-simple-harmonic"}, "laws.accelerate", "half-cycloidal or velocity-345"),
         ({"total_swing": 40.0}, "total_swing", r"phases.constant by \+1.88888889 deg"),
-        ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a revolution or more.*arm longer than 32.63 mm"),
+        ({"arm__length": 20.0}, "arm.length", "swing of the arm: 587.3 deg .limit < 360 deg.*arm longer than 32.63 mm"),
         ({"cylinder__radius": 1e12}, "arm.length", "radius less than 1241 mm"),
     ],
     ids=lambda value: str(value)[:40],

@@ -98,10 +98,10 @@ def test_back_step_keeps_its_digits_next_to_the_momentary_dwell() -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: symmetric_sweep.frame_ratio_at_crank_angle([-1.0, 0.5], 0.1), "i3 = 0.5"),
-        (lambda: symmetric_sweep.back_step_at_crank_angle(-1.0, [0.1, math.pi]), "180 deg; it must lie"),
+        (lambda: symmetric_sweep.frame_ratio_at_crank_angle([-1.0, 0.5], 0.1), "i3: 0.5"),
+        (lambda: symmetric_sweep.back_step_at_crank_angle(-1.0, [0.1, math.pi]), "below 180 deg"),
         (lambda: symmetric_sweep.back_step_at_crank_angle(-1.0, math.nan), "nan deg"),
-        (lambda: symmetric_sweep.speed_swing_share([2.0, 0.5]), "frame ratio is 0.5"),
+        (lambda: symmetric_sweep.speed_swing_share([2.0, 0.5]), "frame over crank: 0.5"),
         (lambda: symmetric_sweep.frame_ratio_at_nonuniformity([-0.4, -0.5], 3.2), r"2 \(1 - i3\) = 2.8;"),
         (lambda: symmetric_sweep.frame_ratio_at_nonuniformity(-1.0, 0.0), "above 0"),
     ],

@@ -174,21 +174,21 @@ def test_speed_quotient() -> None:
     for quotient in (0.1, 0.0, -0.02):
         extremes = speed_extremes(families.with_speed_quotient(family, train, quotient), train)
         assert extremes.least / extremes.greatest == pytest.approx(quotient, rel=1e-11, abs=1e-14)
-    with pytest.raises(NoSolution, match="must lie between"):
+    with pytest.raises(NoSolution, match="min/max of the output speed"):
         families.with_speed_quotient(family, train, -0.9)
 
 
 class TestRefusals:
     def test_crank_that_never_stops_the_output(self) -> None:
-        with pytest.raises(NoSolution, match=r"longer than 5\.62870566"):
+        with pytest.raises(NoSolution, match=r"limit > 5\.629 mm"):
             families.with_crank(25.0, 25.0, 75.0, 5.0).stepping()
 
     def test_crank_that_cannot_turn(self) -> None:
-        with pytest.raises(NoSolution, match="cannot turn"):
+        with pytest.raises(NoSolution, match="to turn fully"):
             families.with_crank(25.0, 25.0, 75.0, 60.0)
 
     def test_frame_without_a_crank(self) -> None:
-        with pytest.raises(NoSolution, match="no crank turns in a frame of"):
+        with pytest.raises(NoSolution, match="in which no crank turns fully"):
             families.with_frame(25.0, 25.0, 75.0, 151.0)
 
     def test_request_beyond_the_family(self) -> None:

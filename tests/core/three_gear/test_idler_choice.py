@@ -69,7 +69,7 @@ def test_first_idler_is_17():
 def test_nearest_idler_of_a_ratio():
     assert idler_for_ratio(-1.7798080356711419, 40) == 71
     assert idler_for_ratio(-0.5, 41) == 21
-    with pytest.raises(NoSolution, match=r"at most -0\.05"):
+    with pytest.raises(NoSolution, match=r"limit <= -0\.05"):
         idler_for_ratio(-0.01, 20)
     with pytest.raises(NoSolution, match="one tooth"):
         idler_for_ratio(math.nan, 20)

@@ -294,7 +294,7 @@ def test_ring_on_the_crank_is_analysed_and_refused_by_syntheses() -> None:
     ("keys", "key", "words"),
     [
         ({"gears__output": -80}, "gears.output", "84 mm"),
-        ({"dwell": {"tolerance": 0.5, "crank": 60}}, "dwell.crank", "shorter than 41 mm"),
+        ({"dwell": {"tolerance": 0.5, "crank": 60}}, "dwell.crank", "below 41 mm"),
         (
             {"dwell": {"window": 150, "tolerance": 0.5}},
             "dwell.window",

@@ -180,14 +180,14 @@ def test_ends_of_the_range():
 
 @pytest.mark.parametrize(("e", "words"), [(25.0, "step back"), (26.0, "step back"), (5.0, "never stops")])
 def test_refuses_a_crank_outside_the_range(e, words):
-    with pytest.raises(NoSolution, match=rf"{words}.*between 5\.62871 and 25 mm"):
+    with pytest.raises(NoSolution, match=rf"{words}.*above 5\.629, below 25 mm"):
         momentary_frame_length(*EX3, e)
     with pytest.raises(NoSolution, match="between"):
         momentary_crank_angle(*EX3, e)
 
 
 def test_refuses_a_crank_that_would_not_turn():
-    with pytest.raises(NoSolution, match=r"a crank of 9\.5 mm cannot turn with the frame of its momentar"):
+    with pytest.raises(NoSolution, match=r"9\.5 mm, which cannot turn with the frame of its momentar"):
         momentary_linkage(13.0, 5.0, 5.0, 9.5)
     assert momentary_linkage(13.0, 5.0, 5.0, 9.4).kind() == "crank-rocker"
 
@@ -202,5 +202,5 @@ def test_refuses_radii_and_cranks_that_are_no_lengths():
         momentary_frame_length(25.0, 0.0, 75.0, 16.0)
     with pytest.raises(NoSolution, match="never stops"):
         momentary_frame_length(*EX3, math.nan)
-    with pytest.raises(NoSolution, match="a crank of 112 mm never stops the output, whatever the frame"):
+    with pytest.raises(NoSolution, match=r"crank: 112 mm \(for the output to stop above 5\.629"):
         tangency(*EX3, 112.0)

@@ -141,18 +141,18 @@ def test_band_from_standstill_is_the_momentary_dwell(i3):
 
 @pytest.mark.parametrize("i3", [0.0, 0.5, math.nan, -math.inf])
 def test_refuses_a_ratio_that_is_no_external_mesh(i3):
-    with pytest.raises(NoSolution, match="must be negative"):
+    with pytest.raises(NoSolution, match="limit < 0"):
         frame_ratio_for_back_step(i3, 1.0)
 
 
 def test_refuses_what_is_out_of_range():
-    with pytest.raises(NoSolution, match="is 180 deg; it must lie from 0"):
+    with pytest.raises(NoSolution, match=r"180 deg \(from 0"):
         frame_ratio_for_back_step(-1.0, math.pi)
-    with pytest.raises(NoSolution, match="is -1 deg"):
+    with pytest.raises(NoSolution, match="back-step: -1 deg"):
         frame_ratio_for_back_step(-1.0, math.radians(-1.0))
-    with pytest.raises(NoSolution, match="above 1"):
+    with pytest.raises(NoSolution, match="limit > 1"):
         symmetric_linkage(1.0, 100.0)
-    with pytest.raises(NoSolution, match="lower speed must not be below 0"):
+    with pytest.raises(NoSolution, match="0 <= min < max"):
         frame_ratio_for_speed_band(-1.0, -1.0, 100.0)
-    with pytest.raises(NoSolution, match="upper one must be above it"):
+    with pytest.raises(NoSolution, match="0 <= min < max"):
         frame_ratio_for_speed_band(-1.0, 100.0, 100.0)

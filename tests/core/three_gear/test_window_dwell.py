@@ -201,7 +201,7 @@ class TestRefusals:
             symmetric.frame_ratio_interval(-1.8, rad(2.0), rad(1.0))
 
     def test_window_beyond_the_family(self) -> None:
-        with pytest.raises(NoSolution, match="whatever the tolerance"):
+        with pytest.raises(NoSolution, match="with any tolerance"):
             crank_angle_for_window(-1.8, window_limit(-1.8))
 
 

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Entries, Spec
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.keys.material import Stress
 from gearlink.core.parts.gears.keys.types import AccuracyGrade
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
@@ -78,7 +79,7 @@ class LubricantSpec(Spec):
         if self.vg is None and self.viscosity_40 is None:
             raise PydanticCustomError("GL106", "give vg or viscosity_40, the viscosity at 40 deg C", {"key": "vg"})
         if self.vg is not None and self.viscosity_40 is not None:
-            message = "vg and viscosity_40 exclude each other\ngive one"
+            message = "vg and viscosity_40 exclude each other\nomit vg or viscosity_40"
             raise PydanticCustomError("GL111", message, {"key": "viscosity_40"})
         names = ("viscosity_100", "temperature", "scuffing_stage")
         missing = [name for name in names if getattr(self, name) is None]
@@ -205,7 +206,8 @@ class RatingSpec(Spec):
     def _whole(self) -> Self:
         if self.spectrum is not None and abs(sum(row.share for row in self.spectrum) - 1.0) > _MOST_SHARE:
             total = sum(row.share for row in self.spectrum)
-            message = f"the shares of the spectrum add up to {total:.9g}, not 1\ngive shares whose sum is 1"
+            message = f"sum of the shares of the spectrum: {unlike(total, 1.0)} (required 1)"
+            message += f"\nchange one of them by {1.0 - total:+.4g}"
             raise PydanticCustomError("GL111", message, {"key": "spectrum"})
         if self.spectrum is not None and not any(row.torque and row.share for row in self.spectrum):
             raise PydanticCustomError(

@@ -73,7 +73,7 @@ class AllowanceSpec(Spec):
     def _one_way(self) -> AllowanceSpec:
         limits = self.upper is not None or self.lower is not None
         if self.series is not None and limits:
-            message = "series excludes upper and lower\ngive one"
+            message = "series excludes upper and lower\nomit series, or upper and lower"
             raise PydanticCustomError("GL111", message, {"key": "upper" if self.upper is not None else "lower"})
         if self.series is None and (self.upper is None or self.lower is None):
             missing = "series" if not limits else "upper" if self.upper is None else "lower"
@@ -120,7 +120,7 @@ class LoadSpec(Spec):
         if not given:
             raise PydanticCustomError("GL106", "give torque, power with speed, or tangential_force", {"key": "torque"})
         if len(given) > 1:
-            message = "torque, power and tangential_force exclude each other\ngive one"
+            message = "torque, power and tangential_force exclude each other\nkeep one of them"
             raise PydanticCustomError("GL111", message, {"key": given[1]})
         if self.power is not None and self.speed is None:
             raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})

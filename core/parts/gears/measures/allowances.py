@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import unlike
 
 _UP_TO = (10.0, 50.0, 125.0, 280.0, 560.0, 1000.0, 1600.0, 2500.0, 4000.0, 6300.0, 10000.0)
 _UPPER = {
@@ -68,7 +69,7 @@ def thickness_allowances(series: str, diameter: float) -> tuple[float, float]:
     row = bisect_left(_UP_TO, diameter)
     if row == len(_UP_TO):
         raise NoSolution(
-            f"reference diameter {diameter:.6g} mm lies beyond DIN 3967, which ends at 10000 mm", fix="give limits"
+            f"reference diameter: {unlike(diameter, 1e4)} mm (DIN 3967: up to 10000 mm)", fix="give limits"
         )
     upper = _UPPER[found[2]][row]
     return -upper / 1000.0 + 0.0, -(upper + _TOLERANCE[found[1]][row]) / 1000.0
@@ -93,6 +94,6 @@ def js7(distance: float) -> float:
     row = bisect_left(_JS_UP_TO, distance)
     if row == len(_JS_UP_TO):
         raise NoSolution(
-            f"centre distance {distance:.6g} mm lies beyond js7's table, which ends at 3150 mm", fix="give a number"
+            f"centre distance: {unlike(distance, 3150.0)} mm (table of js7: up to 3150 mm)", fix="give a number in mm"
         )
     return _IT7[row] / 2000.0

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 
 EDITION = 2013
 
@@ -38,8 +39,8 @@ def cumulative_pitch(grade: int, module: float, diameter: float, width: float) -
     try:
         found = ToothTolerances(grade=grade, module=module, diameter=diameter, width=width).cumulative_pitch
     except NoSolution as error:
-        remedy = "" if "grade" in str(error) else ": give the deviation itself"
-        raise NoSolution(f"{error}{remedy}") from error
+        remedy = "" if "grade" in error.message else "give the deviation itself"
+        raise NoSolution(error.message, fix=remedy) from error
     return round(found / 1000, 9)
 
 
@@ -89,7 +90,8 @@ class ToothTolerances:
         for (name, low, high), size in zip(_RANGES[self.edition], self._sizes, strict=True):
             if not low <= size <= high:
                 raise NoSolution(
-                    (f"ISO 1328-1:{self.edition} holds for a {name} of {low:g} to {high:g} mm, not {size:.6g} mm"),
+                    f"{name}: {unlike(size, low if size < low else high)} mm (ISO 1328-1:{self.edition}: {low:g} to "
+                    f"{high:g} mm)",
                     fix="give the deviation itself",
                 )
 

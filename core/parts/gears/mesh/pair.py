@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import safely_above, safely_below
+from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair, PitchPair
 from gearlink.core.parts.gears.tooth import teeth
 from gearlink.core.parts.gears.tooth.teeth import transverse
@@ -98,11 +99,11 @@ def require_distance(pair: GearPair, distance: float) -> None:
     sum_of = "difference" if pair.internal else "sum"
     raise NoSolution(
         (
-            f"centre distance {distance:.6g} mm does not suit gears of {pair.teeth[0]} and "
-            f"{pair.teeth[1]} teeth of module {pair.module:g} mm: the minimum is the {sum_of} of the "
-            f"base radii, {safely_above(least)} mm"
+            f"centre distance: {unlike(distance, least)} mm (limit >= {unlike(least, distance)} mm, {sum_of} of the "
+            "base "
+            f"radii of gears of {pair.teeth[0]} and {pair.teeth[1]} teeth, module {pair.module:g} mm)"
         ),
-        fix="change it or the teeth",
+        fix=f"set the centre distance to at least {safely_above(least)} mm, or take fewer teeth",
     )
 
 
@@ -117,17 +118,17 @@ def require_shift(pair: GearPair) -> None:
     if not pair.internal and not bound <= total < math.inf:
         raise NoSolution(
             (
-                f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} and "
-                f"{pair.teeth[1]} teeth: the sum must be at least {safely_above(bound)}"
+                f"sum of the profile shifts: {unlike(total, bound)} (limit >= {unlike(bound, total)}: no working "
+                f"pressure angle of {pair.teeth[0]} and {pair.teeth[1]} teeth)"
             ),
             fix="raise a shift or take more teeth",
         )
     if pair.internal and not -math.inf < total <= bound:
         raise NoSolution(
             (
-                f"profile shifts with the sum {total:.6g} leave no pressure angle to {pair.teeth[0]} "
-                f"teeth in a ring of {-pair.teeth[1]}: the sum must be at most {safely_below(bound)} "
-                "(a positive shift thickens the teeth of a ring too)"
+                f"sum of the profile shifts: {unlike(total, bound)} (limit <= {unlike(bound, total)}: no working "
+                f"pressure angle of {pair.teeth[0]} teeth in a ring of {-pair.teeth[1]}; a positive shift thickens the "
+                "teeth of a ring too)"
             ),
             fix="lower a shift",
         )
@@ -142,15 +143,17 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
     if pair.teeth[gear] > 0:
         return NoSolution(
             (
-                f"tip radius {tip:.6g} mm of gear {gear + 1} lies below its base radius {base:.6g} mm: no "
-                "involute is left"
+                f"tip radius of gear {gear + 1}: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base "
+                "radius: no involute is left)"
             ),
             fix=f"raise its profile shift or the addendum by at least {missing:.3g} modules",
         )
     teeth = least_ring(pair)
     fix = f"lower its profile shift or its addendum by at least {safely_above(missing, 3)} modules"
     return NoSolution(
-        f"tip radius {tip:.6g} mm of the ring lies inside its base radius {base:.6g} mm, where there is no involute",
+        f"tip radius of the ring: {unlike(tip, base)} mm (limit >= {unlike(base, tip)} mm, its base radius: no "
+        "involute "
+        "is left)",
         key="teeth[1]",
         fix=fix if teeth is None else f"give it at least {teeth} teeth",
     )
@@ -172,13 +175,12 @@ def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
     fitting = pair.module * distance / pair.reference_center_distance
     return NoSolution(
         (
-            f"no tip is left to gear {gear + 1}: at the centre distance {distance:.6g} mm gears of "
-            f"{first} and {second} teeth of module {pair.module:g} mm take profile shifts with the "
-            f"sum {pair.shift_sum:.3g}, and their tips are shortened by "
-            f"{-pair.tip_alteration[gear]:.3g} modules"
+            f"no tip is left to gear {gear + 1}: tip shortening {-pair.tip_alteration[gear]:.3g} modules, sum of the "
+            f"profile shifts {pair.shift_sum:.3g} (centre distance {short(distance)} mm, {first} and {second} teeth, "
+            f"module {pair.module:g} mm)"
         ),
         fix=(
-            f"bring the distance near to {pair.reference_center_distance:.6g} mm, or take a module "
+            f"set the centre distance near {short(pair.reference_center_distance)} mm, or take a module "
             f"near {fitting:.3g} mm or more teeth"
         ),
     )
@@ -445,8 +447,8 @@ class GearPair(PitchPair):
         if not self._left_at_root(gear) * self.signs[gear] > 0.0:
             raise NoSolution(
                 (
-                    f"tip of gear {2 - gear} reaches {-self.interference_margin[1 - gear]:.6g} mm beyond the "
-                    f"base tangent point of gear {gear + 1}, where sliding has no bound"
+                    f"tip of gear {2 - gear} beyond the base tangent point of gear {gear + 1}: "
+                    f"{short(-self.interference_margin[1 - gear])} mm (limit < 0 mm: sliding is infinite there)"
                 ),
                 fix="lower its profile shift or the addendum, or take more teeth",
             )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
 from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool
@@ -67,9 +68,10 @@ class ShapedRing:
             raise NoSolution(text, key="cutter.addendum")
         most = bracketed_root(self._spare, 0.0, self.cutter.rounding)
         raise NoSolution(
-            f"tip rounding {self.cutter.rounding:.6g} does not fit on the teeth of the cutter: it must be at most "
-            f"{safely_below(most, 4)} modules",
+            f"tip rounding of the cutter: {unlike(self.cutter.rounding, most)} modules (limit <= "
+            f"{unlike(most, self.cutter.rounding)} modules)",
             key="cutter.rounding",
+            fix=f"set cutter.rounding to at most {safely_below(most)}",
         )
 
     def _spare(self, rounding: float) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.involute import inverse_involute
@@ -69,19 +70,18 @@ class ToothProfile:
         sharp = full_rounding(self.pressure_angle, self.tool_addendum, self.residual_undercut)
         if sharp < 0.0:
             raise NoSolution(
-                f"a tool with the addendum {self.tool_addendum:.6g} and the pressure angle "
-                f"{math.degrees(self.pressure_angle):.6g} deg is pointed: addendum and clearance together must stay "
-                f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle))} modules"
+                f"addendum of the tool (addendum + clearance): {short(self.tool_addendum)} modules (limit < "
+                f"{safely_below(math.pi / 4.0 / math.tan(self.pressure_angle))} modules, where it is pointed)"
             )
         most = sharp
         if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
             raise NoSolution(
-                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most)} modules, "
-                "a full round"
+                f"rounding of the tool: {unlike(self.tool_rounding, most)} modules (from 0 to {safely_below(most)} "
+                "modules, a full round)"
             )
         if not self._root > 0.0:
             raise NoSolution(
-                (f"a gear of {self.teeth} teeth with the profile shift {self.shift:.6g} has no root circle left"),
+                (f"a gear of {self.teeth} teeth with the profile shift {short(self.shift)} has no root circle left"),
                 fix=(
                     f"take at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or "
                     "raise the shift"
@@ -90,9 +90,10 @@ class ToothProfile:
         if not self._form < self._top:
             remedy = "raise" if self.undercut and not self._top < self.tip_radius / self.module else "lower"
             raise NoSolution(
-                f"no involute is left to a gear of {self.teeth} teeth: it would begin at "
-                f"{self.form_radius:.6g} mm, the tooth ends at {self.outer_radius:.6g} mm; {remedy} the profile shift "
-                "or take more teeth"
+                f"start of the involute of a gear of {self.teeth} teeth: radius "
+                f"{unlike(self.form_radius, self.outer_radius)} mm (limit < "
+                f"{unlike(self.outer_radius, self.form_radius)} mm, its tip)",
+                fix=f"{remedy} the profile shift, or take more teeth",
             )
 
     @classmethod

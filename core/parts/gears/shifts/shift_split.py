@@ -14,6 +14,7 @@ from typing import NamedTuple
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on, sign_changes
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.pitch_pair import Pair
@@ -165,8 +166,8 @@ class Diagonal:
             needed = self.shift_sum + low - high
             raise NoSolution(
                 (
-                    f"a shift sum of {self.shift_sum:.6g} leaves one of the gears undercut: both are free of "
-                    f"it from {safely_above(needed)} on"
+                    f"sum of the profile shifts: {unlike(self.shift_sum, needed)} (limit >= {safely_above(needed)} for "
+                    "no undercut on both gears)"
                 ),
                 fix="take a larger centre distance or more teeth",
             )

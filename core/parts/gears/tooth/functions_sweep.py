@@ -87,9 +87,7 @@ def involute(alpha: ArrayLike) -> Reals:
     angles = np.asarray(alpha, dtype=np.float64)
     if angles.size and not np.abs(angles).max() < math.pi / 2:
         worst = angles.flat[int(np.argmax(~(np.abs(angles) < math.pi / 2)))]
-        raise NoSolution(
-            f"pressure angle {math.degrees(worst):.6g} deg has no involute: it must lie between -90 and 90 deg"
-        )
+        raise NoSolution(f"pressure angle: {math.degrees(worst):.4g} deg (within -90 and 90 deg: no involute)")
     return _in_blocks(_involute_block, angles, 4)
 
 
@@ -122,8 +120,8 @@ def inverse_involute(v: ArrayLike) -> Reals:
     if not (values.min() >= 0.0 and values.max() < math.inf):
         worst = values.flat[int(np.argmax(~((values >= 0.0) & (values < math.inf))))]
         raise NoSolution(
-            f"no pressure angle has the involute {worst:.6g}: it must not be negative, and finite; "
-            "a larger sum of profile shifts or centre distance raises it"
+            f"involute of the pressure angle: {worst:.4g} (limit >= 0)",
+            fix="raise the sum of the profile shifts, or the centre distance",
         )
     if values.max() <= _LAST:
         return _in_blocks(_inverse_block, values, 4)

@@ -36,9 +36,7 @@ def involute(alpha: float) -> float:
         TY-460 report 1.1; Lambert's continued fraction
     """
     if not abs(alpha) < math.pi / 2:
-        raise NoSolution(
-            f"pressure angle {math.degrees(alpha):.6g} deg has no involute: it must lie between -90 and 90 deg"
-        )
+        raise NoSolution(f"pressure angle: {math.degrees(alpha):.4g} deg (within -90 and 90 deg: no involute)")
     if abs(alpha) >= _DIRECT:
         return math.tan(alpha) - alpha
     if abs(alpha) >= _MIDDLE:
@@ -76,8 +74,8 @@ def inverse_involute(v: float) -> float:
     """
     if not 0.0 <= v < math.inf:
         raise NoSolution(
-            f"no pressure angle has the involute {v:.6g}: it must not be negative, and finite; "
-            "a larger sum of profile shifts or centre distance raises it"
+            f"involute of the pressure angle: {v:.4g} (limit >= 0)",
+            fix="raise the sum of the profile shifts, or the centre distance",
         )
     if v == 0.0:
         return 0.0

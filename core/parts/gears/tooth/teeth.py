@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import safely_above
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
 
 RIM_MODULES = 2.0
@@ -86,8 +86,8 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
     if not above_base(radius, increase, pressure_angle) >= 0.0:
         base = radius * math.cos(pressure_angle)
         raise NoSolution(
-            f"{what} {radius + increase:.6g} mm lies inside the base circle, where there is no involute: "
-            f"it must be at least {safely_above(base)} mm"
+            f"{what}: {unlike(radius + increase, base)} mm (limit >= {unlike(base, radius + increase)} mm, the base "
+            "radius: no involute below)"
         )
     return rise_between(radius, increase, pressure_angle)
 

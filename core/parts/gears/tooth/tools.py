@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
 
 _USUAL_ROUNDING = 0.38
@@ -60,14 +61,14 @@ class RackTool:
             deepest = (math.pi / 4.0 + self.residual_undercut / math.cos(pressure_angle)) / math.tan(pressure_angle)
             raise NoSolution(
                 (
-                    f"a tool with the addendum {self.addendum:.6g} and the pressure angle "
-                    f"{math.degrees(pressure_angle):.6g} deg is pointed"
+                    f"addendum of the tool: {unlike(self.addendum, deepest)} modules (limit < "
+                    f"{unlike(deepest, self.addendum)} modules, where it is pointed)"
                 ),
                 fix=f"keep the addendum below {safely_below(deepest)} modules",
             )
         raise NoSolution(
-            f"tool rounding {self.rounding:.6g} does not fit on a tool with the addendum {self.addendum:.6g}: it must "
-            f"be at most {safely_below(most)} modules, a full round"
+            f"rounding of the tool: {unlike(self.rounding, most)} modules (limit <= {unlike(most, self.rounding)} "
+            f"modules, a full round at the addendum {short(self.addendum)})"
         )
 
 

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.base.remedies.ways import Way, down, either, modules, shared, up, wider
-from gearlink.core.base.report import Check, Table
+from gearlink.core.base.report import Check, Table, safely_above
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import unlike
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, GearQuantities, gear_quantity, gear_ways
 from gearlink.core.parts.gears.codes import AT_LIMITS, BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
 from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, GEARS, PLACES, RATING, Roles, lacking
@@ -181,9 +182,10 @@ class Meshed(GearQuantities, Design):
             rim, root = self.rim_of(name), abs(pair.root_radius[1])
             if pair.internal and rim is not None and rim <= root:
                 raise NoSolution(
-                    f"the rim's radius {rim:g} mm lies within the root circle of the ring gear, {root:.6g} mm",
+                    f"radius of the rim: {unlike(rim, root)} mm (limit > {unlike(root, rim)} mm, the root radius of "
+                    "the ring)",
                     key="gears.rim",
-                    fix="make it larger",
+                    fix=f"set gears.rim above {safely_above(root)} mm",
                 )
         return found
 

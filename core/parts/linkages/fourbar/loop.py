@@ -17,7 +17,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.wording import short
+from gearlink.core.base.report import safely_below
+from gearlink.core.base.wording import short, unlike, within
 
 Triangle: TypeAlias = tuple[float, float, float, float, float, float]
 
@@ -224,7 +225,7 @@ def refusal(reading: Reading, phi: float, p: float, q: float) -> NoSolution:
     if not math.isfinite(phi):
         return NoSolution(f"{driver} angle is {phi!r}; it must be finite")
     n = math.hypot((d - a) * math.cos(0.5 * phi), (d + a) * math.sin(0.5 * phi))
-    where = f"at {driver} angle {math.degrees(phi):.6g} deg"
+    where = f"at {driver} angle {short(math.degrees(phi))} deg"
     if p < 0.0 or q < 0.0:
         excess = n - (b + c) if p < 0.0 else abs(b - c) - n
         wrong = f"{ends} {short(n)} mm is {max(excess, math.ulp(n)):.3g} mm too {'long' if p < 0.0 else 'short'}"
@@ -241,10 +242,11 @@ def refusal(reading: Reading, phi: float, p: float, q: float) -> NoSolution:
 def _remedy(reading: Reading, driver: str, far: str) -> str:
     """Where the linkage closes, or which link keeps it from closing anywhere."""
     if not closes_somewhere(reading):
-        return f"it {never_closes(reading)}"
+        *others, longest = sorted((reading.a, reading.b, reading.c, abs(reading.d)))
+        return f"shorten the longest link, {short(longest)} mm, below {safely_below(math.fsum(others))} mm"
     low, high = (math.degrees(x) for x in closing_range(reading))
     return (
-        f"keep the {driver} angle between {low:.9g} and {high:.9g} deg either way from the frame, or change "
+        f"keep the {driver} angle {within(low, high, 'deg')} either way from the frame, or change "
         f"coupler or {far} by that much"
     )
 
@@ -255,7 +257,9 @@ def closes_somewhere(reading: Reading) -> bool:
 
 def never_closes(reading: Reading) -> str:
     lengths = sorted((reading.a, reading.b, reading.c, abs(reading.d)))
+    others = math.fsum(lengths[:3])
     return (
-        f"closes nowhere: the longest link, {lengths[3]:.9g} mm, must be shorter than the other three together, "
-        f"{math.fsum(lengths[:3]):.9g} mm"
+        f"closes nowhere: longest link {unlike(lengths[3], others)} mm (limit < {unlike(others, lengths[3])} mm, the "
+        "other "
+        "three together)"
     )

@@ -10,6 +10,7 @@ import math
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 
@@ -92,8 +93,8 @@ def _angle(p: float, q: float, opposite: float) -> float:
     if near < 0.0 or far < 0.0:
         raise NoSolution(
             (
-                f"the linkage is within rounding of a change point (sides {p:.6g}, {q:.6g} and "
-                f"{opposite:.6g} mm are collinear)"
+                f"the linkage is within rounding of a change point (sides {short(p)}, {short(q)} and "
+                f"{short(opposite)} mm are collinear)"
             ),
             fix="shorten the crank",
         )
@@ -104,12 +105,17 @@ def _require_full_turn(crank: float, coupler: float, rocker: float, frame: float
     least, most = abs(coupler - rocker), coupler + rocker
     if abs(frame - crank) > least and frame + crank < most:
         return
+    unmet = (
+        f"frame + crank {unlike(frame + crank, most)} mm (limit < {unlike(most, frame + crank)} mm, coupler + rocker)"
+    )
+    if not abs(frame - crank) > least:
+        between = unlike(abs(frame - crank), least)
+        unmet = f"|frame - crank| {between} mm (limit > {unlike(least, abs(frame - crank))} mm, |coupler - rocker|)"
     raise NoSolution(
         (
-            f"crank {crank:.6g} mm cannot turn fully between coupler {coupler:.6g}, rocker "
-            f"{rocker:.6g} and frame {frame:.6g} mm: |frame - crank| = {abs(frame - crank):.6g} mm "
-            f"must exceed |coupler - rocker| = {least:.6g} mm, frame + crank = {frame + crank:.6g} mm "
-            f"must stay below coupler + rocker = {most:.6g} mm"
+            f"the crank of {short(crank)} mm does not turn fully (coupler {short(coupler)}, rocker {short(rocker)}, "
+            "frame "
+            f"{short(frame)} mm): {unmet}"
         ),
         fix="shorten the crank",
     )

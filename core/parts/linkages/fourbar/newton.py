@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.parts.linkages.fourbar import sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -173,7 +174,7 @@ def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals) -> Reals:
         raise NoSolution(
             (
                 f"Newton-Raphson found no position of assembly {linkage.assembly:+d} at crank angle "
-                f"{math.degrees(phi[at]):.6g} deg: the loop is open by {residual[at]:.3g} mm (limit "
+                f"{short(math.degrees(phi[at]))} deg: the loop is open by {residual[at]:.3g} mm (limit "
                 f"{limit[at]:.3g} mm) after at most {MOST_ITERATIONS} iterations; the linkage does not "
                 "close there, or the start lies too far off"
             ),

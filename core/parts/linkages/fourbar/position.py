@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import within
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.loop import (
     Reading,
@@ -292,6 +293,6 @@ def _not_turning(linkage: FourBar) -> NoSolution:
     low, high = (math.degrees(x) for x in closing_range(linkage.reading))
     return NoSolution(
         f"the crank does not turn fully: the {linkage.kind()} of {linkage.crank:g}, {linkage.coupler:g}, "
-        f"{linkage.rocker:g}, {linkage.frame:g} mm closes between {low:.6g} and {high:.6g} deg only",
+        f"{linkage.rocker:g}, {linkage.frame:g} mm closes {within(low, high, 'deg')} only",
         fix="change the lengths to a crank-rocker or drag link",
     )

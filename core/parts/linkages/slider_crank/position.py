@@ -26,6 +26,7 @@ from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.elementary import SCALARS, Elementary
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
@@ -274,9 +275,10 @@ def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int
 def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
     """Message for a crank position at which the rod does not reach the slide line."""
     return (
-        f"rod {rod:.6g} mm does not reach the slide line at crank direction {math.degrees(psi):.6g} deg (crank "
-        f"{crank:.6g} mm, offset {offset:.6g} mm): a full revolution needs a rod longer than "
-        f"{safely_above(crank + abs(offset))} mm"
+        f"rod: {unlike(rod, crank + abs(offset))} mm (limit > {unlike(crank + abs(offset), rod)} mm, crank + offset) "
+        "at "
+        f"crank direction {short(math.degrees(psi))} deg, where it does not reach the slide line\n"
+        f"set rod above {safely_above(crank + abs(offset))} mm"
     )
 
 
@@ -284,7 +286,9 @@ def _check_rod(rod: float, offset: float) -> None:
     if not 0.0 < rod < math.inf:
         raise NoSolution(f"rod {rod:g} mm: its length must be positive")
     if not abs(offset) < rod:
-        raise NoSolution(f"offset {offset:.6g} mm: its magnitude must be below the rod length {rod:.6g} mm")
+        raise NoSolution(
+            f"magnitude of the offset: {unlike(abs(offset), rod)} mm (limit < {unlike(rod, abs(offset))} mm, the rod)"
+        )
 
 
 def _check_stroke(stroke: float, rod: float, offset: float) -> None:
@@ -294,10 +298,11 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
     if not stroke < largest:
         raise NoSolution(
             (
-                f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it "
-                f"must stay below {safely_below(largest)} mm"
+                f"stroke: {unlike(stroke, largest)} mm (limit < {unlike(largest, stroke)} mm with rod {short(rod)} "
+                "mm and "
+                f"offset {short(offset)} mm)"
             ),
-            fix="shorten it, lengthen the rod or reduce the offset",
+            fix=f"set stroke below {safely_below(largest)} mm, lengthen the rod or reduce the offset",
         )
 
 
@@ -316,8 +321,8 @@ def _check_crank(crank: float, rod: float, offset: float) -> None:
         raise NoSolution(f"crank {crank:g} mm: its length must be positive")
     if not e <= difference:
         raise NoSolution(
-            f"crank {crank:.6g} mm cannot make a full revolution with rod {rod:.6g} mm and offset {offset:.6g} mm: "
-            f"it must not exceed rod less offset, {safely_below(rod - e)} mm"
+            f"crank: {unlike(crank, rod - e)} mm (limit <= {unlike(rod - e, crank)} mm, rod - offset, to turn fully)",
+            fix=f"set the crank to at most {safely_below(rod - e)} mm",
         )
 
 
@@ -384,7 +389,9 @@ def _best(half: float, p: float, ratio: float) -> QuickReturn:
     """
     if ratio >= 3.0:
         raise NoSolution(
-            f"no slider-crank has a time ratio of {ratio:g}", key="quick_return_ratio", fix="specify less than 3"
+            f"no slider-crank has a time ratio of {ratio:g}",
+            key="quick_return_ratio",
+            fix="set quick_return_ratio below 3",
         )
     sine, cosine = math.sin(p), math.cos(p)
     g = 0.5 * sine * (sine + math.hypot(sine, 2.0))

@@ -315,7 +315,7 @@ def test_undercut_limit_is_where_the_cutter_passes_the_base_tangent_point():
 def test_interference_of_a_small_pinion_with_a_large_gear():
     pair = GearPair.from_shift(1.0, (10, 100))
     assert pair.interference_margin[1] < 0.0 < pair.interference_margin[0]  # the wheel's tip digs into the pinion
-    with pytest.raises(NoSolution, match=r"tip of gear 2 reaches .* beyond the base tangent point of gear 1"):
+    with pytest.raises(NoSolution, match=r"tip of gear 2 beyond the base tangent point of gear 1"):
         _ = pair.specific_sliding
 
 
@@ -375,11 +375,11 @@ def test_only_what_is_asked_for_is_computed():
     [
         (
             lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=270.0),
-            r"minimum is the sum of the base radii, 270\.7",
+            r"limit >= 270\.6 mm, sum of the base radii",
         ),
-        (lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=math.nan), "does not suit"),
-        (lambda: GearPair.from_shift(2.0, (8, 8), (-0.8, -0.8)), r"sum must be at least -0\.327"),
-        (lambda: GearPair.from_shift(2.0, (8, 8), (math.nan, 0.0)), "leave no pressure angle"),
+        (lambda: GearPair(module=4.0, teeth=(72, 72), given_distance=math.nan), "centre distance: nan"),
+        (lambda: GearPair.from_shift(2.0, (8, 8), (-0.8, -0.8)), r"limit >= -0\.327"),
+        (lambda: GearPair.from_shift(2.0, (8, 8), (math.nan, 0.0)), "no working pressure angle"),
         (lambda: GearPair.from_shift(0.0, (20, 20)), "module 0 mm"),
         (lambda: GearPair.from_shift(math.inf, (20, 20)), "module inf mm"),
         (lambda: GearPair.from_shift(2.0, (20, 20.5)), r"teeth 20\.5"),
@@ -398,14 +398,14 @@ def test_refusals_name_the_limit(make, message):
 def test_a_distance_that_takes_the_tips_names_what_fits_it():
     """66 teeth fill 100 mm with a module of 3.03 mm; a module of 10 um cannot, whatever the shifts."""
     pair = GearPair(module=1e-5, teeth=(19, 47), given_distance=100.0)
-    with pytest.raises(NoSolution, match=r"no tip is left to gear 1: .* near to 0\.00033 mm, or .* near 3\.03 mm"):
+    with pytest.raises(NoSolution, match=r"no tip is left to gear 1: .* near 0\.00033 mm, or .* near 3\.03 mm"):
         _ = pair.tip_pressure_angle
 
 
 def test_tip_inside_the_base_circle_is_refused_with_the_remedy():
     pair = GearPair(module=1.0, teeth=(60, 60), given_distance=60.0, given_first_shift=-3.0)
     assert pair.tip_radius[0] < pair.base_radius[0]
-    with pytest.raises(NoSolution, match=r"gear 1 lies below its base radius 28\.19.* by at least 0\.191 modules"):
+    with pytest.raises(NoSolution, match=r"tip radius of gear 1: 28 mm \(limit >= 28\.19.* by at least 0\.191 modules"):
         _ = pair.tip_pressure_angle
-    with pytest.raises(NoSolution, match="must be at least"):
+    with pytest.raises(NoSolution, match="limit >="):
         teeth.pressure_angle_rise(10.0, -1.0, ALPHA)

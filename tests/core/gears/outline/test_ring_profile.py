@@ -153,7 +153,7 @@ def test_without_its_cutter_a_ring_has_sharp_corners_and_flanks_that_may_meet() 
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"rounding": 1.0}, r"at most 0\.3728 modules"),
+        ({"rounding": 1.0}, r"limit <= 0\.3728 modules"),
         ({"shift": 2.0}, "pointed: lower its addendum"),
         ({"addendum": 0.1, "shift": -2.0}, "without an involute: raise its addendum"),
     ],

@@ -207,7 +207,7 @@ def test_sharp_and_full_round_tools():
     [
         ({"teeth": 2}, "no root circle left; take at least 3 teeth"),
         ({"teeth": 20, "addendum": 2.5}, "pointed"),
-        ({"teeth": 20, "rounding": 0.9}, "between 0 and 0.47"),
+        ({"teeth": 20, "rounding": 0.9}, "from 0 to 0.47"),
     ],
 )
 def test_failures_name_the_limit(arguments, words):
@@ -216,12 +216,12 @@ def test_failures_name_the_limit(arguments, words):
 
 
 def test_a_gear_without_involute_is_refused():
-    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 12 teeth: .* raise"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* raise"):
         ToothProfile(module=1.0, teeth=12, shift=0.0, pressure_angle=ALPHA, tip_radius=5.65)
-    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 12 teeth: .* lower"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 12 teeth: .* lower"):
         profile(12, 4.0)
     # pushed apart, the tip shortened into the root: less shift is the way out
-    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 19 teeth: .* lower"):
+    with pytest.raises(NoSolution, match=r"start of the involute of a gear of 19 teeth: .* lower"):
         ToothProfile.of(GearPair(module=3.0, teeth=(19, 47), given_distance=120.0), 0)
 
 
