@@ -163,7 +163,7 @@ STUDIES: tuple[Rule, ...] = (
     ),
     Rule(
         "GL151",
-        "variable leads nowhere",
+        "variable names no key",
         "A variable, one of its `also`, or what its `times` names is no key of the base design's kind, or no variable "
         "above it.",
         "A variable that changed nothing would multiply the designs without a word.",
@@ -232,7 +232,7 @@ STUDIES: tuple[Rule, ...] = (
     ),
     Rule(
         "GL160",
-        "two methods, two results",
+        "two methods give different results",
         "A design of the front has other figures by its own class than in the search.",
         "This is a fault of the program, not of the study.",
         "Please report it with the study; the message has the design and both figures.",

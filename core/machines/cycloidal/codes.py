@@ -6,7 +6,7 @@ from gearlink.core.base.report import Rule
 
 INTERFERENCE = Rule(
     "GL342",
-    "disc and pins interfere",
+    "interference of disc and pins",
     "The modification of the profile leaves less than no gap between disc and pins somewhere on the flank.",
     "The disc cannot be put into the ring, or jams in it.",
     "Grind off more (modification.offset), or raise the pin circle that it is ground for less.",

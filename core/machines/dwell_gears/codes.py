@@ -6,7 +6,7 @@ from gearlink.core.base.report import Rule
 
 START_SHOCK = Rule(
     "GL310",
-    "start with a shock, and what the model leaves out",
+    "impact at start and stop of the driven gear",
     "A mutilated gear takes its mating gear to full speed at once (always a warning).",
     "The model ends at the pitch circles: the cut tips of the first and last tooth and the locking arcs change "
     "where exactly motion begins and ends, and the blow limits the speed.",
@@ -19,7 +19,7 @@ START_SHOCK = Rule(
 )
 GAP = Rule(
     "GL316",
-    "gap does not free the driven gear",
+    "gap of the driving gear too short",
     "Between the last tooth of a group and the first of the next, some tooth stays in contact, or nearly so.",
     "The driven gear is held by its locking arc only while no tooth drives it: without that time both fight.",
     "Take fewer teeth in a group or more full teeth.",

@@ -50,7 +50,7 @@ REGISTER = Rule(
 )
 PLACE = Rule(
     "GL516",
-    "cylinder or gear 1 is not where the machine has it",
+    "position of cylinder or gear 1 differs from the machine",
     "loads.cylinder_direction puts the cylinder on the side of the bed on which its surface runs against the bed's, "
     "through the pitch line of the bed's rack, or over the slide line or an axis (A, D, G, N); or "
     "loads.gear_1_direction is another one than that of the axes' distances. A warning: torque and chains do not "

@@ -23,7 +23,7 @@ LOCKING = Rule(
 )
 STEP_RATE = Rule(
     "GL345",
-    "more steps a minute than Geneva drives run with",
+    "step rate too high for a Geneva drive",
     "The drive makes more steps in a minute than limits.steps_per_minute (a warning).",
     "The acceleration jumps at both ends of every step, and its peak is high: above 100 to 200 steps in a minute such "
     "drives are loud and wear.",

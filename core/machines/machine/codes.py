@@ -41,7 +41,7 @@ CRITICAL_SPEED = Rule(
 )
 MACHINE_SPEED = Rule(
     "GL533",
-    "machine faster than a member can go",
+    "machine speed above the limit of a member",
     "The main shaft turns faster than the speed at which a member lifts off or vibrates more than allowed.",
     "The member that limits the machine is named: it loses its cam, or dwells too briefly.",
     "Run slower, or mend the member that is named: stiffer spring, less mass, a smoother law.",

@@ -21,7 +21,7 @@ CONDITIONING = Rule(
 )
 PHASE_ALLOTMENT = Rule(
     "GL420",
-    "return too short for its phase accelerate",
+    "return phase too short for the phase accelerate",
     "The peak acceleration of the return is more than limits.return_acceleration times that of the phase accelerate; "
     "checked only with that limit.",
     "The short return lifts rollers and shakes the machine while the sheet's own way is gentle.",
@@ -35,7 +35,7 @@ PHASE_ALLOTMENT = Rule(
 )
 STOP_SETTLING = Rule(
     "GL421",
-    "arm still bouncing on its stop",
+    "arm not at rest on its stop before the pick-up",
     "The return and the rebounds on the stop end after the turn is over; or less than a quarter of the near dwell is "
     "left (a warning).",
     "Grippers that still move when they close take the sheet askew.",

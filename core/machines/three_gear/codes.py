@@ -36,7 +36,7 @@ BACK_STEP = Rule(
 )
 DWELL_TOLERANCE = Rule(
     "GL317",
-    "tolerance in which a dwell has no end",
+    "dwell tolerance too large",
     "The band of the tolerance, or of the play, is as wide as what the output gains in a revolution of the crank.",
     "The output would never leave the tolerance band: this is no dwell.",
     "Give a smaller dwell_tolerance, dwell.tolerance or dwell_backlash.",

@@ -6,7 +6,7 @@ from gearlink.core.base.report import Rule
 
 TURNABILITY = Rule(
     "GL504",
-    "unloader cannot follow the swing",
+    "balancing device cannot follow the swing",
     "The pivot ratio is too small for the length that cylinder or spring needs when it is shortest.",
     "The device would reach its end stop, or its coils, before mid-swing.",
     "Increase unloader.pivot_ratio to the value of the message, or reduce the swing.",
@@ -45,7 +45,7 @@ TRANSITION_ZONE = Rule(
 )
 BALANCING = Rule(
     "GL508",
-    "unloader does harm at low speed",
+    "balancing device increases the torque at low speed",
     "The machine works at a speed at which the device raises the torque on the rocker axis (a warning).",
     "The device's torque stays while the inertia's falls with the square of the speed: below n0/sqrt(2) more "
     "torque is needed with the device than without.",
@@ -58,7 +58,7 @@ BALANCING = Rule(
 FORCE_CLOSURE = Rule(
     "GL509",
     "spring slack at mid-swing",
-    "The unloading spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
+    "The balancing spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
     "There it does not press the roller to its cam: play shows just where the roller changes flank.",
     "Make unloader.stretch_ratio above 0, such as 0.1.",
     "epsilon = mounting stretch at mid-swing over the stroke of the spring > 0",
@@ -69,11 +69,12 @@ FORCE_CLOSURE = Rule(
 CYCLE_ANGLES = Rule(
     "GL510",
     "two strokes take more than a revolution",
-    "Working and return stroke together take more cam angle than a revolution has; of a cycle, a rest has no length (a "
+    "Working and return stroke together take more cam angle than a revolution has; of a cycle, a dwell has no length "
+    "(a "
     "warning).",
-    "The two profiles would overlap; without a rest between them the concave parts of both strokes meet in an edge.",
-    "Reduce cycle_angle to 180 deg or less; give both rests of a cycle some degrees.",
-    "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, rests above 0",
+    "The two profiles would overlap; without a dwell between them the concave parts of both strokes meet in an edge.",
+    "Reduce cycle_angle to 180 deg or less; give both dwells of a cycle some degrees.",
+    "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, dwells above 0",
     "own derivation",
     ("cycle-angles",),
     ("cycle_angle", "cycle"),
@@ -81,7 +82,7 @@ CYCLE_ANGLES = Rule(
 )
 FORCE_RESERVE = Rule(
     "GL511",
-    "roller leaves its cam at speed",
+    "lift-off below the design speed",
     "The speed above which the roller leaves its cam is below the design speed (fails), or less than a tenth above it, "
     "as without a reserve (warns).",
     "A device that just balances the inertia presses no roller to its cam: play, friction or a little more speed and "
@@ -89,7 +90,8 @@ FORCE_RESERVE = Rule(
     "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
     "the reserve.",
     "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
-    "swings home the maximum acceleration of the rocker over that of the stroke at the same position; in the stroke "
+    "swings in the return stroke the maximum acceleration of the rocker over that of the stroke at the same "
+    "position; in the stroke "
     "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
     "own derivation",
     ("force-reserve",),
@@ -102,7 +104,7 @@ CLOSED_CONTOUR = Rule(
     "where the "
     "other cam guides, or where two concave parts come near each other.",
     "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
-    "Take a smaller cam.roller_radius or cam.free_clearance, longer rests, or a larger cam.center_distance.",
+    "Take a smaller cam.roller_radius or cam.free_clearance, longer dwells, or a larger cam.center_distance.",
     "minimum distance of contour and path of the roller's centre >= r_p",
     "own derivation",
     ("closed-contour",),
@@ -110,11 +112,11 @@ CLOSED_CONTOUR = Rule(
 )
 PROFILE_PLANES = Rule(
     "GL513",
-    "profiles of one cam need two planes",
+    "profiles of one cam overlap",
     "The internal and the external profile of a twin-rocker's cam overlap as seen along its axis (a warning).",
     "A body with both in one plane would lack the metal between them.",
     "Put the profiles side by side, or take smaller rollers.",
-    "rho_2 - r_p > rho_1 + r_p during the rests, rho_1 the external profile's pitch radius, rho_2 the internal one's",
+    "rho_2 - r_p > rho_1 + r_p during the dwells, rho_1 the external profile's pitch radius, rho_2 the internal one's",
     "own derivation",
     ("profile-planes",),
     ("cam.roller_radius", "cam"),
@@ -165,7 +167,7 @@ SWING_RANGE = Rule(
 )
 FLANK_IMPACT = Rule(
     "GL542",
-    "hard blow at the change of flanks",
+    "impact at the change of flanks",
     "The roller strikes the other flank of its slot faster than limits.impact_speed (a warning; not checked without "
     "the limit).",
     "The blow wears both flanks and excites the rocker each stroke.",

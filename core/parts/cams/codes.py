@@ -86,7 +86,7 @@ CONSTANT_SUM = Rule(
 )
 LIFT_OFF = Rule(
     "GL406",
-    "roller leaves its cam",
+    "lift-off of the roller",
     "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
     "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
     "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
@@ -101,7 +101,7 @@ LIFT_OFF = Rule(
 )
 LAW_GAP = Rule(
     "GL517",
-    "an optimal law may not be the minimum",
+    "optimal law not proved to be the minimum",
     "The gap between the law that was found and the bound below which no law of its degree lies is wide.",
     "The proof says how much a better law could gain; a wide gap says that the programme was solved badly.",
     "Lower the degree, or loosen a limit that hardly can be kept.",
@@ -113,7 +113,7 @@ LAW_GAP = Rule(
 )
 LAW_RIPPLE = Rule(
     "GL422",
-    "a table law turns back",
+    "law of a table reverses",
     "The curve through the points of a table from rest to rest runs backwards somewhere (a warning).",
     "Measured or rounded points ripple; each revolution back is a blow in the drive's play.",
     "Give more digits, smooth the points, or omit some: the spline passes through every one.",

@@ -83,7 +83,7 @@ ROOT_CLEARANCE = Rule(
 )
 SLIDING = Rule(
     "GL209",
-    "flanks slide much",
+    "specific sliding too large",
     "The sliding speed at the root end of an active flank is many times the rolling speed there (a warning).",
     "Such flanks wear and score: contact comes near to the base circle, where rolling ends.",
     "Raise the gear's profile shift, take more teeth, or lower the mating gear's addendum.",
@@ -106,7 +106,7 @@ TOOTH_FORM = Rule(
 )
 TIP_FOULING = Rule(
     "GL206",
-    "tips foul in an internal mesh",
+    "tip interference in an internal mesh",
     "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact; or the "
     "planet cannot be put into its ring along the line of centres (radial-assembly: a warning, a failure with "
     "assembly: radial).",
@@ -152,7 +152,7 @@ BACKLASH = Rule(
 )
 INSPECTION = Rule(
     "GL213",
-    "a measure that cannot be taken",
+    "inspection dimension cannot be measured",
     "A ball or pin that the file names does not lie between the flanks: it falls through the space, touches beyond the "
     "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it. Or the planes of the "
     "span measurement touch a helical gear beyond its face.",
@@ -193,7 +193,7 @@ BENDING = Rule(
 )
 RATING_RANGE = Rule(
     "GL214",
-    "a factor outside of its range, or unconfirmed",
+    "factor outside its range, or without a published check value",
     "A formula of the rating is used outside of the range it is known for, a hardness outside of its class, or a "
     "formula that no printed number was compared with decides (a warning).",
     "The safety may then be wrong, and nothing else in the result shows it.",
@@ -240,7 +240,7 @@ DAMAGE = Rule(
 )
 FACE_LOAD = Rule(
     "GL218",
-    "load on one end of the face",
+    "load concentrated at one end of the face width",
     "The face load factor is above 2: less than half of the width carries well (a warning).",
     "The teeth break or pit at one end; wider gears then carry hardly more.",
     "Narrow the gears, take a better grade or a stiffer shaft, or modify the helix (rating.face.modification).",
@@ -252,7 +252,7 @@ FACE_LOAD = Rule(
 )
 TRUE_FILLET = Rule(
     "GL219",
-    "the true fillet is stressed otherwise",
+    "root stress of the generated fillet differs from ISO 6336-3",
     "The root stress on the generated fillet, by a boundary integral, differs from Y_F Y_S by more than a quarter "
     "(a warning); checked only with --table root.",
     "The standard's section does not describe this root well.",

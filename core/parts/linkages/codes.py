@@ -6,7 +6,7 @@ from gearlink.core.base.report import Rule
 
 GEAR_COLLISION = Rule(
     "GL301",
-    "gears collide",
+    "gears interfere",
     "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle; "
     "where that is below 0 and lets them overlap, a warning.",
     "A gear on the crank pin travels: its minimum distance counts, not the frame length. The source's own example 3 "
@@ -114,7 +114,7 @@ DWELL_WINDOW = Rule(
 )
 DWELL_EDGE = Rule(
     "GL314",
-    "dwell close to its jump",
+    "dwell sensitive to the frame length",
     "The back-step nearly fills the band, or the frame lengths that meet the request lie close together.",
     "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
     "the window falls at once to three quarters.",
@@ -128,7 +128,7 @@ DWELL_EDGE = Rule(
 )
 CLOSURE = Rule(
     "GL305",
-    "joints close",
+    "closure error of the joints",
     "The links reach from joint to joint at every input (a loop that opens is an error, with the worst input); "
     "of a planar "
     "mechanism the maximum gap of a joint over the rows.",

@@ -138,7 +138,7 @@ class TestFormats:
         run = sarif["runs"][0]
         assert {rule["id"] for rule in run["tool"]["driver"]["rules"]} == {r["ruleId"] for r in run["results"]}
         collision = next(rule for rule in run["tool"]["driver"]["rules"] if rule["id"] == "GL301")
-        assert collision["shortDescription"]["text"] == "gears collide"
+        assert collision["shortDescription"]["text"] == "gears interfere"
         assert collision["help"]["text"].startswith("Lengthen the frame")
         levels = {(r["ruleId"], r["level"]) for r in run["results"]}
         assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
