@@ -80,7 +80,7 @@ def test_titles_are_of_quantities() -> None:
     assert max(map(len, TITLES.values())) <= 34
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
 def test_a_report_has_six_to_ten_of_them(path: Path) -> None:
     """Fewer only where all that there is to say is said."""

@@ -62,7 +62,7 @@ def test_a_record_imports_nothing() -> None:
 def _keys(path: Path) -> Iterator[str]:
     """Words that are keys of a dict of a module; as text first, for to parse takes longer."""
     text = path.read_text(encoding="utf-8")
-    if any(f'"{name}"' in text for name in KINDS):
+    if any(f'"{name}":' in text for name in KINDS):
         for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Dict):
                 yield from (key.value for key in node.keys if isinstance(key, ast.Constant) and key.value in KINDS)

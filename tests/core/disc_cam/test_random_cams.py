@@ -110,6 +110,7 @@ CASES = [
 ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("follower", "seed"), CASES)
 def test_no_place_of_the_follower_cuts_the_profile(follower: str, seed: int) -> None:
     data, design = drawn(seed, follower)

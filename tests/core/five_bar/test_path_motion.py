@@ -230,6 +230,7 @@ def test_output_angles_do_not_jump():
 # Syntheses
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", mostly_slow([5, 2, 3, 4], 1))
 def test_positions_are_met_on_the_real_motion(count):
     pairs = [(60.0, 60.0), (80.0, 63.75), (100.0, 75.0), (120.0, 93.75), (140.0, 120.0)][:count]

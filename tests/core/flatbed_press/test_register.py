@@ -76,7 +76,7 @@ def test_contributions_of_the_printed_budget() -> None:
         assert 10.0 * float(np.ptp(relative)) == pytest.approx(wanted[one.source], abs=0.051), one.source
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("pin", "ABCDEFGHMN")
 def test_every_pin_has_a_gain(pin: str) -> None:
     sources = {f"pins.{pin}": {"clearance": [0.01, 0.03]}}

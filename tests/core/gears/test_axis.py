@@ -148,7 +148,7 @@ def test_a_span_that_leaves_the_face_of_a_narrow_helical_gear_is_counted() -> No
     assert 0 < sum(int(each.warns.sum()) for each in found) < 24
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", STUDIES)
 @pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:

@@ -270,7 +270,7 @@ def test_two_trains_hold_two_pins_at_one_distance():
     assert {check.status for check in design(FIVE_BAR, [first, second], wanted=2).check("train-fit")} == {"pass"}
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("at", "status"), [("A", 0), ("nowhere", 2)])
 def test_the_diagram_asks_for_names_first(gearlink, tmp_path, at, status):
     path = tmp_path / "six.yaml"

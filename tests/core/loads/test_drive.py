@@ -274,6 +274,7 @@ def test_a_share_of_the_balance_takes_that_share_of_the_force(share: float) -> N
     assert design.balanced_force_max == pytest.approx((1.0 - share) * design.shaking_force_max, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_best_counterweight_of_a_slider_crank() -> None:
     """TY-460 size: 1105 N without, 925 N with the whole, the minimum in between."""
     case = next(case for case in DATA["cases"] if case["spec"]["kind"] == "slider-crank")

@@ -41,7 +41,7 @@ def case(request: pytest.FixtureRequest) -> Any:
     return request.param
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 def test_torque_of_the_reference(case: dict[str, Any]) -> None:
     design, expected = loads_of(case), case["expected"]
     table = design.table("torque")

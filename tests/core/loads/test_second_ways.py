@@ -196,7 +196,7 @@ def test_what_has_no_masses_computes_nothing(monkeypatch: pytest.MonkeyPatch) ->
         factory.design("candy_feed", command="loads").report("loads")
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name",
     mostly_slow(

@@ -116,7 +116,7 @@ def test_cams_are_refused() -> None:
     assert refused.value.key == "cams"
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("pin", ["B", "C"])
 def test_the_play_of_a_pin_is_that_of_a_pivot_beyond_it(pin: str) -> None:
     """A hole of the coupler off the crank's pin, in the frame, moves the crank's circle as its pivot would; one of the

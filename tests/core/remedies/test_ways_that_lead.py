@@ -89,6 +89,7 @@ def test_a_transition_before_the_end_of_its_zone() -> None:
         assert repaired("ty460", check.remedy, "pressure-angle", "press", **keys)
 
 
+@pytest.mark.slow
 def test_given_links_are_repaired_though_a_function_is_asked_for() -> None:
     """Nothing is searched there that a trial would have to wait for."""
     keys = {"gears__planet": 13}

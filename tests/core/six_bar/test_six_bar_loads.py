@@ -31,7 +31,7 @@ def test_both_torques_agree_at_every_angle(name: str) -> None:
     assert np.abs(power).max() > 0.1
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SIX_BARS)
 def test_mean_power_is_that_of_the_load_and_friction_adds_to_it(name: str) -> None:
     """Masses and gravity take nothing over a period: the mean torque is 20 N m times the mean ratio of the output."""

@@ -462,7 +462,7 @@ def test_the_tolerance_of_the_request_for_a_dwell_measures_an_analysis():
     assert other.output_tolerance is None
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("key", ["dwell_tolerance", "dwell_backlash"])
 def test_a_tolerance_without_end_is_a_finding(key):
     """Half of the gain of a revolution of example 3; a play counts at the output gear's circle, r5 = 75 mm."""

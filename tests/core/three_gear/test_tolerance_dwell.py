@@ -80,7 +80,7 @@ def test_published_creep_over_45_deg():
     assert tolerance_from_backlash(out["total_mm_at_r5"], 75.0) == pytest.approx(tolerance, rel=1e-15)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize(
     ("linkage", "train"),

@@ -65,7 +65,7 @@ LAWS = [
 ]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: str(law.form))
 def test_moments_are_those_of_the_quantiles(law: Law) -> None:
     """Midpoint rule in the share: 2e6 points leave the tails' 1e-6 of the width."""

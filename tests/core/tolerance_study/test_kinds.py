@@ -80,7 +80,7 @@ def study(name: str, **section: Any) -> Any:
     return factory.design(name, command="tolerance", tolerance=section)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in STUDIES]
 )

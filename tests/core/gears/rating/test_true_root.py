@@ -116,7 +116,7 @@ def test_the_contour_is_closed_and_counter_clockwise() -> None:
             assert (half.points.conj() * half.steps).imag.sum() > 0.0
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("keys", "gear", "reference"),
     [({}, 0, 2.49669), ({}, 1, 2.53467), (RINGS["56"], 1, 2.644), (RINGS["93"], 1, 2.443)],

@@ -305,7 +305,7 @@ def test_a_synthesis_needs_shifts_that_cancel():
 # What is not asked for is not computed
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", KINDS)
 def test_a_design_without_the_keys_computes_nothing_of_them(name):
     one = made(name)
