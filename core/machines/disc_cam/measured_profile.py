@@ -307,7 +307,8 @@ def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
         tolerance : float - range of it within a dwell
     Notes
         A dwell is at least 10 deg long. A stroke between dwells is taken from one level to the other and its ends are
-        fitted, for within the tolerance the eye cannot tell where it begins.
+        fitted, for within the tolerance the eye cannot tell where it begins. Where the motion only turns round, the
+        stroke ends at that place.
     Source
         own derivation
     """
@@ -325,7 +326,13 @@ def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
         cuts = [first, *_turning(value, first, last), last]
         heights = [levels[k], *(float(value[i % count]) for i in cuts[1:-1]), levels[after]]
         pairs = zip(pairwise(cuts), pairwise(heights), strict=True)
-        found.append([_stroke(value, *ends, *rise) for ends, rise in pairs if ends[1] - ends[0] > 1])
+        found.append(
+            [
+                _stroke(value, *ends, *rise, free=(ends[0] == first, ends[1] == last))
+                for ends, rise in pairs
+                if ends[1] - ends[0] > 1
+            ]
+        )
     strokes = [each for between in found for each in between]
     for k, each in enumerate(inside):
         start, length = dwells[k]
@@ -384,8 +391,10 @@ def _turning(value: Reals, first: int, last: int) -> list[int]:
     return found
 
 
-def _stroke(value: Reals, first: int, last: int, low: float, high: float) -> MeasuredPhase:
-    """The stroke between two places and levels, by the law that comes nearest."""
+def _stroke(
+    value: Reals, first: int, last: int, low: float, high: float, free: tuple[bool, bool] = (False, False)
+) -> MeasuredPhase:
+    """The stroke between two places and levels, by the law that comes nearest; those of its ends that are free move."""
     count = value.size
     x = np.arange(first, last + 1)
     s, step = value[x % count], TURN / count
@@ -393,15 +402,15 @@ def _stroke(value: Reals, first: int, last: int, low: float, high: float) -> Mea
     best = MeasuredPhase(first * step, last * step, motion, None, math.inf)
     share = (s - low) / height if height else np.zeros_like(s)
     for name in REST_TO_REST:
-        start, end, off = _fitted(name, np.asarray(x * step, dtype=np.float64), share)
+        start, end, off = _fitted(name, np.asarray(x * step, dtype=np.float64), share, free)
         if abs(height) * off < best.deviation:
             best = MeasuredPhase(start, end, motion, name, abs(height) * off)
     return best
 
 
-def _fitted(name: str, phi: Reals, share: Reals) -> tuple[float, float, float]:
+def _fitted(name: str, phi: Reals, share: Reals, free: tuple[bool, bool]) -> tuple[float, float, float]:
     """Ends of a law that bring it nearest to a stroke, by Gauss's and Newton's steps, and its maximum deviation."""
-    named = law(name)
+    named, moved = law(name), np.array(free, dtype=np.float64)
 
     def off(ends: Reals) -> tuple[Reals, Reals]:
         x = (phi - ends[0]) / (ends[1] - ends[0])
@@ -409,11 +418,11 @@ def _fitted(name: str, phi: Reals, share: Reals) -> tuple[float, float, float]:
         s, v = named.evaluate(np.where(moves, x, 0.5), 1)
         at = np.where(moves, s, np.where(x >= 1.0, 1.0, 0.0))
         rate = np.where(moves, v, 0.0) / (ends[1] - ends[0])
-        return at - share, np.array([-rate * (1.0 - x), -rate * x]).T
+        return at - share, np.array([-rate * (1.0 - x), -rate * x]).T * moved
 
     ends = np.array([phi[0], phi[-1]])
     residual, slopes = off(ends)
-    for _ in range(_FIT_STEPS):
+    for _ in range(_FIT_STEPS if any(free) else 0):
         change = np.linalg.lstsq(slopes, -residual, rcond=None)[0]
         tried = ends + change
         if not (tried[1] - tried[0] > _SHORTEST_STROKE and np.abs(change).max() < 0.5 * (phi[-1] - phi[0])):

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.disc_cam.measured_profile import ROWS, phases_of
 from gearlink.core.parts.cams.laws import law
 
 RADIUS, ECCENTRICITY, ROLLER = 60.0, 12.0, 15.0
@@ -204,3 +205,16 @@ def test_loads_of_a_measured_cam_by_virtual_work() -> None:
     assert loads.machine.torque(phi) == pytest.approx(1e-3 * along * speed, rel=1e-9, abs=1e-12)
     angle = np.abs(loads.design.cams.main.pressure_angle(phi))
     assert loads.contact_force("main", phi) == pytest.approx(along / np.cos(angle), rel=1e-9)
+
+
+def test_strokes_without_dwell_end_where_the_motion_turns_round() -> None:
+    """A cosine with a short half: each stroke ends where the next begins, and at the extremes."""
+    phi = np.arange(ROWS) * 2.0 * math.pi / ROWS
+    rises = phi < math.radians(150.0)
+    share = np.where(rises, phi / math.radians(150.0), (2.0 * math.pi - phi) / math.radians(210.0))
+    found = phases_of(10.0 * (0.5 - 0.5 * np.cos(math.pi * share)), 0.001)
+    assert [each.motion for each in found] == ["rise", "return"]
+    assert [each.law for each in found] == ["simple-harmonic"] * 2
+    ends = [math.degrees(end) for each in found for end in each[:2]]
+    assert ends == pytest.approx([0.0, 150.0, 150.0, 360.0], rel=0.0, abs=360.0 / ROWS)
+    assert max(each.deviation for each in found) < 1e-3
