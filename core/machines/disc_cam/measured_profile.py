@@ -314,7 +314,7 @@ def phases_of(value: Reals, tolerance: float) -> list[MeasuredPhase]:
     """
     count, dwells = value.size, _dwells(value, tolerance)
     if not dwells:
-        turns = _turning(value, 0, count)
+        turns = _turning(value, -1, count)
         cuts = [*turns, turns[0] + count] if turns else []
         return sorted(_stroke(value, a, b, *value[[a % count, b % count]].tolist()) for a, b in pairwise(cuts))
     inside = [value[np.arange(start, start + length) % count] for start, length in dwells]
