@@ -13,6 +13,8 @@ from gearlink.cli.views.scenes import lettering
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Chart, Line, Part, Points, Readout, Reals, Scene
 
 _FAULTS = 3
+_ROW = 1.15
+"""Height of a row of keys, by that of the text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +71,19 @@ class Stage:
         return 0.0 if self.bare else 3.9 * self.text_size
 
     @property
+    def _foot(self) -> float:
+        """Below the keys of arrows."""
+        return (
+            self.height - 0.9 * self.text_size
+            if self.scene.chart is None
+            else self.chart_room.top - 1.6 * self.text_size
+        )
+
+    @property
     def room(self) -> Box:
-        """The room of the mechanism."""
+        """The room of the mechanism, above the keys of arrows."""
         edge = 0.9 * self.text_size
-        foot = self.height - edge if self.scene.chart is None else self.chart_room.top - 1.6 * self.text_size
-        return Box(edge, self.head + edge, self.width - edge, foot)
+        return Box(edge, self.head + edge, self.width - edge, self._foot - _ROW * self.text_size * len(self.scene.keys))
 
     @property
     def chart_room(self) -> Box:
@@ -147,8 +157,8 @@ class Stage:
 
     def scales(self) -> list[tuple[complex, float, str, str]]:
         """Where the key of each arrow stands, its length [pixels], its words and colour: rows from the lower left."""
-        room, size, keys = self.room, self.text_size, self.scene.keys
-        rows = [complex(room.left, room.bottom - 1.15 * size * (len(keys) - k - 0.5)) for k in range(len(keys))]
+        size, keys = self.text_size, self.scene.keys
+        rows = [complex(self.room.left, self._foot - _ROW * size * (len(keys) - k - 0.5)) for k in range(len(keys))]
         return [(at, self.scale * key.length, key.words, key.color) for at, key in zip(rows, keys, strict=True)]
 
     def framed(self, i: int) -> bool:

@@ -34,6 +34,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
     wheel,
 )
+from gearlink.core.machines.flatbed_press.loads_spec import PressLoads
 from gearlink.core.machines.flatbed_press.mechanism import bare
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
 
@@ -190,6 +191,21 @@ def build(design: FlatbedPress, fraction: Reals, *, cams: bool = True) -> Scene:
             Readout("lift of the cam", " mm", machine.lift),
         ),
     )
+
+
+def as_drawn(design: FlatbedPress) -> Motion | None:
+    """The motion with gear 1 and the cylinder where they are drawn; None where the file places them by its loads."""
+    if design.spec.loads is not None or design.spec.input_gears is None:
+        return None
+    machine = Machine(design, np.zeros(1), cams=False)
+    to_gear = machine.gear_axis / LEVEL
+    to_cylinder = (machine.cylinder_axis - complex(machine.cylinder_joints[3][0])) / LEVEL
+    section = PressLoads.model_construct(
+        bed_side=-1,
+        gear_1_direction=math.degrees(np.angle(to_gear)),
+        cylinder_direction=math.degrees(np.angle(to_cylinder)),
+    )
+    return type(design)(design.spec.model_copy(update={"loads": section})).moving
 
 
 def bed_chain(joints: tuple[Points, ...]) -> Scene:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -43,7 +44,7 @@ from gearlink.core.mechanism.links import FRAME
 if TYPE_CHECKING:
     from gearlink.core.base.report import Check, Table
     from gearlink.core.mechanism.links import Mechanism
-    from gearlink.core.mechanism.motion import Input
+    from gearlink.core.mechanism.motion import Input, Motion
     from gearlink.core.numerics.arrays import Mask
     from gearlink.core.studies.clearance.bodies import Clearance, Layout
 
@@ -53,6 +54,8 @@ WORDS = ("velocity", "acceleration", "force", "path", "centres", "ghosts")
 _LONGEST, _GHOSTS, _APART = 0.28, 4, 1.0 / 24.0
 """Longest arrow by the size of the drawing; earlier positions, and their distance in the loop."""
 _SAMPLES, _FAR = 180, 1.15
+_BESIDE = 0.06
+"""Of the size of the drawing: numbers of a path that are nearer to each other are one text."""
 _PROBES, _FEW = 15, 4
 _OVER_INPUT = ("motion", "path", "function")
 """Tables that have the transmission angle over the input."""
@@ -104,9 +107,11 @@ class Frame:
 
     Fields
         inputs : function of fractions of the loop - inputs of the motion
+        motion : that of the design, or the one of which its scene is drawn where the file leaves places free
     """
 
     inputs: Callable[[Reals], Reals]
+    motion: Motion
     turn: complex = 1.0
     shift: complex = 0.0
     mirrored: bool = False
@@ -147,7 +152,21 @@ def frame_of(design: Any, build: Maker) -> Frame | None:
         Accepted only if something that moves agrees: a joint, or a body that turns with its link. Of a scene that goes
         on beyond the range of the motion the positions within it count.
     """
-    motion, fraction = design.moving, np.linspace(0.0, 0.93, _PROBES)
+    found = (_frame_in(design, build, motion) for motion in _motions(design, build))
+    return next((each for each in found if each is not None), None)
+
+
+def _motions(design: Any, build: Maker) -> Iterator[Motion]:
+    """The motion of a design, and the one that its scene names where the file does not say where all of it stands."""
+    yield design.moving
+    drawn: Callable[[Any], Motion | None] | None = getattr(sys.modules[build.__module__], "as_drawn", None)
+    other = None if drawn is None else drawn(design)
+    if other is not None:
+        yield other
+
+
+def _frame_in(design: Any, build: Maker, motion: Motion) -> Frame | None:
+    fraction = np.linspace(0.0, 0.93, _PROBES)
     scene = build(design, fraction)
     for inputs in _inputs(design, build, scene):
         q = inputs(fraction)
@@ -163,7 +182,7 @@ def frame_of(design: Any, build: Maker) -> Frame | None:
         one = np.concatenate([pair[0] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
         other = np.concatenate([pair[1] for pair in pairs]) if pairs else np.zeros(1, dtype=complex)
         for turn, shift, mirrored in _frames(one, other):
-            found = Frame(inputs, turn, shift, mirrored)
+            found = Frame(inputs, motion, turn, shift, mirrored)
             size = 1.0 + float(np.abs(one - one.mean()).max())
             if float(np.abs(found.at(one) - other).max()) > _NEAR * size:
                 continue
@@ -266,7 +285,7 @@ def _base(design: Any) -> tuple[Maker, Frame]:
     if frame is not None:
         return own, frame
     given = design.moving.input
-    return of_motion.build, Frame(lambda each: of_motion.inputs(given, each))
+    return of_motion.build, Frame(lambda each: of_motion.inputs(given, each), design.moving)
 
 
 def possible(design: Any) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -395,15 +414,15 @@ class Picture:
 
     def _mechanism(self, order: int, fraction: Reals | None = None) -> Mechanism:
         """The links there; beyond the range of the motion at its end."""
-        given, q = self.design.moving.input, self.frame.inputs(self.fraction if fraction is None else fraction)
+        given, q = self.frame.motion.input, self.frame.inputs(self.fraction if fraction is None else fraction)
         if given.turns is None:
             q = np.minimum(np.maximum(q, given.start), given.end)
-        found: Mechanism = self.design.moving.at(np.asarray(q), order)
+        found: Mechanism = self.frame.motion.at(np.asarray(q), order)
         return found
 
     def _known(self, track: Points) -> Points:
         """A track of the motion in the scene, which is not there beyond the range of the motion."""
-        inside = within(self.design.moving.input, self.frame.inputs(self.fraction))
+        inside = within(self.frame.motion.input, self.frame.inputs(self.fraction))
         return np.where(inside, self.frame.at(track), _OFF)
 
     @property
@@ -447,7 +466,7 @@ class Picture:
             rates = vectors.rates_of(now, each)
             beside = self._beside(lambda links, at=each: vectors.rates_of(links, at).value)  # type: ignore[misc]
             tracks[name] = rates.value + self.frame.back(beside), factor * rates.derivative(order)
-        per = self.design.moving.input.unit
+        per = self.frame.motion.input.unit
         unit = ("mm/s", "mm/s²")[order - 1] if speed is not None else (f"mm/{per}", f"mm/{per}²")[order - 1]
         return self._arrows(wish.what, tracks, abs(factor) * most, unit)
 
@@ -480,21 +499,32 @@ class Picture:
         place = self._places(wish.point)[wish.point]
         path = self.frame.at(vectors.rates_of(self._mechanism(0, np.linspace(0.0, 1.0, 361)), place).value)
         parts: list[Part] = [Line(points=path, color=BLACK, width=1.4, name=f"path of {wish.point}")]
-        given, marks = self.design.moving.input, []
+        given, marks = self.frame.motion.input, []
         if given.unit == "rad" and given.end - given.start <= TURN * (1.0 + 1e-9):
             degrees = np.arange(math.ceil(math.degrees(given.start) / 30.0 - 1e-9) * 30.0,
                                 math.degrees(given.end) - 1e-6, 30.0)  # fmt: skip
-            point = vectors.rates_of(self.design.moving.at(np.radians(degrees), 1), place)
+            point = vectors.rates_of(self.frame.motion.at(np.radians(degrees), 1), place)
             at, way = self.frame.at(point.value), self.frame.along(point.first)
             for k, degree in enumerate(degrees.tolist()):
                 across = 1j * way[k] / abs(way[k]) if abs(way[k]) > 1e-9 * self.size else 1j
                 long = 0.012 if round(degree) % 90 else 0.02
                 tick = at[k] + long * self.size * across * np.array([-1.0, 1.0])
                 parts.append(Line(points=tick, color=BLACK, width=1.2))
-                if round(degree) % 90 == 0:
-                    marks.append(Mark(np.full(self.fraction.shape, complex(at[k])), f"{degree:g}°"))
+            marks = self._numbers(dict(zip(degrees.tolist(), at.tolist(), strict=True)))
         parts += [self._head(path, k) for k in (30, 150, 270)]
         return parts, marks, [Key(f"path of {wish.point}", BLACK, 0.0)]
+
+    def _numbers(self, places: Mapping[float, complex]) -> list[Mark]:
+        """Every 90 deg of a path, those that would lie on each other in one."""
+        found: list[tuple[complex, list[str]]] = []
+        for degree, at in places.items():
+            if round(degree) % 90 == 0:
+                near = next((words for place, words in found if abs(place - at) < _BESIDE * self.size), None)
+                if near is None:
+                    found.append((at, [f"{degree:g}°"]))
+                else:
+                    near.append(f"{degree:g}°")
+        return [Mark(np.full(self.fraction.shape, at), " ".join(words)) for at, words in found]
 
     def _head(self, path: Points, k: int) -> Part:
         """An arrow head on a path, in its direction."""
@@ -530,7 +560,7 @@ class Picture:
     def _ghosts(self, _wish: Wish) -> Found:
         """Earlier positions, the paler the older."""
         parts: list[Part] = []
-        given = self.design.moving.input
+        given = self.frame.motion.input
         step = _APART / max(given.turns or 1, 1)
         for k in range(_GHOSTS, 0, -1):
             earlier = self.maker(self.design, (self.fraction - k * step) % 1.0)
@@ -700,10 +730,10 @@ class _Failing:
         limit = max(limits()) if limits is not None else getattr(spec.limits, "pressure_angle", None)
         if frame is None or limit is None or getattr(spec, "is_flat", False):
             return
-        size, q, given = _reach(self.scene), self._inputs, self.design.moving.input
+        size, q, given = _reach(self.scene), self._inputs, frame.motion.input
         assert q is not None, "the frame has them"
         inside = within(given, q)
-        there = self.design.moving.at(np.where(inside, q, given.start), 1)
+        there = frame.motion.at(np.where(inside, q, given.start), 1)
         for at, angle in vectors.pressure_angles(there).values():
             mask = inside & (np.degrees(angle) > limit)
             yield mask, [_red(circle(0.05 * size), frame.at(at), mask)]

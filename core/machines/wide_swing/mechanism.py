@@ -11,6 +11,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -123,7 +124,7 @@ class _WithCams:
         turn, place, normal = self._rocker(sector, share, order)
         links, connections, sense, crank = self._driven(phi, order)
         pivot = fixed(complex(self.side * self.design.cam.center_distance), phi, order=order)
-        links["rocker"] = Link(pivot, turn)
+        links["rocker"] = Link(pivot, turn, self._rollers)
         connections.append(Pin("D", FRAME, "rocker", pivot.value))
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
         if self.has_return_cam:
@@ -137,6 +138,16 @@ class _WithCams:
         connections.append(SharedContact("roller", "rocker", place, normal, shares))
         drive = "crank" if self.spec.drive is not None else "cam"
         return Mechanism(links, connections, drive, sense, crank, travel)
+
+    @cached_property
+    def _rollers(self) -> dict[str, complex]:
+        """The two rollers of a twin rocker on it [mm], which its cams guide in turn."""
+        if self.spec.cycle is None or self.spec.layout != "twin-rocker":
+            return {}
+        pivot, start = complex(self.side * self.design.cam.center_distance), np.zeros(1)
+        places = [(stroke.roller(start)[0][0] - pivot, stroke.turn(start, 0).value[0]) for stroke in self.strokes]
+        return {name: complex(arm * np.exp(-1j * turn)) for name, (arm, turn) in
+                zip(("roller", "return_roller"), places, strict=True)}  # fmt: skip
 
     def _share(self, phi: Reals, side: int) -> tuple[Any, Reals]:
         """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""

@@ -19,6 +19,7 @@ from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
 from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, motion_sheet, tornado, vector_sheet
 from gearlink.cli.views.films.page import player_data
+from gearlink.cli.views.films.stage import Stage
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
 from gearlink.core.base.kind import FileDesigns
@@ -217,8 +218,8 @@ def test_a_passing_design_has_nothing_red() -> None:
 
 
 def test_the_diagram_of_the_motion_serves_a_scene_that_stands_elsewhere() -> None:
-    """Both chains of a press stand on the sheet in directions of their own."""
-    made = design("ty460")
+    """Without input gears nothing says where the chain of the cylinder stands against that of the bed."""
+    made = design("ty460", input_gears=None)
     assert shown.frame_of(made, loops.builder(made.kind)) is None
     scene = shown.build(made, np.arange(3) / 3.0, shown.wishes("velocity:B"))
     (arrow,) = arrows(scene)
@@ -374,3 +375,41 @@ def test_keys_stand_below_the_drawing_in_rows_of_their_own() -> None:
     lowest = min(float(np.min(line.get_ydata())) for line in slides.lines if line.get_linewidth() > 0.0)
     keys = [text.xy[1] for text in slides.texts if text.get_gid() == labels.KEY]
     assert max(keys) <= lowest + 1e-9, "below the way of the slider"
+
+
+@pytest.mark.parametrize("name", ["ty460", "ty460_gears"])
+def test_vectors_of_a_press_without_loads_stand_on_its_own_drawing(name: str) -> None:
+    """Its file does not say where gear 1 and the cylinder are; the arrows begin at the joints that are drawn."""
+    made, fraction = design(name), np.array([0.11, 0.47, 0.83])
+    scene = shown.build(made, fraction, shown.wishes("velocity"))
+    drawn = {mark.text: mark.point for mark in loops.build(made, fraction).marks}
+    begun = {part.name.rpartition(" ")[2]: part.start for part in arrows(scene)}
+    for pin in "BCEFHM":
+        assert begun[pin] == pytest.approx(drawn[pin], rel=0.0, abs=1e-6)
+    bed = next(part for part in arrows(scene) if part.name.endswith(" bed"))
+    assert np.abs(bed.vector.imag).max() < 1e-9 * np.abs(bed.vector).max()
+
+
+def test_both_rollers_of_a_twin_rocker_have_vectors() -> None:
+    made = design("wide_swing_cycle")
+    scene = shown.build(made, np.array([0.05, 0.1]), shown.wishes("velocity"))
+    speeds = {part.name.rpartition(".")[2]: np.abs(part.vector) for part in arrows(scene)}
+    assert set(speeds) == {"roller", "return_roller"}
+    arms = [abs(made.moving.at(np.zeros(2), 0).links["rocker"].points[name]) for name in speeds]
+    one, other = (speed / arm for speed, arm in zip(speeds.values(), arms, strict=True))
+    assert one == pytest.approx(other, rel=1e-12, abs=0.0)  # of one rocker
+
+
+def test_the_mechanism_of_an_animation_keeps_clear_of_the_keys_of_arrows() -> None:
+    scene = shown.build(design("hypocycloid_slider"), np.arange(12) / 12, shown.wishes("velocity,ghosts,centres"))
+    stage = Stage(scene, "", 960, 720)
+    assert len(stage.scales()) == 3
+    assert stage.extent.bottom < min(at.imag for at, *_ in stage.scales())
+
+
+def test_numbers_of_a_path_that_coincide_are_one_text() -> None:
+    scene = shown.build(design("linked_cams"), np.zeros(1), shown.wishes("path:roller_y"))
+    texts = [mark.text for mark in scene.marks if "°" in mark.text]
+    assert texts == ["0° 90° 180° 270°"]
+    scene = shown.build(design("crank_rocker_links"), np.zeros(1), shown.wishes("path:B"))
+    assert [mark.text for mark in scene.marks if "°" in mark.text] == ["0°", "90°", "180°", "270°"]

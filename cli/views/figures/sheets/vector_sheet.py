@@ -119,7 +119,7 @@ def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
 def frame_of(design: Any) -> shown.Frame:
     """Where the drawing stands: in the kind's own scene, or in that of the motion."""
     found = shown.frame_of(design, loops.builder(design.kind))
-    return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each))
+    return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each), design.moving)
 
 
 def _input(design: Any, q: float) -> str:
@@ -135,10 +135,11 @@ def rates(design: Any, q: Reals, order: int) -> tuple[dict[str, Any], dict[str, 
             directions of the drawing
         links : by link - the names of its points
     """
-    motion, speed = design.moving, shown.speed_of(design)
+    frame, speed = frame_of(design), shown.speed_of(design)
+    motion = frame.motion
     factor = 1.0 if speed is None else speed**order
     whole = motion.at(np.linspace(motion.input.start, motion.input.end, 25)[:24], 0)
-    mechanism, places, frame = motion.at(q, order), vectors.moving_points(whole), frame_of(design)
+    mechanism, places = motion.at(q, order), vectors.moving_points(whole)
     found = {
         name: frame.along(factor * vectors.rates_of(mechanism, each).derivative(order)) for name, each in places.items()
     }
