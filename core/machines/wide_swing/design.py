@@ -435,16 +435,17 @@ class Unloading:
         Raises
             NoSolution - at the design speed, where the drive is rigid to it
         """
-        from gearlink.core.machines.wide_swing.torques import STIFFEST, dynamic_coefficient
+        from gearlink.core.machines.wide_swing.torques import STIFFEST, dynamic_coefficient, peak_of
 
         shaft, found = self._shaft, []
+        calculated = peak_of(self._torque_series)
         for ratio in speed_ratios:
             stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time / ratio
             if ratio < 1.0 and stiffness > STIFFEST:
                 found.append(math.nan)
                 continue
             with at_key("shaft"):
-                found.append(dynamic_coefficient(self._torque_series, stiffness, shaft.damping)[0])
+                found.append(dynamic_coefficient(self._torque_series, stiffness, shaft.damping, calculated)[0])
         return found
 
     @property

@@ -257,14 +257,11 @@ class TorsionResponse:
         Notes
             Undamped terms near resonance are products of sines, free of cancellation.
         """
+        if self.damping > 0.0:
+            return self._damped(k)
         result = np.zeros_like(k)
         for j, amplitude in enumerate(self.series.coefficients.tolist()):
-            wave = j * math.pi
-            result += (
-                amplitude
-                * self.stiffness**2
-                * (self._undamped(k, wave) if self.damping == 0.0 else self._damped(k, wave))
-            )
+            result += amplitude * self.stiffness**2 * self._undamped(k, j * math.pi)
         return result
 
     def rate(self, k: Reals) -> Reals:
@@ -309,16 +306,32 @@ class TorsionResponse:
         result: Reals = 0.5 * k**2 * np.sinc(total * k / math.pi) * np.sinc(difference * k / math.pi)
         return result
 
-    def _damped(self, k: Reals, wave: float) -> Reals:
+    def _damped(self, k: Reals) -> Reals:
+        """All waves together: what dies out is one oscillation, whatever has started it."""
         decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
-        forced = 1.0 / complex(self.stiffness**2 - wave**2, 2.0 * decay * wave)
-        steady = (forced * np.exp(1j * wave * k)).real
-        sine = (forced * 1j * wave).real + decay * forced.real
-        result: Reals = steady - np.exp(-decay * k) * (forced.real * np.cos(free * k) + sine / free * np.sin(free * k))
+        waves = math.pi * np.arange(len(self.series.coefficients))
+        forced = self.series.coefficients * self.stiffness**2 / (self.stiffness**2 - waves**2 + 2j * decay * waves)
+        result = np.zeros_like(k)
+        for wave, each in zip(waves.tolist(), forced.tolist(), strict=True):
+            result += (each * np.exp(1j * wave * k)).real
+        cosine = float(forced.real.sum())
+        sine = float((1j * waves * forced).real.sum()) + decay * cosine
+        result -= np.exp(-decay * k) * (cosine * np.cos(free * k) + sine / free * np.sin(free * k))
         return result
 
 
-def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float = 0.0) -> tuple[float, float]:
+def peak_of(series: CosineSeries) -> float:
+    """max |c| over the stroke, which a drive's elasticity is compared with."""
+    waves = math.pi * np.arange(len(series.coefficients))
+    samples = 65 + int(6.0 * math.pi * len(series.coefficients))
+    return maximum_over(
+        lambda k: np.abs(np.cos(np.outer(k, waves)) @ series.coefficients), 0.0, 1.0, samples=samples
+    ).value
+
+
+def dynamic_coefficient(
+    series: CosineSeries, stiffness: float, damping: float = 0.0, calculated: float | None = None
+) -> tuple[float, float]:
     """Peak torque with torsional elasticity over the calculated peak, and where in the stroke it occurs.
 
     K_d = max |y|/max |c|
@@ -327,6 +340,7 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
         series : CosineSeries - of the acceleration invariant, from `acceleration_series`
         stiffness : float - W = w T
         damping : float - zeta, 0 to below 1
+        calculated : float - `peak_of` the series, for who has it
     Returns
         K_d, k : floats
     Raises
@@ -356,11 +370,7 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
     fastest = max(stiffness, math.pi * len(series.coefficients))
     samples = 65 + int(6.0 * fastest)
     top = maximum_over(lambda k: np.abs(response(k)), 0.0, 1.0, samples=samples)
-    waves = math.pi * np.arange(len(series.coefficients))
-    calculated = maximum_over(
-        lambda k: np.abs(np.cos(np.outer(k, waves)) @ series.coefficients), 0.0, 1.0, samples=samples
-    )
-    return top.value / calculated.value, top.place
+    return top.value / (peak_of(series) if calculated is None else calculated), top.place
 
 
 # The blow where the roller changes flanks at mid-swing, and what an error of the profile moves at the ends
