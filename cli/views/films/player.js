@@ -37,7 +37,7 @@ function filmPlayer(root, DATA) {
   const play = root.querySelector("#play"), place = root.querySelector("#place");
   const speed = root.querySelector("#speed"), number = root.querySelector("#number");
   let chart = DATA.chart, ghost = null;
-  stage.setAttribute("aria-label", DATA.title + ", film");
+  stage.setAttribute("aria-label", DATA.title + ", animation");
   let readouts = [];
   let playing = true, now = 0, before = null, shown = -1, pen = stage.getContext("2d"), letters = DATA.text;
   function prepare() {

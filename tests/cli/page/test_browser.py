@@ -49,7 +49,9 @@ def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width
     window.size(width, height)
     window.open(pages / "candy-feed.html")
     assert window.run("return document.documentElement.scrollWidth") == width
-    assert window.run("return document.querySelector('.controls').getBoundingClientRect().bottom") < height
+    # The key results stand first; the animation, from its heading to its controls, is seen as a whole.
+    where = "return document.querySelector(arguments[0]).getBoundingClientRect()"
+    assert window.run(f"{where}.bottom", ".controls") - window.run(f"{where}.top", "#animation") < height
     # Words of the sheet are at least 8 pixels high where the screen is narrow.
     assert window.run("return document.querySelector('.sheet text').getBoundingClientRect().height") > 8
     inked = (
@@ -154,7 +156,7 @@ def test_watch_shows_what_is_saved(window: Browser, edited: tuple[Path, str, Any
     path, address, watching = edited
     window.size(1280, 900)
     window.open(address)
-    window.wait("return document.querySelector('.sheet svg') && document.querySelector('.animation canvas')", 30)
+    window.wait("return document.querySelector('.sheet svg') && document.querySelector('.film canvas')", 30)
     path.write_text("kind: gear-pair\nmodule: 4\nteeth: [20, 41]\nprofile_shift: [0, 0]\n")
     # Half a second on a machine of its own; the tests share theirs.
     window.wait("return document.querySelector('.sheet')?.textContent.includes('z = 41')", 15)
@@ -208,10 +210,10 @@ def test_on_paper_the_film_is_a_still_picture(window: Browser, pages: Path) -> N
     window.open(pages / "candy-feed.html")
     window.media("print")
     try:
-        shown = "const {{display, objectFit}} = getComputedStyle(document.querySelector('.animation {0}'));"
+        shown = "const {{display, objectFit}} = getComputedStyle(document.querySelector('.film {0}'));"
         shown += "return [display, objectFit]"
         assert window.run(shown.format(".stage")) == ["block", "contain"]
-        assert window.run("return document.querySelector('.animation .stage').getBoundingClientRect().height") > 100
+        assert window.run("return document.querySelector('.film .stage').getBoundingClientRect().height") > 100
         assert [window.run(shown.format(each))[0] for each in (".controls", ".strip")] == ["none", "none"]
     finally:
         window.media("")

@@ -175,13 +175,15 @@ def _moves(page: Page, name: str) -> bool:
 
 
 def test_numbers_follow_soon(window: Browser, tmp_path: Path) -> None:
-    """From the input to the number on the page. A quiet machine holds 50 ms; others are given four times as long."""
+    """From the input to the number on the page. A quiet machine holds 50 ms; others are given four times as long, and
+    what messages between the same processes wait for the processor, found by requests for a file in between: 5 ms each
+    on a quiet machine, and the number's way has a few such waits."""
     path = tmp_path / "feed.yaml"
     path.write_text(FEED)
     with _opened(window, path) as page:
         page.rests()
         window.run(
-            "window.taken = [];"
+            "window.taken = [], window.trips = [];"
             "const number = document.querySelector('[data-quantity=\"back_step_angle\"]');"
             "new MutationObserver(() => { if (window.begun) taken.push(performance.now() - begun); window.begun = 0; })"
             ".observe(number, {childList: true, characterData: true, subtree: true});"
@@ -190,9 +192,17 @@ def test_numbers_follow_soon(window: Browser, tmp_path: Path) -> None:
             window.run("window.begun = performance.now()")
             page.put('[data-slider="links.crank"]', 38.9 + 0.1 * k)
             time.sleep(0.12)
-        taken = window.run("return taken")
-    assert len(taken) >= 15
-    assert statistics.median(taken) < 200.0, taken
+            window.wait("return window.begun === 0")
+            window.run(
+                "const begun = performance.now();"
+                "fetch(document.querySelector('script[src]').src, {cache: 'no-store'})"
+                ".then(() => trips.push(performance.now() - begun))"
+            )
+            time.sleep(0.06)
+        taken, trips = window.run("return [taken, trips]")
+    assert len(taken) == 20
+    assert len(trips) >= 15
+    assert statistics.median(taken) < 200.0 + 4.0 * statistics.median(trips), (taken, trips)
 
 
 def test_field_undo_save_and_what_cannot_be(window: Browser, tmp_path: Path) -> None:
