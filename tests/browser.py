@@ -102,8 +102,9 @@ class Browser:
         mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [*actions]}
         self._ask("POST", "/actions", actions=[mouse])
 
-    def wait(self, script: str, seconds: float = 10.0) -> float:
-        """Until a script gives something true; how long that took [s]."""
+    def wait(self, script: str, seconds: float = 60.0) -> float:
+        """Until a script gives something true; how long that took [s]. Nothing is said of speed: so long as a machine
+        with many tests may take."""
         start = time.monotonic()
         while not self.run(script):
             assert time.monotonic() - start < seconds, f"not within {seconds} s: {script}"

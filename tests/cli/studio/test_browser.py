@@ -62,7 +62,7 @@ def _studio(path: Path) -> Iterator[str]:
         finally:
             run.send_signal(signal.SIGINT)
             rest = run.stderr.read()
-            status = run.wait(20)
+            status = run.wait(60)
     assert (status, rest.strip()) == (130, "interrupted")
 
 
@@ -115,7 +115,7 @@ class Page:
         """Press a button."""
         self.window.run("document.querySelector(arguments[0]).click()", selector)
 
-    def until(self, what: Any, seconds: float = 30.0) -> None:
+    def until(self, what: Any, seconds: float = 60.0) -> None:
         """Wait for what is to be true."""
         end = time.monotonic() + seconds
         while not what():
