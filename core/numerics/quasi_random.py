@@ -18,32 +18,30 @@ from gearlink.core.numerics.arrays import Reals
 _PRIMES = (2, 3, 5, 7, 11, 13, 17, 19)
 
 
-def halton(index: int, dimensions: int) -> list[float]:
-    """Point of the Halton sequence.
+def halton(first: int, count: int, dimensions: int) -> Reals:
+    """Points of the Halton sequence: the digits of an index in each base, mirrored at the point.
 
     Parameters
-        index : int - 1, 2, ...
+        first : int - index of the first point, 1, 2, ...
+        count : int
         dimensions : int - up to 8
     Returns
-        point : list of float - in (0, 1)
+        points : (count, dimensions) array - in (0, 1)
     Example
-        >>> halton(1, 3), halton(2, 1)
-        ([0.5, 0.3333333333333333, 0.2], [0.25])
+        >>> halton(1, 2, 3).round(9).tolist()
+        [[0.5, 0.333333333, 0.2], [0.25, 0.666666667, 0.4]]
 
     Source
         J. H. Halton, Numer. Math. 2 (1960) 84-90
     """
-    return [_inverse(index, base) for base in _PRIMES[:dimensions]]
-
-
-def _inverse(index: int, base: int) -> float:
-    """Digits of the index in a base, mirrored at the point."""
-    result, share = 0.0, 1.0
-    while index:
-        index, digit = divmod(index, base)
-        share /= base
-        result += share * digit
-    return result
+    points = np.zeros((count, dimensions))
+    for column, base in enumerate(_PRIMES[:dimensions]):
+        index, share = np.arange(first, first + count), 1.0
+        while index.any():
+            index, digit = np.divmod(index, base)
+            share /= base
+            points[:, column] += share * digit
+    return points
 
 
 MOST_DIMENSIONS = 160

@@ -336,12 +336,9 @@ def _require(positions: Positions) -> None:
 def _starts(bar: FunctionFiveBar) -> Reals:
     """Rows of the unknowns ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20: the start, and scattered ones about it."""
     first = [math.log(length / bar.input) for length in (bar.coupler, bar.follower, bar.output, bar.frame)]
-    rows = [[*first, bar.phase]]
-    for i in range(1, _STARTS + 1):
-        *shares, turn = halton(i, 5)
-        moved = [x + _SCATTER * (2.0 * share - 1.0) for x, share in zip(first, shares, strict=True)]
-        rows.append([*moved, bar.phase + 2.0 * math.pi * turn])
-    return np.array(rows)
+    share = halton(1, _STARTS, 5)
+    scattered = np.array(first) + _SCATTER * (2.0 * share[:, :4] - 1.0), bar.phase + 2.0 * math.pi * share[:, 4:]
+    return np.concatenate(([[*first, bar.phase]], np.hstack(scattered)))
 
 
 def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:

@@ -57,7 +57,7 @@ def scattered_starts(
         Couplers that do not reach, or not with this transmission angle, are made as long as the spans need.
     """
     count, begin = min(_TRIED, _ROUND // (targets.size * family.count)), number * _TRIED
-    share = np.array([halton(begin + i, UNKNOWNS) for i in range(1, count + 1)])
+    share = halton(begin + 1, count, UNKNOWNS)
     x = np.tile(first, (len(share), 1))
     x[:, :4] += _SCATTER * (2.0 * share[:, :4] - 1.0)
     x[:, 4] += 2.0 * math.pi * share[:, 4]

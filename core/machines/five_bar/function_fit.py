@@ -115,7 +115,7 @@ def _best(
     first: FunctionFiveBar, start: float, wanted: Wanted, limit: float, number: int
 ) -> Iterator[tuple[FunctionFiveBar, float]]:
     """The best starts of a round by their squares; the file's own links are the first start of all."""
-    share = np.array([halton(number * _STARTS + i, 7) for i in range(1, _STARTS + 1)])
+    share = halton(number * _STARTS + 1, _STARTS, 7)
     x = _SCATTER * (2.0 * share - 1.0)
     x[:, 4:] = 2.0 * math.pi * share[:, 4:]
     if number == 0:
