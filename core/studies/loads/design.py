@@ -58,6 +58,8 @@ Wanted: TypeAlias = tuple[str, bool]
 """A course by name, and whether its maximum or its minimum value is shown."""
 _HIGHEST = 10_000
 _CANCELLED = 1e-6
+_BESIDE_BREAK = 1e-11
+"""Of the maximum, what a torque changes by between a break of the motion and where it is looked for beside it."""
 MOST_TURNS = 100
 """Turns of the period that tables show at most."""
 
@@ -382,8 +384,15 @@ class LoadsDesign(Design):
 
     @cached_property
     def torque_range(self) -> tuple[Extreme, Extreme]:
-        """Minimum and maximum input torque [N m], with their places."""
-        return self.extreme_of("torque", False), self.extreme_of("torque")
+        """Minimum and maximum input torque [N m], with their places.
+
+        Where the motion breaks off they are looked for at 1e-12 rad from there: what the torque does on that way is no
+        torque.
+        """
+        low, high = self.extreme_of("torque", False), self.extreme_of("torque")
+        size = _BESIDE_BREAK * max(abs(low.value), abs(high.value))
+        low, high = (each if abs(each.value) > size else each._replace(value=0.0) for each in (low, high))
+        return low, high
 
     input_torque_max: float = placed("torque_range.1.value")
     input_torque_min: float = placed("torque_range.0.value")

@@ -248,3 +248,12 @@ def test_running_clearance() -> None:
         assert check.status == status
     with pytest.raises(ValueError, match="give locking_radius"):
         design(GIVEN, locking_radius=None, locking_clearance=0.1)
+
+
+def test_no_torque_beside_the_ends_of_a_step() -> None:
+    loads = design(
+        GIVEN, command="loads", type="internal", slots=8, pin_radius=4.0, center_distance=70.0, locking_radius=None,
+        loads={"links": {"wheel": {"inertia": 0.004}}, "forces": [{"on": "wheel", "resistance": 0.8}]},
+    )  # fmt: skip
+    assert loads.input_torque_min == 0.0
+    assert loads.input_torque_max > 0.1
