@@ -123,3 +123,15 @@ def test_a_word_far_from_its_point_has_a_line_to_it() -> None:
         far += float(np.hypot(*np.maximum(np.maximum(box[0] - at, at - box[1]), 0.0))) > 13.5 * made.dpi / 72.0
     assert leaders
     assert len(leaders) >= far
+
+
+def test_a_long_word_uncovers_a_small_mark() -> None:
+    """The mark takes a hundredth of the word, and yet none of it was to be seen."""
+    made = panels.page("end of a vector", 0.4)
+    axes = made.add_subplot()
+    style.drawing(axes)
+    axes.plot([0.0, 10.0], [0.0, 10.0], linewidth=0.0)
+    axes.plot([5.0], [5.0], ".", markersize=3)
+    style.letter(axes, 5 + 5j, "return_roller", (8.0, 0.0))
+    settled(made)
+    assert meetings(made) == []

@@ -27,8 +27,8 @@ _BETWEEN, _ABOVE = 2.5, 0.5
 """Room beside words and above them [pt]."""
 _LEADER = 13.0
 """Words so far from their point [pt] get a line to it."""
-_SMALL = 3.0
-"""Size of marks that hide nothing [pt]."""
+_SMALL, _AROUND = 3.0, 1.5
+"""Size of marks that hide nothing [pt]; room about the others [pixel]."""
 _ON_WORDS, _ON_MARKS, _OUTSIDE, _ON_CURVES, _AWAY = 60.0, 30.0, 40.0, 1.5, 0.8
 """What a place costs that is wholly taken, against a height of the letters farther away."""
 _STEP, _MOST_CURVES = 4.0, 4.0
@@ -75,7 +75,7 @@ def _arrange(axes: Axes, movable: list[Text], others: Reals, marks: Reals, rende
         panel = np.array(axes.bbox.extents)
         own = boxes[i : i + 1]
         taken = np.vstack([others, before])
-        if _on(own, taken, _room(axes))[0] + _on(own, marks)[0] + _outside(own, panel)[0] <= _FREE:
+        if _on(own, taken, _room(axes))[0] + _on_marks(own, marks)[0] + _outside(own, panel)[0] <= _FREE:
             continue
         if curves is None:
             curves = _curves(axes)
@@ -96,7 +96,7 @@ def _moved(axes: Axes, text: Text, box: Reals, room: _Room) -> Reals:
     places = np.array([middle, *(anchor + way for way in ways)])
     boxes = np.column_stack([places.real, places.imag, places.real, places.imag])
     boxes = boxes + np.array([-half.real, -half.imag, half.real, half.imag])
-    cost = _ON_WORDS * _on(boxes, room.words, _room(axes)) + _ON_MARKS * _on(boxes, room.marks)
+    cost = _ON_WORDS * _on(boxes, room.words, _room(axes)) + _ON_MARKS * _on_marks(boxes, room.marks)
     cost += _OUTSIDE * _outside(boxes, room.panel) + _ON_CURVES * _share_of_points(boxes, room.curves, height)
     cost += _AWAY * np.abs(places - middle) / height
     best = int(np.argmin(cost))
@@ -128,6 +128,13 @@ def _on(boxes: Reals, taken: Reals, room: tuple[float, float] = (0.0, 0.0)) -> R
     low, high = boxes[:, None, :2] - room, boxes[:, None, 2:] + room
     both = np.maximum(np.minimum(high, taken[None, :, 2:]) - np.maximum(low, taken[None, :, :2]), 0.0)
     return np.asarray(both.prod(axis=2).sum(axis=1) / np.maximum((high - low).prod(axis=2)[:, 0], 1.0))
+
+
+def _on_marks(boxes: Reals, marks: Reals) -> Reals:
+    """What marks take of each box, by the square of its height: a letter of a long word hides a mark no less."""
+    sides = boxes[:, 2:] - boxes[:, :2]
+    around = np.array([-1.0, -1.0, 1.0, 1.0]) * _AROUND
+    return np.asarray(_on(boxes, marks + around) * np.maximum(sides[:, 0] / np.maximum(sides[:, 1], 1.0), 1.0))
 
 
 def _outside(boxes: Reals, panel: Reals) -> Reals:

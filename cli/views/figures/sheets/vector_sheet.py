@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
@@ -110,6 +111,11 @@ def fraction_at(frame: shown.Frame, q: float) -> float:
 def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     frame = frame_of(design)
     scene = shown.build(design, np.array([fraction_at(frame, q)]), shown.wishes(wanted))
+    scene = replace(  # without remarks of several words: it is small
+        scene,
+        marks=tuple(mark for mark in scene.marks if " " not in mark.text),
+        parts=tuple(replace(part, label="") if " " in getattr(part, "label", "") else part for part in scene.parts),
+    )
     panels.drawing(axes, f"At {_input(design, q)}")
     panels.few_ticks(axes.xaxis, 4)
     panels.few_ticks(axes.yaxis, 4)
