@@ -92,7 +92,7 @@ def _moved(axes: Axes, text: Text, box: Reals, room: _Room) -> Reals:
     height = float(text.get_fontsize()) * scale
     near = max(_gap(middle - anchor, half), _LEAST * scale)
     # So far along each way that the box clears its point by the distance.
-    ways = [w * (_reach(w, half) + near * farther) for farther in _FARTHER for w in _WAYS]
+    ways = [w * (reach(w, half) + near * farther) for farther in _FARTHER for w in _WAYS]
     places = np.array([middle, *(anchor + way for way in ways)])
     boxes = np.column_stack([places.real, places.imag, places.real, places.imag])
     boxes = boxes + np.array([-half.real, -half.imag, half.real, half.imag])
@@ -107,7 +107,7 @@ def _moved(axes: Axes, text: Text, box: Reals, room: _Room) -> Reals:
     return np.asarray(boxes[best])
 
 
-def _reach(way: complex, half: complex) -> float:
+def reach(way: complex, half: complex) -> float:
     """From the middle of a box to its edge in a direction."""
     return min(half.real / max(abs(way.real), 1e-9), half.imag / max(abs(way.imag), 1e-9))
 
@@ -277,6 +277,6 @@ def _leader(axes: Axes, anchor: complex, middle: complex, half: complex) -> None
     from gearlink.cli.views.figures.drawing import style
 
     away = middle - anchor
-    foot = middle - away * min(1.0, _reach(away / abs(away), half) / abs(away))
+    foot = middle - away * min(1.0, reach(away / abs(away), half) / abs(away))
     ends = axes.transData.inverted().transform([(anchor.real, anchor.imag), (foot.real, foot.imag)])
     axes.add_artist(Line2D(*ends.T, color=style.GREY, linewidth=0.6, zorder=7, gid="leader"))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style
+from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
 from gearlink.cli.views.scenes import loops, of_motion, shown
 from gearlink.core.mechanism import vectors
 
@@ -27,6 +27,8 @@ MOST = 4
 _COLORS = (style.BLUE, style.RED, style.GREEN, style.PURPLE, style.BLACK, style.ORANGE, style.SKY)
 _LINES = ("-", style.LONG, style.CHAIN, style.DOTTED)
 """Seven and four have no common factor: 28 curves, each with a look of its own."""
+_LETTER = 5.5
+"""Width of a letter, and half the height of a word [pt]."""
 _WISHES = "velocity,acceleration"
 _NAMES = ("velocity", "acceleration")
 
@@ -191,8 +193,10 @@ def polygon(axes: Axes, design: Any, q: float, order: int) -> None:
     taken: list[complex] = []
     for point, end in ends.items():
         if all(abs(end - other) > 0.06 * reach for other in taken):
-            away = end / abs(end) if abs(end) > 0.02 * reach else 1.0 + 1.0j
-            style.letter(axes, end, point.lower(), (8.0 * away.real, 8.0 * away.imag))
+            away = end / abs(end) if abs(end) > 0.02 * reach else (1.0 + 1.0j) / math.sqrt(2.0)
+            word = point.lower()
+            away *= labels.reach(away / abs(away), complex(0.5 * _LETTER * len(word), _LETTER)) + 3.5
+            style.letter(axes, end, word, (away.real, away.imag))
             taken.append(end)
     axes.plot([0.0], [0.0], "o", color=style.BLACK, markersize=3, zorder=7)
     style.letter(axes, 0j, "p" if order == 1 else "p'", (-7.0, -7.0))
