@@ -401,7 +401,7 @@ class Design:
                 self.table_in_parts(name, samples) if in_parts and samples else self.table(name, samples=samples)
                 for name in asked
             ),
-            key=() if quantities or only else key_results(self, command, shown),
+            key=() if quantities or only or findings_only else key_results(self, command, shown),
             left_out=tuple(name for name in own if name not in asked),
         )
 

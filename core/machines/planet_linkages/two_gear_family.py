@@ -233,12 +233,13 @@ def quiet_end(family: Family) -> float:
     return high - margin if family.ring else low + margin
 
 
-@lru_cache(8)
-def turnings(drive: PlanetLinkage) -> tuple[Turning, ...]:
+@lru_cache(maxsize=16)  # a valley, its back-step and its window look at the same ones
+def turnings(drive: PlanetLinkage) -> list[Turning]:
     """Extremes of the speed ratio over the turn."""
     return tuple(standstills.turnings(drive.speed, drive.acceleration))
 
 
+@lru_cache(maxsize=16)
 def back_step(drive: PlanetLinkage) -> BackStep | None:
     """The back-step of an output that makes one, else None.
 
@@ -266,15 +267,18 @@ def _gain(drive: PlanetLinkage, strip: float, start: float, end: float) -> float
     return drive.angle(end) - drive.angle(start)
 
 
-def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
+def tolerance_dwell(drive: PlanetLinkage, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
+
+    Parameters
+        placed : bool - False where its length alone is wanted
 
     Raises
         NoSolution - for a tolerance that is not positive, or so wide that the whole revolution lies within it
     Notes
         See `gearlink.core.parts.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
-    return longest_in_band(valley(drive), tolerance)
+    return longest_in_band(valley(drive), tolerance, placed=placed)
 
 
 def valley(drive: PlanetLinkage) -> Valley:

@@ -288,13 +288,14 @@ def tolerance_from_backlash(backlash: float, output_radius: float) -> float:
     return backlash / (2.0 * output_radius)
 
 
-def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> ToleranceDwell:
+def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
 
     Parameters
         linkage : FourBar - crank-rocker or drag link
         train : GearTrain
         tolerance : float [rad] - 0 < tol < pi times the magnitude of the mean ratio
+        placed : bool - False where its length alone is wanted
     Returns
         dwell : ToleranceDwell [rad]
     Raises
@@ -312,7 +313,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
     from gearlink.core.parts.linkages.band_dwell import longest_in_band
 
     ahead = forward(linkage, train)
-    found = longest_in_band(valley(linkage, ahead), tolerance)
+    found = longest_in_band(valley(linkage, ahead), tolerance, placed=placed)
     return found._replace(output_angle=train.sense * ahead.sense * found.output_angle)
 
 

@@ -22,6 +22,7 @@ from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 
 _TURN = 2.0 * math.pi
 _FIT = 1e-13
+_ROUGH = 1e-9
 
 
 class ToleranceDwell(NamedTuple):
@@ -53,22 +54,23 @@ class Valley(NamedTuple):
     high: float
     mean: float
 
-    def reach(self, level: float, left: float, right: float) -> float:
-        """Crank angle between two others where the output passes a level."""
+    def reach(self, level: float, left: float, right: float, rough: float = 0.0) -> float:
+        """Crank angle between two others where the output passes a level, to the last bit or `rough` [rad]."""
         f_left, f_right = self.angle(left) - level, self.angle(right) - level
         if f_left * f_right >= 0.0:
             return left if abs(f_left) < abs(f_right) else right
-        return bracketed_root(lambda phi: self.angle(phi) - level, left, right, ends=(f_left, f_right))
+        ends = f_left, f_right
+        return bracketed_root(lambda phi: self.angle(phi) - level, left, right, tolerance=rough, ends=ends)
 
-    def before(self, level: float) -> float:
+    def before(self, level: float, rough: float = 0.0) -> float:
         """Crank angle where the output last passes a level before its standstills."""
         beyond = level < self.angle(self.low)
-        return self.reach(level, self.second - _TURN, self.low) if beyond else self.reach(level, self.low, self.first)
+        return self.reach(level, *((self.second - _TURN, self.low) if beyond else (self.low, self.first)), rough)
 
-    def after(self, level: float) -> float:
+    def after(self, level: float, rough: float = 0.0) -> float:
         """Crank angle where the output first passes a level after its standstills."""
         beyond = level > self.angle(self.high)
-        return self.reach(level, self.high, self.first + _TURN) if beyond else self.reach(level, self.second, self.high)
+        return self.reach(level, *((self.high, self.first + _TURN) if beyond else (self.second, self.high)), rough)
 
 
 def least_band(valley: Valley, window: float) -> float:
@@ -147,7 +149,7 @@ def _of_one_level(valley: Valley, window: float, first: float, last: float) -> f
     return bracketed_root(gain, first, last, ends=ends)
 
 
-def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
+def longest_in_band(valley: Valley, tolerance: float, *, placed: bool = True) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
 
     phi5(R) - phi5(L) = 2 tol  and  W(L) = W(R) >= 0,   both standstills between L and R;
@@ -156,6 +158,8 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     Parameters
         valley : Valley - of an output with at most one back-step a revolution
         tolerance : float [rad] - 0 < tol < pi times the mean ratio
+        placed : bool - False where its length alone is wanted: it is at its maximum, so that a place to 1e-9 gives it
+            to 1e-18
     Returns
         dwell : ToleranceDwell [rad]
     Raises
@@ -184,22 +188,22 @@ def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     if drop > 2.0 * tolerance * (1.0 + _FIT) + _FIT * limit:
         left, right, middle = _around_one_extreme(valley, tolerance)
     else:
-        left, right, middle = _around_both(valley, tolerance, drop)
+        left, right, middle = _around_both(valley, tolerance, drop, 0.0 if placed else _ROUGH)
     start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole revolution by the first
     return ToleranceDwell(start, right - left, middle - valley.mean * (left - start))
 
 
-def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, float, float]:
+def _around_both(valley: Valley, tolerance: float, drop: float, rough: float) -> tuple[float, float, float]:
     """Interval that holds both standstills; p is what the output rises from L to its place at phi(2)."""
     bottom = valley.angle(valley.second)
     spare = max(0.0, 2.0 * tolerance - drop)
-    top = bottom + drop
+    top, near = bottom + drop, rough * math.sqrt(spare)  # beside a standstill places go with the root of the angle
 
-    def ends(p: float) -> tuple[float, float]:
-        return valley.before(bottom - p), valley.after(top + spare - p)
+    def ends(p: float, near: float = 0.0) -> tuple[float, float]:
+        return valley.before(bottom - p, near), valley.after(top + spare - p, near)
 
     def gain(p: float) -> float:
-        left, right = ends(p)
+        left, right = ends(p, near)
         return valley.speed(right) - valley.speed(left)
 
     if (first := gain(0.0)) <= 0.0:
@@ -207,7 +211,7 @@ def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, 
     elif (last := gain(spare)) >= 0.0:
         p = spare
     else:
-        p = bracketed_root(gain, 0.0, spare, ends=(first, last))
+        p = bracketed_root(gain, 0.0, spare, tolerance=rough * spare, ends=(first, last))
     left, right = ends(p)
     return left, right, bottom - p + tolerance
 
@@ -265,7 +269,7 @@ class AlwaysStepping:
 
     def window(self, length: float, tolerance: float) -> float:
         """The longest crank angle [rad] within +- a tolerance [rad] at a length."""
-        return longest_in_band(self.valley(length), tolerance).crank_angle
+        return longest_in_band(self.valley(length), tolerance, placed=False).crank_angle
 
     def ripple(self, length: float) -> float:
         """The window [rad] within the band that the back-step fills: all of a revolution that gains no more than it."""
