@@ -18,7 +18,7 @@ PRESSURE_ANGLE = Rule(
     "tan(delta) = (lambda A - cos phi)/sin phi",
     "VDI 2142; wide-swing dissertation, chapter 3",
     ("pressure-angle",),
-    ("limits.pressure_angle", "cam"),
+    ("limits.pressure_angle", "cam", "cams", "lever", "motion"),
     side="<=",
 )
 CAM_UNDERCUT = Rule(
@@ -32,7 +32,7 @@ CAM_UNDERCUT = Rule(
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
-    ("cam.roller_radius", "cam.roller", "cam"),
+    ("cam.roller_radius", "cam.roller", "cam", "roller_radius", "cams"),
     side="<=",
 )
 VELOCITY_STEP = Rule(
