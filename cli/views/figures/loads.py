@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.views.figures.drawing import failing, panels, style, time_axes
 from gearlink.cli.views.figures.sheets import force_sheet
@@ -152,7 +152,7 @@ def stroke_sheet(design: Any) -> Figure:
     """The sheet of a wide-swing stroke: force, pressure, torque of the cam, residual vibration, and the cam."""
     has = {"pressure": design.section.roller is not None, "residual": design.section.vibration is not None}
     count = 2 + sum(has.values())
-    made = panels.page(f"{design.spec.name}: loads", 0.21 * count + 0.3 * has["pressure"])
+    made = panels.page(f"{design.spec.name}: loads", min(1.0, 0.21 * count + 0.3 * has["pressure"]))
     rows = made.add_gridspec(count + has["pressure"], 1, height_ratios=[1.0] * count + [1.5] * has["pressure"])
     grid = iter(made.add_subplot(rows[row, 0]) for row in range(count + has["pressure"]))
     stroke_forces(next(grid), design)
@@ -239,34 +239,67 @@ _SAME = 1e-9
 """Of a force: joints whose forces differ by less are drawn once."""
 _LEAST_JUMP, _STEEPER = 0.08, 6.0
 """A jump of a locus: a share of its size, so many times what the steps next to it are."""
-_POLAR_COLUMNS, _MECHANISM = 3, 2.6
-"""Of the mechanism with its forces: the height of its panel, those of curves being 1."""
+_POLAR, _MECHANISM = 1.55, 2.6
+"""Height of a polar diagram, and of the mechanism with its forces: the height of its panel, those of curves being 1."""
 _LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
 """Curves of one panel differ in their lines as well, for grey print."""
 
 
+class _Layout(NamedTuple):
+    """Small multiples on a page: curves, and below them polar diagrams, in so many columns each.
+
+    Fields
+        curves, polars, across, beside : int
+        shown : float - height of the mechanism above them, that of a curve being 1
+    """
+
+    curves: int
+    polars: int
+    across: int
+    beside: int
+    shown: float
+
+    @property
+    def rows(self) -> tuple[int, int]:
+        """Of curves and of polar diagrams."""
+        return max(1, math.ceil(self.curves / self.across)), math.ceil(self.polars / self.beside)
+
+    @property
+    def height(self) -> float:
+        """Height that it needs, that of A4 being 1."""
+        curves, polars = self.rows
+        return 0.115 * (curves + 0.3 + _POLAR * polars + self.shown)
+
+
 def draw(design: Any) -> Figure:
-    """The sheet of `loads`: curves over the turn one below the other, then the loads of the pins as polar diagrams."""
+    """The sheet of `loads` on A4, of many panels on A3: mechanism, curves over the turn, loads of the pins as polar diagrams."""
     if design.kind == "wide-swing-cam" and not design.whole and not design.locked:
         return stroke_sheet(design)
     curves, pins, cams = _panels_of(design)
-    polar = math.ceil((len(pins) + len(cams) + 1) / _POLAR_COLUMNS)
-    heights = [1.0 if i else 1.3 for i in range(len(curves))] + [1.55] * polar
+    names = [*pins, *(f"cam {cam}" for cam in cams), ""]
     shown = 0.0 if design.locked else _MECHANISM
-    made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * (sum(heights) + shown)))
-    whole = made.add_gridspec(2, 1, height_ratios=(max(shown, 1e-3), sum(heights)))
+    layout = _Layout(len(curves), len(names), 1, 3, shown)
+    large = layout.height > 1.0
+    if large:
+        layout = _Layout(len(curves), len(names), 2, 5, shown)
+    made = panels.page(
+        f"{design.spec.name}: loads", min(1.0, layout.height / (math.sqrt(2.0) if large else 1.0)), large=large
+    )
+    curve_rows, polar_rows = layout.rows
+    parts = made.add_gridspec(3, 1, height_ratios=(max(shown, 1e-3), curve_rows + 0.3, _POLAR * polar_rows))
     if shown:
-        force_sheet.mechanism(made.add_subplot(whole[0]), design)
-    grid: Any = whole[1].subgridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
-    stacked = [made.add_subplot(grid[row, :]) for row in range(len(curves))]
-    for axes, panel in zip(stacked, curves, strict=True):
+        force_sheet.mechanism(made.add_subplot(parts[0]), design)
+    grid: Any = parts[1].subgridspec(curve_rows, layout.across, height_ratios=[1.3, *(curve_rows - 1) * [1.0]])
+    drawn = [made.add_subplot(grid[divmod(i, layout.across)]) for i in range(len(curves))]
+    for axes, panel in zip(drawn, curves, strict=True):
         panel(axes, design)
-    time_axes.once(stacked, 2e3 * math.pi / design.speed)
-    places = [(len(curves) + i // _POLAR_COLUMNS, i % _POLAR_COLUMNS) for i in range(len(pins) + len(cams) + 1)]
+    for column in range(layout.across):
+        time_axes.once(drawn[column :: layout.across], 2e3 * math.pi / design.speed)
     if pins:
         made.supxlabel(_LOCI, fontsize=7.5)
-    for (row, column), name in zip(places, [*pins, *(f"cam {cam}" for cam in cams), ""], strict=True):
-        axes = made.add_subplot(grid[row, column])
+    grid = parts[2].subgridspec(polar_rows, layout.beside)
+    for i, name in enumerate(names):
+        axes = made.add_subplot(grid[divmod(i, layout.beside)])
         if name.startswith("cam "):
             _profile(axes, design, name.removeprefix("cam "))
         elif name:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import Any
 
 import numpy as np
 import pytest
-from sheets import sheet
+from factory import DESIGNS
+from sheets import placed_sheet, sheet
+from sweeps import mostly_slow
 
 LOADS = {"roller": {"width": 20}, "vibration": {"frequency": 80, "damping": 0.03, "allowed_residual": 0.1}}
 
@@ -96,3 +99,14 @@ def test_the_rests_of_a_cycle_are_drawn_where_the_roller_presses_hardest() -> No
             assert most == pytest.approx(greatest, rel=1e-9)
             assert [text.get_text() for text in axes.get_legend().get_texts()].count("rests") == 1
     assert not titles
+
+
+@pytest.mark.parametrize("name", mostly_slow(sorted(path.stem for path in DESIGNS.glob("loaded_*.yaml")), 1))
+def test_a_sheet_of_loads_is_a_page_of_a4_or_of_a3(name: str) -> None:
+    """That of a press was 475 mm long: no printer takes it to scale. All panels are on it, in rows of several."""
+    figure = placed_sheet(name, "loads").figure
+    width, height = figure.get_size_inches()
+    assert width in (8.27, 11.69)
+    assert height <= math.sqrt(2.0) * width * 1.002
+    panels = [axes for axes in figure.axes if axes.get_title(loc="left")]
+    assert all(axes.get_window_extent().height > 18.0 for axes in panels), "none is squeezed"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from gearlink.core.parts.cams.disc_cam import DiscCam
 
-_A4 = (8.27, 11.69)
+_A4, _A3 = (8.27, 11.69), (11.69, 16.54)
 
 CAM_COLORS = (style.BLUE, style.RED)
 CAM_LINES: tuple[Any, Any] = ("-", style.LONG)
@@ -58,9 +58,9 @@ class Phase:
         return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
 
 
-def page(title: str, share: float = 1.0) -> Figure:
-    """A figure as wide as a page, and as high as a share of it."""
-    width, height = _A4
+def page(title: str, share: float = 1.0, *, large: bool = False) -> Figure:
+    """A figure as wide as a page of A4, or a large one of A3, and as high as a share of it."""
+    width, height = _A3 if large else _A4
     letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
     made = style.figure(width, share * height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()
@@ -129,13 +129,14 @@ def _width_of_legend(labels: Sequence[str], columns: int) -> int:
 
 
 def _share_of_page(axes: Axes) -> float:
-    """Part of the page's width that the panel's columns of the grid have, its margins not counted."""
+    """Part of the width of A4 that the panel's columns of the grid have, its margins not counted."""
     place = axes.get_subplotspec()
     if place is None:
         return 1.0
     grid = place.get_gridspec()
     ratios: Any = grid.get_width_ratios() or [1.0] * grid.ncols
-    return float(sum(ratios[place.colspan.start : place.colspan.stop]) / sum(ratios))
+    share = float(sum(ratios[place.colspan.start : place.colspan.stop]) / sum(ratios))
+    return share * axes.figure.get_figwidth() / _A4[0]
 
 
 def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
