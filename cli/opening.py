@@ -48,17 +48,20 @@ Values = Mapping[str, Any]
 
 
 def load(source: str | os.PathLike[str], values: Values | None = None, *, command: str | None = None) -> Opened:
-    """The design of a file.
+    """Open the design of a file.
 
     Parameters
-        source : path of a design file
-        values : values put over those of the file, by dotted path, in the units of design files
-        command : str - a command of its kind, such as "analyze"; by default the first that the file asks for
+        source : str or os.PathLike - path of a design file (YAML)
+        values : mapping of str to value, optional - values that replace those of the file, by dotted path
+            ("gears.crank", "teeth[1]"), in the units of design files (mm, deg, rev/min)
+        command : str, optional - a command of its kind, such as "analyze"; default: the first that the file specifies
     Returns
-        a design; its quantities are attributes in mm and radians, computed when asked for; `quantity` and `table`
-        give them in the units of design files
+        design : Design - its quantities are attributes in mm, rad, N and s, computed when they are first read;
+            `quantity`, `table` and `report` give them in the units of design files
     Raises
-        GearlinkError - with file, line, column and key of the first thing that is wrong
+        GearlinkError - a file that cannot be read or is wrong, with the attributes file, line, column and key
+        NoSolution - when a quantity is read of a mechanism that does not exist, with message, key and fix
+        TypeError - `values` that are no mapping, a path or a command that is no text
     Example
         >>> press = load("designs/ty460.yaml")
         >>> round(press.crank_length, 6), press.quantity("crank_length").unit
@@ -68,13 +71,17 @@ def load(source: str | os.PathLike[str], values: Values | None = None, *, comman
 
 
 def design(command: str | None = None, **keys: Any) -> Opened:
-    """The design that the keys of a design file describe.
+    """Make a design from the keys of a design file.
 
     Parameters
-        command : as for `load`
-        keys : the first keys of a design file; sections are dicts, lists may be tuples or arrays
+        command : str, optional - as for `load`
+        **keys - the top keys of a design file, `kind` among them, in its units (mm, deg, rev/min); sections are
+            dicts, lists may be tuples, ranges or arrays of shape (n,), numbers those of numpy, Decimal or Fraction
+    Returns
+        design : Design - as `load`
     Raises
         GearlinkError - as `load`; the lines are those of the keys written as JSON
+        NoSolution - as `load`, when a quantity is read
     Example
         >>> crank = design(kind="slider-crank", stroke=310, rod=520, offset=50)
         >>> round(crank.crank_length, 6)
@@ -84,11 +91,13 @@ def design(command: str | None = None, **keys: Any) -> Opened:
 
 
 def changed(design: Design, values: Values) -> Opened:
-    """A design like another with some values of its file changed; the other stays as it is.
+    """Make a design like another with some values of its file changed; the other remains as it is.
 
     Parameters
-        design : made by `load`, `design` or `changed`
-        values : as for `load`
+        design : Design - made by `load`, `design` or `changed`
+        values : mapping of str to value - as for `load`, in the units of design files
+    Returns
+        design : Design - a new one, for the same command
     Raises
         GearlinkError - as `load`
         TypeError - for a design that was made in another way, and so has no file
@@ -102,15 +111,21 @@ def changed(design: Design, values: Values) -> Opened:
 
 
 def figure(design: Design, command: str | None = None) -> Figure:
-    """The sheet that `--plot` draws, as a matplotlib figure.
+    """Draw the figure of a command (as `--plot`) with matplotlib.
 
     Parameters
-        design : any design
-        command : str - whose sheet; by default the command that the design was opened for
+        design : Design - made by `load`, `design` or `changed`
+        command : str, optional - the command whose figure is drawn; default: the one that the design was opened for
+    Returns
+        figure : matplotlib.figure.Figure - not shown and not saved; one figure is drawn at a time
     Raises
         GearlinkError - for a command that the design does not have
-        NoSolution - where the sheet shows something that the design does not have
+        NoSolution - where the figure shows something that the mechanism does not have
         TypeError - without a command for a design that was not opened for one
+    Example
+        >>> sheet = figure(load("designs/ty460_slider_crank.yaml"))
+        >>> len(sheet.axes) > 0
+        True
     """
     from gearlink.cli.views.figures.write import draw
 

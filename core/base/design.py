@@ -170,12 +170,20 @@ class Design:
 
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
-        """Every quantity that can be asked for, each once."""
+        """Names of all quantities of the kind.
+
+        Returns
+            names : tuple of str - each once; those of docs/nomenclature.md
+        """
         return _quantities_of(cls)  # type: ignore[arg-type]  # mypy takes a class for unhashable
 
     @classmethod
     def table_names(cls) -> tuple[str, ...]:
-        """Every table that any command shows or that can be asked for."""
+        """Names of all tables of the kind.
+
+        Returns
+            names : tuple of str - each once
+        """
         return _tables_of(cls)  # type: ignore[arg-type]
 
     @classmethod
@@ -189,7 +197,15 @@ class Design:
         return term(name).unit
 
     def raw(self, name: str) -> Any:
-        """The value of a quantity in mm and radians, or None where it does not apply."""
+        """The value of a quantity in mm and radians.
+
+        Parameters
+            name : str - of `quantity_names`
+        Returns
+            value : float, int, str, bool, list or None - mm, rad, N, s; None where it does not apply to the design
+        Raises
+            NoSolution - where no mechanism exists
+        """
         return object.__getattribute__(self, name)
 
     if not TYPE_CHECKING:  # types know the attributes that the classes name, and no others
@@ -205,7 +221,17 @@ class Design:
         return sorted({*super().__dir__(), *self.quantity_names()})
 
     def quantity(self, name: str) -> Quantity | None:
-        """A quantity in the units of the design files; None where it does not apply to this design."""
+        """A quantity in the units of the design files.
+
+        Parameters
+            name : str - of `quantity_names`, or a standard term that `explain` lists for it
+        Returns
+            quantity : Quantity or None - name, value, unit ("mm", "deg", "1"), symbol and words; None where it does
+                not apply to this design
+        Raises
+            UnknownName - for a name that the kind does not have
+            NoSolution - where no mechanism exists
+        """
         name = fixed_name(name, self.quantity_names())
         if name not in self.quantity_names():
             raise UnknownName("quantity", name, self.quantity_names())
@@ -274,7 +300,16 @@ class Design:
         return first if first.length != size else TableInParts(name, first.columns, first.units, first.data, parts)
 
     def check(self, name: str) -> list[Check]:
-        """The findings of a check by name; a check that does not apply to this design gives none."""
+        """The findings of a check.
+
+        Parameters
+            name : str - such as "transmission-angle"
+        Returns
+            findings : list of Check - empty where the check does not apply to this design; without tested fixes,
+                which `findings` adds
+        Raises
+            NoSolution - where no mechanism exists
+        """
         method = "check_" + name.replace("-", "_")
         with step(f"{type(self).__name__}.{method}"):
             found: Check | Iterable[Check] = getattr(self, method)()
@@ -309,8 +344,17 @@ class Design:
         return type(self)(spec)
 
     def findings(self, command: str, check: str) -> tuple[Check, ...]:
-        """The findings of a check by name; those that fail have a remedy, where one was found that the files of
-        `command` and of every other command that the design asks for can take."""
+        """The findings of a check, with tested fixes.
+
+        Parameters
+            command : str - the command for which the design is checked, "synth dwell"
+            check : str - name of the check
+        Returns
+            findings : tuple of Check - those that fail have a `remedy`, where one was found with which this and every
+                other command of the file can be computed
+        Raises
+            NoSolution - where no mechanism exists
+        """
         return with_remedies(self, command, tuple(self.check(check)))
 
     def ways_of(self, check: str) -> Iterable[Way]:
@@ -362,8 +406,8 @@ class Design:
 
         Parameters
             command : str - "synth dwell", "press", ...
-            quantities : names - give these alone, without checks and tables of the command
-            tables : names - tables to give besides those of the command
+            quantities : sequence of str - give these alone, without checks and tables of the command
+            tables : sequence of str - tables in addition to those of the command
             samples : int - rows of the tables per revolution or stroke; without it each table's own number
             only : bool - give the named tables alone
             findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all

@@ -12,7 +12,13 @@ _MOST_CHARACTERS = 40  # of a name that a message repeats
 
 
 class GearlinkError(Exception):
-    """Base of every error that is the user's to repair, with its place in a design file where that is known."""
+    """Base of every error that the user can repair.
+
+    Attributes
+        file : str - the design file; empty where there is none
+        line, column : int - position of the key in it, from 1; 0 where it is not known
+        key : str - dotted path of the key, "gears.module"; empty where it is not known
+    """
 
     file = ""
     line = 0
@@ -42,11 +48,17 @@ def named(text: str) -> str:
 
 
 class NoSolution(GearlinkError):
-    """No mechanism exists for the given numbers.
+    """No mechanism exists for the given numbers; raised when a quantity of it is read.
 
-    `message` names the value and the limit, `fix` the change that would help, in the imperative. `key` is the dotted
-    path of the design file's key to change; kernels, which know no design files, leave it empty and the design class
-    adds it with `at_key`. A message of two lines is message and fix.
+    Attributes
+        message : str - value and limit, "stroke: 2000 mm (limit < 988.7 mm ...)"
+        fix : str - the change that would help; empty where none is known
+        key, file, line, column - as of GearlinkError
+        code : str - "GL112"
+    Notes
+        `message` names the value and the limit, `fix` the change that would help, in the imperative. `key` is
+        the dotted path of the design file's key to change; kernels, which know no design files, leave it empty
+        and the design class adds it with `at_key`. A message of two lines is message and fix.
     """
 
     code = "GL112"

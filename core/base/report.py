@@ -33,7 +33,15 @@ _BLOCK = 4096
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A named result in the unit of the design files (mm, deg, ...)."""
+    """A named result in the unit of the design files.
+
+    Fields
+        name : str - as in docs/nomenclature.md
+        value : float, int, str, bool or a list of them, None for an entry that does not exist
+        unit : str - "mm", "deg", "1/min"; "1" without a dimension
+        symbol : str - of the sources; empty where they have none
+        words : str - what it is
+    """
 
     name: str
     value: Value
@@ -73,6 +81,10 @@ class Check:
     WHAT: value unit (limit op limit unit; aside) at PLACE
 
     Fields
+        code, name : str - "GL303" and the check, "transmission-angle"
+        status : "pass", "warn" or "fail"
+        value, limit : float or None - the compared numbers in `unit`, unrounded
+        side : ">=", "<=" or "" - how a value that passes is related to the limit
         what : str - what was measured, or a statement where no number is shown
         remedy : the change of the file that was tried
         at : str - where in the cycle, with its unit
@@ -336,7 +348,16 @@ class TableInParts(Table):
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """All that a command says about one design; `key` its key results, `left_out` tables that were not computed."""
+    """All results of a command for one design, as data.
+
+    Fields
+        kind, name, command : str - kind and name of the design, and the command
+        quantities : tuple of Quantity - in the units of the design files
+        checks : tuple of Check - all findings, those that pass among them
+        tables : tuple of Table
+        key : tuple of KeyResult - the results that the command line shows first
+        left_out : tuple of str - names of tables that were not computed
+    """
 
     kind: str
     name: str

@@ -89,7 +89,7 @@ def require_swing(swing: float) -> None:
     if not 0.0 < swing <= WIDEST_SWING * (1.0 + 1e-14):
         raise NoSolution(
             f"swing: {unlike(math.degrees(swing), 340.0)} deg (above 0, at most 340 deg)",
-            fix="reduce it or add a gear stage",
+            fix="reduce swing, or add a gear stage",
         )
 
 

@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.results import cached_property
-from gearlink.core.base.wording import short, unlike
+from gearlink.core.base.wording import short
 from gearlink.core.machines.wide_swing.device import (
     Device,
     DeviceGeometry,
@@ -534,8 +534,7 @@ def slider_law(device: Device, swing: float, inertia: Callable[[float], float], 
         parameter *= scale
     speed = ways[0].velocity(ends[0], parameter)
     raise NoSolution(
-        f"the iteration of the source does not converge: velocity invariant {unlike(speed, 4.0)} at half the time "
-        "(limit < 4)",
+        f"the iteration of the source does not converge: velocity invariant {short(speed)} at half the time",
         key="method",
         fix="omit method",
     )

@@ -699,7 +699,7 @@ SLIDER_CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\nname: "
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("x" * 201, "name has 201 characters: shorten it to 200"),
+        ("x" * 201, "name has 201 characters (limit <= 200)"),
         ("x" * 900_000, "name has 900000 characters"),
         (r'"a\rb"', "U+000D"),
     ],

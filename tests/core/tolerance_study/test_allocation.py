@@ -202,7 +202,7 @@ def test_grades_that_no_samples_prove_are_refused() -> None:
         },
         command="tolerance",
     )
-    with pytest.raises(WrongStudy, match="prove no more than 0 %"):
+    with pytest.raises(WrongStudy, match="samples prove 0 %"):
         made.table_allocation()
 
 

@@ -104,7 +104,7 @@ def test_estimate_of_the_start_serves_the_twin_cam_alone() -> None:
 
 def test_roller_too_large() -> None:
     large = replace(cam("twin-cam"), roller_radius=0.5)
-    with pytest.raises(NoSolution, match="make it less than") as refusal:
+    with pytest.raises(NoSolution, match=r"set cam.roller_radius below") as refusal:
         contact_end(large)
     limit = float(str(refusal.value).split("less than ")[1].split(" mm")[0])
     # four digits of the limit are printed

@@ -276,7 +276,7 @@ def test_every_device_settles_to_rounding(ratio: float, swing: float) -> None:
     ("swing", "shown"), [(0.0, "0 deg"), (-1.0, "-57"), (math.radians(341.0), "341 deg"), (math.nan, "nan")]
 )
 def test_swing_outside_its_range(swing: float, shown: str) -> None:
-    with pytest.raises(NoSolution, match=rf"swing {shown}.*at most 340 deg.*gear stage"):
+    with pytest.raises(NoSolution, match=rf"swing: {shown}.*at most 340 deg.*gear stage"):
         ElasticLaw(Pneumatic(2.5), swing)
 
 

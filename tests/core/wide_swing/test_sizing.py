@@ -124,7 +124,7 @@ def test_free_length() -> None:
     sized = design_of(SPRING).unloading.size
     free = {key: value for key, value in SPRING.items() if key != "stretch_ratio"} | {"free_length": sized.free_length}
     assert design_of(free).motion.stretch_ratio == pytest.approx(0.4, rel=1e-12)
-    with pytest.raises(NoSolution, match="slack at mid-swing"):
+    with pytest.raises(NoSolution, match="it is slack there"):
         _ = design_of(free | {"free_length": 1.001 * sized.device_length_min}).motion.device
 
 
@@ -191,7 +191,7 @@ def test_iteration_without_slider_is_the_old_one() -> None:
 @pytest.mark.slow
 def test_iteration_that_does_not_converge() -> None:
     # an inertia that nearly vanishes at mid-swing: the rocker is fast there
-    with pytest.raises(NoSolution, match="must be below 4; omit method") as error:
+    with pytest.raises(NoSolution, match=r"velocity invariant .*; omit method") as error:
         slider_law(Pneumatic(2.6), math.radians(60.0), lambda a: 0.02 + 4.0 * (a - 0.5) ** 2, steps=40)
     assert error.value.key == "method"
 
