@@ -143,10 +143,11 @@ class FileDesigns:
         """The design of a class, that of a command or the geometry of one; one of its own for a completed spec."""
         if spec is not self._spec:
             return cls(spec)
-        design = self._made.get(cls)
-        if design is None:
-            design = self._made[cls] = cls(self._spec)
-            design.kin = self
+        known: Made | None = self._made.get(cls)  # type: ignore[assignment]
+        if known is not None:
+            return known
+        design = self._made[cls] = cls(self._spec)
+        design.kin = self
         return design
 
     def changed(self, spec: Any) -> FileDesigns:

@@ -357,8 +357,8 @@ class CycloidalReducer(RealSpeed, Design):
         k, (low, high) = self.shortening, _USUAL
         limit = low if k < low else high
         what, aside = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}"
-        ends = (self.spec.eccentricity * end / k for end in _USUAL) if k else ()
-        fix = f"set eccentricity to {within(*ends, 'mm')}" if k else "raise eccentricity"
+        per_end = self.spec.eccentricity / k if k else 0.0
+        fix = f"set eccentricity to {within(low * per_end, high * per_end, 'mm')}" if k else "raise eccentricity"
         status: Status = "pass" if low <= k <= high else "warn"
         return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 

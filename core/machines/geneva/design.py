@@ -371,9 +371,9 @@ class GenevaDrive(RealSpeed, Design):
 
     def check_step_rate(self) -> Iterator[Check]:
         """GL345."""
-        rate, limit = self.steps_per_minute, self.spec.limits.steps_per_minute
-        if rate is None:
+        rate, speed, limit = self.steps_per_minute, self.spec.input_speed, self.spec.limits.steps_per_minute
+        if rate is None or speed is None:
             return
         over = rate > limit
-        fix = f"reduce input_speed to {safely_below(abs(self.spec.input_speed) * limit / rate)} 1/min or less"
+        fix = f"reduce input_speed to {safely_below(abs(speed) * limit / rate)} 1/min or less"
         yield STEP_RATE.check("warn" if over else "pass", "step rate", rate, limit, "1/min", fix=fix)

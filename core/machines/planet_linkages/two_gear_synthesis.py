@@ -23,6 +23,7 @@ from gearlink.core.parts.linkages.band_dwell import (
     ToleranceDwell,
     flattest_of,
     keeping,
+    least_band,
 )
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check, target_check
 
@@ -366,7 +367,7 @@ class DwellSynthesis(TwoGearFourBar):
         edge = kernel.filling(family, band) or kernel.stepping(family)[1]
 
         def spare(other: float) -> float:
-            return kernel.tolerance_dwell(family.drive(other), band, placed=False).crank_angle - window
+            return band - least_band(kernel.valley(family.drive(other)), window)  # one root, not two in each other
 
         def just(*ends: float) -> float:
             """Where the window is just as long, on the way from the design's frame to some ends; the last one else."""

@@ -25,7 +25,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import at_least, at_most
 from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import short, unlike, within
-from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, tolerance_dwell
+from gearlink.core.machines.three_gear.dwell import back_step, dwell_angle, gain, valley
 from gearlink.core.machines.three_gear.momentary import (
     balanced_eccentricity,
     eccentricity_for_frame,
@@ -390,8 +390,11 @@ def met_between(
         NoSolution - for a family whose output does not step back, or always by more than the band
     """
 
-    def spare(x: float) -> float:
-        return tolerance_dwell(family.linkage(x), train, band, placed=False).crank_angle - window
+    from gearlink.core.parts.linkages.band_dwell import least_band
+
+    def spare(x: float) -> float:  # falls with the band that the window takes: one root, not two in each other
+        linkage = family.linkage(x)
+        return band - least_band(valley(linkage, forward(linkage, train)), window)
 
     filled = length(filling(family, train, band) or family.linkage(family.stepping()[1]))
     end = family.ends()[0]

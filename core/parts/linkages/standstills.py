@@ -138,7 +138,7 @@ def standstills(speed: Function, extremes: Sequence[Turning], tolerance: float) 
 
 
 def standing(
-    extremes: list[Turning], tolerance: float, period: float | None = TURN
+    extremes: Sequence[Turning], tolerance: float, period: float | None = TURN
 ) -> tuple[list[float], list[tuple[Turning, Turning]]]:
     """Momentary standstills, and pairs of extremes between which a speed ratio passes zero once.
 

@@ -110,13 +110,17 @@ def fraction_at(frame: shown.Frame, q: float) -> float:
     return float(fine[int(np.argmin(np.abs(frame.inputs(fine) - q)))])
 
 
+def _without_remark(part: Any) -> Any:
+    return replace(part, label="") if " " in getattr(part, "label", "") else part
+
+
 def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     frame = frame_of(design)
     scene = shown.build(design, np.array([fraction_at(frame, q)]), shown.wishes(wanted))
     scene = replace(  # without remarks of several words: it is small
         scene,
         marks=tuple(mark for mark in scene.marks if " " not in mark.text),
-        parts=tuple(replace(part, label="") if " " in getattr(part, "label", "") else part for part in scene.parts),
+        parts=tuple(_without_remark(part) for part in scene.parts),
     )
     panels.drawing(axes, f"At {_input(design, q)}")
     panels.few_ticks(axes.xaxis, 4)
