@@ -97,14 +97,14 @@ def test_loads(run: Any) -> None:
     assert found["pin_A.peak"] > 0.0
 
 
-@pytest.mark.quick(1)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("words", "suffix"),
     [
         (("animate", "--format", "html"), ".html"),
         (("report",), ".html"),  # has sheet, animation and figure
-        (("sheet", "motion"), ".png"),
         (("analyze", "--plot"), ".png"),
+        (("sheet", "motion"), ".png"),
     ],
 )
 def test_sheet_film_report_and_picture(run: Any, tmp_path: Path, words: tuple[str, ...], suffix: str) -> None:

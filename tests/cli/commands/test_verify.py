@@ -159,7 +159,6 @@ def test_a_shell_is_offered_the_cases() -> None:
 # The page
 
 
-@pytest.mark.slow
 def test_the_page_is_that_of_the_cases() -> None:
     written = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8").splitlines()
     for line, (now, then) in enumerate(zip_longest(page.text().splitlines(), written, fillvalue=""), 1):

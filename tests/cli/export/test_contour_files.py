@@ -11,7 +11,6 @@ import pytest
 from factory import design
 
 
-@pytest.mark.slow
 def test_csv_has_every_point_and_every_margin(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink(
         "export", designs / "ring_pair.yaml", "--part", "blocking_contour", "--as", "csv", "--out", tmp_path

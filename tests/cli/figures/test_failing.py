@@ -32,7 +32,7 @@ def red(made: Any) -> list[Any]:
     return [artist for artist in artists if artist.get_gid() == "fails"]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("command", "name", "keys", "count"), CASES)
 def test_places_that_fail_are_red(command: str, name: str, keys: dict[str, Any], count: int) -> None:
     made = red(sheet(name, command, **keys).figure)

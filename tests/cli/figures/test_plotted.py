@@ -49,6 +49,16 @@ def test_many_standstills_leave_the_curve_to_be_seen() -> None:
     assert max(len(axes.lines) for axes in figure.axes[2:]) < 6
 
 
+@pytest.mark.parametrize("name", ["lift_cam", "geneva_drive", "hypocycloid_slider"])
+def test_every_panel_of_a_sheet_has_something_in_it(name: str) -> None:
+    """Of kinds whose sheets no other quick test draws: a title or a label of its own, and a curve or a body."""
+    panels = [axes for axes in sheet(name).figure.axes if axes.axison]
+    named = [(axes.get_title(loc="left"), axes.get_ylabel()) for axes in panels]
+    assert len(panels) == len(set(named)) > 1
+    assert all(map(any, named))
+    assert all(axes.patches or any(len(line.get_xdata()) > 1 for line in axes.lines) for axes in panels)
+
+
 def test_a_bed_is_not_said_to_dwell_where_its_cam_does() -> None:
     """Bands of the cam's phases had covered the fastest motion of the bed as a dwell."""
     bed, cylinder = motion_sheet.courses(design(worked("ty460")))

@@ -266,7 +266,6 @@ def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path
     assert "NOT FOR MANUFACTURE" not in (tmp_path / "TY-460-drawing-1.svg").read_text(encoding="utf-8")
 
 
-@pytest.mark.slow
 def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     loads = design("loaded_feed", command="loads")
     figure = force_sheet.draw(design("loaded_feed"))

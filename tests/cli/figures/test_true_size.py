@@ -71,7 +71,6 @@ def test_paper_that_is_too_small_names_one_that_is_not(tmp_path: Path) -> None:
     assert "not even A0" in refused.value.diagnostics[0].message
 
 
-@pytest.mark.slow
 def test_polygons_are_true_to_their_scale(tmp_path: Path) -> None:
     made = design("ty460_gears", command="press")
     figure = draw(made)

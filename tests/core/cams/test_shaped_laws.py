@@ -323,7 +323,6 @@ def test_limits_that_no_law_keeps() -> None:
     assert refused({"type": "nothing"}) == ""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wish", "least"),
     [
