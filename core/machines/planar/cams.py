@@ -17,8 +17,6 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.wording import short
-from gearlink.core.machines.planar.structure import Line
-from gearlink.core.machines.planar.system import Row, line_bounds
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.parts.cams import profile
@@ -41,7 +39,7 @@ if TYPE_CHECKING:
 
     from gearlink.core.base.report import Check
     from gearlink.core.machines.planar.spec import CamPair
-    from gearlink.core.machines.planar.structure import LineJoint, Structure
+    from gearlink.core.machines.planar.structure import Line, LineJoint, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Points, Reals
 
@@ -49,8 +47,8 @@ _DEGREE = math.pi / 180.0
 _STEP = 1e-6  # of the maximum velocity: what laws that meet leave
 _SQUARE = 1e-9  # cosine of a right angle
 _OUTLINE, _BEYOND = 721, 0.1
-_FOOT_ROUNDS, _FOOT = 12, 1e-14  # rad
-_UPON = 1e-10  # rad, from a joint of a law: rounding
+_FOOT_ROUNDS, _FOOT = 12, 1e-11  # rad, after which another step would be rounding
+_UPON = 2e-12  # rad, from a joint of a law: rounding
 
 
 class Lift(NamedTuple):
@@ -175,12 +173,17 @@ class Contact(NamedTuple):
     def across(self, jets: Jets) -> Line:
         """The line along the outward normal."""
         phi, _ = self._foot(jets)
-        first = self.cam.pitch(phi, 1)[1]
-        return self.line._replace(direction=self.line.direction + np.angle(1j * self.cam.sense * first))
+        normal: Any = np.angle(1j * self.cam.sense * self.cam.pitch(phi, 1)[1])
+        return self.line._replace(direction=self.line.direction + normal)
 
     def _foot(self, jets: Jets) -> tuple[Reals, Points]:
         """Cam angles of the feet, and the roller's centres in the cam's frame [size]."""
-        z, phi = jets.seen(self.line, 0), self.guess.angle(jets, 0)
+        if id(self) not in jets.kept:
+            jets.kept[id(self)] = self._sought(jets.seen(self.line, 0), self.guess.angle(jets, 0))
+        found: tuple[Reals, Points] = jets.kept[id(self)]
+        return found
+
+    def _sought(self, z: Points, phi: Reals) -> tuple[Reals, Points]:
         for _ in range(_FOOT_ROUNDS):
             p, p1, p2 = (each / self.size for each in self.cam.pitch(phi, 2))
             slope = (np.conj(p1) * p1).real - (np.conj(p2) * (z - p)).real
@@ -228,13 +231,12 @@ class Contact(NamedTuple):
         return 1 if (np.conj(p1[0]) * jets.seen(self.line, 1)[0]).real >= 0.0 else -1
 
     def bounds(self, jets: Jets) -> Reals:
-        """K, K', M of the row: of the line, and of the curve."""
-        (k, k_rate, m), _ = line_bounds(self.line, jets)
+        """K, K', M of the row, less those of the line."""
         steep = self.cam.steepest * self.size
         a, b = self.line.body, self.line.other
         moves = abs(complex(jets.x[0][0, b] - jets.x[0][0, a])) + 1.0 + 2.0**0.5 + abs(self.line.point)
         rate = abs(complex(jets.seen(self.line, 1)[0]))
-        return np.array([k + steep * moves**2, k_rate + steep * moves * rate, m + steep * rate**2])
+        return np.array([steep * moves**2, steep * moves * rate, steep * rate**2])
 
 
 class CamJoint:
@@ -246,7 +248,7 @@ class CamJoint:
         zero : float [rad or mm] - direction of the follower against the carrier at lift 0, or place of its slide
         away : +1 or -1 - way of a positive lift in the follower's coordinate
         point : complex [mm] - roller centre, or a point of the face, in coordinates of the follower
-        axis : complex [mm] - of the cam, in coordinates of the carrier
+        axis, bore : complex [mm] - of the cam, in coordinates of the carrier and of its own link
     """
 
     def __init__(self, structure: Structure, name: str, bearer: str) -> None:
@@ -256,7 +258,7 @@ class CamJoint:
         slid = structure.spec.slid.get(each.follower)
         self.slide: LineJoint | None = structure.slides[slid] if slid else None
         bodies = structure.bodies
-        self.axis, self._bore = next(
+        self.axis, self.bore = next(
             (at, bodies[each.cam][pin]) for pin, at in bodies[bearer].items() if pin in bodies[each.cam]
         )
         self.point = bodies[each.follower][each.point]
@@ -299,35 +301,15 @@ class CamJoint:
 
     # The cam as cut, under a follower as made
 
-    def contact_row(self, structure: Structure, nominal: Lift, errors: Mapping[str, Any]) -> Row:
-        """The row of this cam, as the nominal design has it, under the follower of another structure.
-
-        Parameters
-            nominal : Lift - its angle counted from the start of the nominal design
-            errors : by key less `cams.NAME.` - of profile, roller_radius [mm], phase and face [rad]
-        """
-        size = structure.size
-        phase = self.sense * (nominal.phase + errors.get("phase", 0.0))
-        point = structure.bodies[self.given.follower][self.given.point] / size
-        more = (errors.get("profile", 0.0) + errors.get("roller_radius", 0.0)) / size
-        if self.given.face is None:
-            line = Line(self.cam, self._bore / size, phase, self.follower, point)
-            return Row(None, constant=more, contact=Contact(self, nominal, line, size))
-        support, way = self.support, cmath.phase(self._face_normal / self._ahead) + errors.get("face", 0.0)
-        line = Line(self.follower, point, way, self.cam, self._bore / size)
-        turns = {body: share for body, share in ((self.follower, 1.0), (self.cam, -1.0)) if body}
-        lift = Lift(support, 1.0 / size, turns, way - phase, self.round)  # type: ignore[arg-type]
-        return Row(line, factor=-1.0, constant=more, lift=lift)
-
     def _centres(self, phi: Reals, order: int, side: int = 1) -> list[Points]:
         """The roller's centre in coordinates of the carrier about the cam's axis, and its derivatives [mm]."""
         a = [self.away * each for each in self.motion.evaluate(phi, order, side=side)]
         if self.slide is not None:
             u = cmath.exp(1j * self.slide.line.direction)
-            return [self._start + u * a[0], *(u * each for each in a[1:])]
+            return [np.asarray(self._start + u * a[0]), *(np.asarray(u * each) for each in a[1:])]
         assert self._pivot is not None
         pivot = self._pivot[0] - self.axis
-        return [pivot + (self._start - pivot) * np.exp(1j * a[0]), *_turned(self._start - pivot, a)]
+        return [np.asarray(pivot + (self._start - pivot) * np.exp(1j * a[0])), *_turned(self._start - pivot, a)]
 
     def pitch(self, phi: Reals, order: int, side: int = 1) -> list[Points]:
         """The pitch curve in the cam's frame, and its derivatives [mm]."""
@@ -336,12 +318,12 @@ class CamJoint:
             np.asarray(e * sum(math.comb(k, j) * back**j * b[k - j] for j in range(k + 1))) for k in range(order + 1)
         ]
 
-    def upon_joints(self, phi: Reals) -> Reals:
-        """Cam angles, those that rounding took off a joint of the law upon it."""
+    def upon_joints(self, phi: Reals, within: float = _UPON) -> Reals:
+        """Cam angles, those that are off a joint of the law by rounding upon it."""
         joints = np.array([*self.motion.joints, 2.0 * math.pi])
         inside = np.mod(phi, 2.0 * math.pi)
         nearest = joints[np.argmin(np.abs(inside[:, None] - joints), axis=1)]
-        return np.where(np.abs(inside - nearest) <= _UPON, phi + (nearest - inside), phi)
+        return np.where(np.abs(inside - nearest) <= within, phi + (nearest - inside), phi)
 
     @cached_property
     def steepest(self) -> float:
@@ -353,7 +335,7 @@ class CamJoint:
         return 1.1 * most
 
     @cached_property
-    def _face_normal(self) -> complex:
+    def face_normal(self) -> complex:
         """Unit vector from the cam into the face at lift 0, in coordinates of the carrier."""
         if self.slide is not None:
             return self.away * cmath.exp(1j * self.slide.line.direction)
@@ -364,7 +346,7 @@ class CamJoint:
     def support(self) -> Support:
         """The profile of a flat face."""
         _ = self.profile  # refuses what cannot be
-        normal = self._face_normal
+        normal = self.face_normal
         start = cmath.phase(normal)
 
         def faces(phi: Reals, order: int, side: int) -> tuple[list[Reals], list[Reals]]:
@@ -400,7 +382,7 @@ class CamJoint:
     # The profile, in the carrier's coordinates about the cam's axis
 
     @cached_property
-    def _ahead(self) -> complex:
+    def ahead(self) -> complex:
         """Unit vector of the follower's x axis at lift 0, in coordinates of the carrier."""
         if self.slide is None:
             return cmath.exp(1j * self.zero)
@@ -411,11 +393,11 @@ class CamJoint:
         """The roller's centre, or the point of the face, at lift 0 [mm]."""
         if self._pivot is not None:
             at, own = self._pivot
-            return at - self.axis + (self.point - own) * self._ahead
+            return at - self.axis + (self.point - own) * self.ahead
         assert self.slide is not None
         line = self.slide.line
         at = line.through + self.zero * cmath.exp(1j * line.direction)
-        return at - self.axis + (self.point - line.point) * self._ahead
+        return at - self.axis + (self.point - line.point) * self.ahead
 
     @cached_property
     def away(self) -> float:
@@ -438,7 +420,7 @@ class CamJoint:
 
     def _face(self, pivot: complex) -> tuple[complex, float]:
         """Direction of a rocking face at lift 0 from its pivot to the cam's side, and angle to the axis there [rad]."""
-        along = self._ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
+        along = self.ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
         if (along.conjugate() * -pivot).real < 0.0:
             along = -along
         return along, math.remainder(cmath.phase(-pivot) - cmath.phase(along), 2.0 * math.pi)
@@ -483,11 +465,11 @@ class CamJoint:
     def _touch(self) -> Callable[[Reals], Touch]:
         if self.slide is not None:
             u = self.away * cmath.exp(1j * self.slide.line.direction)
-            along = self._ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
+            along = self.ahead * cmath.exp(1j * math.radians(self.given.face or 0.0))
             if abs((u.conjugate() * along).real) > _SQUARE:
                 what, square = (
                     "a flat face stands square to the slide of its follower",
-                    cmath.phase(1j * u / self._ahead),
+                    cmath.phase(1j * u / self.ahead),
                 )
                 raise NoSolution(what, key=f"{self.key}.face", fix=f"set {self.key}.face to {math.degrees(square):.6g}")
             base = (u.conjugate() * self._start).real
@@ -532,22 +514,22 @@ class CamJoint:
         turned = cmath.exp(1j * self.sense * phase)
         if not isinstance(found, FlatCam):
             roller = self.point + found.roller_radius * np.exp(1j * phi[::8])
-            return self._bore + turned * found.points(phi)[1], roller
+            return self.bore + turned * found.points(phi)[1], roller
         along = cmath.exp(1j * math.radians(self.given.face or 0.0))
         reach = (along.conjugate() * (self._seen(found.touch(phi).point, phi) - self.point)).real
         low, high = float(reach.min()), float(reach.max())
         ends = np.array([low, high]) + _BEYOND * (high - low) * np.array([-1.0, 1.0])
-        return self._bore + turned * found.points(phi)[0], np.asarray(self.point + along * ends, dtype=np.complex128)
+        return self.bore + turned * found.points(phi)[0], np.asarray(self.point + along * ends, dtype=np.complex128)
 
     def _seen(self, place: Points, phi: Reals) -> Points:
         """Places about the cam's axis, in coordinates of the follower at these cam angles."""
         s, start = self.away * self.motion.evaluate(phi, 0)[0], self._start
         if self.slide is not None:
             way = s * cmath.exp(1j * self.slide.line.direction)
-            return np.asarray(self.point + (place - start - way) * self._ahead.conjugate())
+            return np.asarray(self.point + (place - start - way) * self.ahead.conjugate())
         assert self._pivot is not None
         at, own = self._pivot
-        return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self._ahead.conjugate())
+        return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self.ahead.conjugate())
 
 
 def _turned(arm: complex, a: Sequence[Reals]) -> list[Points]:

@@ -15,7 +15,7 @@ import numpy as np
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar.dyads import Dyad, dyads, mirrored
-from gearlink.core.machines.planar.structure import RackJoint, Structure
+from gearlink.core.machines.planar.structure import Line, RackJoint, Structure
 from gearlink.core.machines.planar.system import (
     Jets,
     Row,
@@ -716,6 +716,28 @@ class Start:
         return system
 
 
+def contact_row(cam: CamJoint, structure: Structure, nominal: Lift, errors: Mapping[str, Any]) -> Row:
+    """The row of a cam as cut, that of the nominal design, under the follower of another structure.
+
+    Parameters
+        nominal : Lift - its angle counted from the start of the nominal design
+        errors : of profile, roller_radius [mm], phase and face [rad]
+    """
+    from gearlink.core.machines.planar.cams import Contact, Lift
+
+    size = structure.size
+    phase = cam.sense * (nominal.phase + errors.get("phase", 0.0))
+    point = structure.bodies[cam.given.follower][cam.given.point] / size
+    more = (errors.get("profile", 0.0) + errors.get("roller_radius", 0.0)) / size
+    if cam.given.face is None:
+        line = Line(cam.cam, cam.bore / size, phase, cam.follower, point)
+        return Row(None, constant=more, contact=Contact(cam, nominal, line, size))
+    way = cmath.phase(cam.face_normal / cam.ahead) + errors.get("face", 0.0)
+    turns = {body: share for body, share in ((cam.follower, 1.0), (cam.cam, -1.0)) if body}
+    lift = Lift(cam.support, 1.0 / size, turns, way - phase, cam.round)  # type: ignore[arg-type]
+    return Row(Line(cam.follower, point, way, cam.cam, cam.bore / size), factor=-1.0, constant=more, lift=lift)
+
+
 @dataclass(frozen=True)
 class AsMade(Start):
     """A mechanism as manufactured at input 0, whose cams are those of the nominal design.
@@ -723,7 +745,7 @@ class AsMade(Start):
     Parameters
         structure : Structure - with cams those of the nominal one
         nominal : Start
-        errors : by cam - of what `CamJoint.contact_row` takes
+        errors : by cam - of what `contact_row` takes
     """
 
     nominal: Start
@@ -752,7 +774,7 @@ class AsMade(Start):
             still = System(len(structure.bodies), (), (row,)).values(jets, 0, np.zeros(1))
             rows.append(row._replace(constant=float(still[0, 0])))
         for name, cam in nominal.structure.cams.items():
-            rows.append(cam.contact_row(structure, nominal.lifts[name], self.errors.get(name, {})))
+            rows.append(contact_row(cam, structure, nominal.lifts[name], self.errors.get(name, {})))
         return System(len(structure.bodies), pins_of(structure), tuple(rows))
 
     @cached_property

@@ -18,6 +18,7 @@ import numpy as np
 
 from gearlink.core.base.design_axis import Evaluated, Findings
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.report import Check
 from gearlink.core.machines.planar.course import AsMade, Course
 from gearlink.core.machines.planar.design import PlanarMechanism, folded
 from gearlink.core.machines.planar.dyads import Dyad, dyads
@@ -36,12 +37,14 @@ _SIDES = ("max", "max_at", "min", "min_at", "span")
 _CERTAIN = 0.25
 """Of h, below the 1/2 of the theorem: for the way between two places of the grid."""
 _STILL = 1e-10  # of the largest slope: rounding of a dwell
+_LEVEL = 0.02  # of the largest slope: what an extreme at a joint may rise or fall beyond it, in samples
 _NEAR = 0.1
 """Of the range of a course: local extremes that may become the extreme of a sample."""
 _FAR = 0.15
 """Of the input in rad, or of the size: how far an extreme may move from that of the nominal design."""
 _STEPS, _CLOSING = 12, 6
 _SECANT = 1e-4  # of the input: first step of a secant
+_BESIDE = 1e-4  # of the input, from joints
 _REST = 1e-13
 _APART, _LOOKS = math.radians(1.0), 25
 """Of what stands still nominally: how far it must stay above the minimum, and at how many inputs it is looked at."""
@@ -107,7 +110,11 @@ class PlanarSamples:
 
     extra: tuple[str, ...] = ()
     reference: float | None = None
-    samples = 16384
+
+    @property
+    def samples(self) -> int:
+        """Samples by default; with cams, whose law each takes several times, fewer."""
+        return 4096 if self.nominal.spec.cams else 16384
 
     def __init__(self, nominal: PlanarMechanism) -> None:
         self.nominal = nominal
@@ -115,13 +122,14 @@ class PlanarSamples:
         self.parts = Parts({}, pins=pins, others={f"cams.{name}.profile": 0.0 for name in nominal.spec.cams})
 
     def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
-        """Whether sizes, plays and extremes alone are asked for, of a mechanism without teeth and shafts."""
+        """Whether sizes, plays and extremes alone are asked for, of a mechanism without teeth."""
         spec = self.nominal.spec
         for key in keys:
             if key.startswith("cams.") and not _OF_CAMS.fullmatch(key):
                 what = f"{key} is no size of a part: the profile is cut by the law of the file"
                 raise NoSolution(what, key="tolerance.sources", fix="name cams.NAME.profile, roller_radius or phase")
-        if spec.meshes or spec.shafts or not all(self._is_size(key) for key in keys):
+        shafts_move = len(spec.shafts) > 1 and any(key.startswith("frame.") for key in keys)
+        if spec.meshes or shafts_move or not all(self._is_size(key) for key in keys):
             return False
         return all(self._served(name) for name in names) and not any(self._still(name) for name in names)
 
@@ -194,8 +202,9 @@ class PlanarSamples:
     ) -> dict[tuple[str, int], list[_Hump]]:
         """The same of a mechanism with cams: what is largest where a law changes, and where the next derivative is 0
         between these places."""
-        course, joints = self.nominal.course, self._joints
-        q, highest = course.grid, max(max(each) for each in orders.values()) + 1
+        course, joints, highest = self.nominal.course, self._joints, max(max(each) for each in orders.values()) + 1
+        beside = np.array([joint.place for joint in joints])[:, None] + _BESIDE * np.array([-1.0, 1.0])
+        q = np.unique(np.concatenate([course.grid, beside[(beside > course.start) & (beside < course.end)]]))
         jets = course.jets(q, 0)
         walked = course.walked(q)
         after, before = (self.system.onward(Jets(jets.x, jets.t, side=side), walked, highest) for side in (1, -1))
@@ -224,7 +233,7 @@ class PlanarSamples:
         places = np.array([course.start, *course.joints])
         jets, found = course.jets(places, 0), []
         for name, cam in self.nominal.structure.cams.items():
-            on = cam.upon_joints(course.at_start.lifts[name].angle(jets, 0))
+            on = cam.upon_joints(course.at_start.lifts[name].angle(jets, 0), within=1e-9)
             off = np.mod(on[:, None] - np.array([*cam.motion.joints]) + 1.0, 2.0 * math.pi) - 1.0
             there = np.abs(off).min(axis=1) < 1e-12
             found += [_Hump(place, 0.0, cam=name, joint=angle)
@@ -292,7 +301,14 @@ class PlanarSamples:
         largest, no = design.structure.largest, np.zeros(many.count, dtype=bool)
         limit = np.full(many.count, 1e-9 * largest)
         findings.append(Findings(CLOSURE.code, many.gap, limit, many.gap > limit, no, "mm"))
+        findings += [_alike(check, many.count) for check in self._of_cams]
         return Evaluated(quantities, findings, np.zeros(many.count, dtype=np.intp), (), many.unsure)
+
+    @cached_property
+    def _of_cams(self) -> list[Check]:
+        """Findings of the cams as cut, which no sample changes."""
+        names = ("shaft-clearance", "pressure-angle", "cam-undercut", "acceleration-step")
+        return [check for name in names for check in self.nominal.check(name)]
 
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
         """By how much the first output, a link, is turned against the nominal design [rad]; (K, N), NaN if unsure."""
@@ -309,6 +325,14 @@ class PlanarSamples:
                 off[k] = np.where(many.unsure | open_ones, math.nan, found[:, 3 * body - 1] - y[k, 3 * body - 1])
             rows.append(off)
         return np.concatenate(rows, axis=1)
+
+
+def _alike(check: Check, count: int) -> Findings:
+    """A finding that all samples have."""
+    value, limit, fails, warns = (
+        np.full(count, each) for each in (check.value, check.limit, check.status == "fail", check.status == "warn")
+    )
+    return Findings(check.code, value, limit, fails, warns, check.unit)
 
 
 class _AngleOfFace(NamedTuple):
@@ -336,6 +360,14 @@ def _errors_of_cams(nominal: PlanarMechanism, columns: Mapping[str, Any]) -> dic
     return found
 
 
+def _bends(q: Reals, slopes: Sequence[Reals], i: int) -> bool:
+    """Whether slopes that are 0 at a joint of a grid grow linearly to both sides: an extreme that may leave it."""
+    if not 2 <= i < q.size - 2:
+        return False
+    ends = [abs(slopes[way > 0][i + k * way] / (q[i + k * way] - q[i])) for way in (-1, 1) for k in (1, 2)]
+    return bool(ends[0] > 0.1 * ends[1] > 0.0 and ends[2] > 0.1 * ends[3] > 0.0)
+
+
 def _tops(
     q: Reals, sides: tuple[Reals, Reals, Reals, Reals], span: float, joints: Sequence[_Hump], *, period: bool
 ) -> Iterator[_Hump]:
@@ -349,17 +381,26 @@ def _tops(
     slope_after, slope_before = (np.where(np.abs(each) <= least, 0.0, each) for each in slopes)
     for sign in (1.0, -1.0):
         top = max(float((sign * each).max()) for each in (after, before)) - _NEAR * span
+        flat = _LEVEL * max(float(np.abs(each).max()) for each in slopes)
         for joint in joints:
             i = int(np.argmin(np.abs(q - joint.place)))
-            values = (after[i], 1), (before[i if i or not period else -1], -1)
-            yield from (joint._replace(sign=sign, side=side) for value, side in values if sign * value >= top)
+            k = i if i or not period else -1
+            falls, rises = sign * slope_after[i] <= flat, sign * slope_before[k] >= -flat
+            if abs(after[i] - before[k]) <= _STILL * span:
+                sides_of = [(after[i], 1)] if falls and rises else []
+            else:
+                sides_of = [(after[i], 1)] * bool(falls) + [(before[k], -1)] * bool(rises)
+            yield from (joint._replace(sign=sign, side=side) for value, side in sides_of if sign * value >= top)
         if not period:
             yield from (_Hump(place, sign, end=True) for place in (float(q[0]), float(q[-1])))
         rise, fall = sign * slope_after[:-1], sign * slope_before[1:]
         room = np.diff(q) * np.maximum(np.abs(rise), np.abs(fall))
         near = np.maximum(sign * after[:-1], sign * before[1:]) + room >= top
         upon = np.append((fall[:-1] == 0.0) & (rise[1:] == 0.0) & (fall[1:] < 0.0), [False])  # on a place of the grid
-        for i in np.flatnonzero((rise > 0.0) & ((fall < 0.0) | upon) & near):
+        places = np.array([joint.place for joint in joints])
+        for k in np.flatnonzero(upon).tolist():
+            upon[k] = np.abs(q[k + 1] - places).min() > 1e-9 or _bends(q, slopes, k + 1)
+        for i in np.flatnonzero((rise > 0.0) & ((fall < 0.0) | upon) & near).tolist():
             share = float(rise[i] / (rise[i] - fall[i]))
             yield _Hump(float(q[i] + share * (q[i + 1] - q[i])), sign)
 
@@ -487,7 +528,8 @@ class _Many:
         """Values at these places, and the places."""
         course, (name, order) = self.samples.nominal.course, key
         y, open_ones = self.closed(q, y)
-        here = self.system.onward(Jets(*([each] for each in split(y)), side=side), q, order)
+        x, t = split(y)
+        here = self.system.onward(Jets([x], [t], side=side), q, order)
         self.gap = np.maximum(self.gap, self._gaps(y, q))
         self.unsure = self.unsure | off | open_ones
         return course.derivatives(self._numbers[name], here, order)[order], course.unwalked(q)
@@ -531,12 +573,12 @@ class _Many:
             here = self.system.onward(Jets.of(y), q, order + 1)
             slope = course.derivatives(of, here, order + 1)[order + 1]
             with np.errstate(all="ignore"):
-                bend = np.where(q != before, (slope - slope_before) / (q - before), bend)
+                bend = np.where(np.abs(q - before) > 1e-9, (slope - slope_before) / (q - before), bend)
                 step = np.full(self.count, _SECANT) if round_ == 0 else -slope / bend
             step = np.where(np.isfinite(step), np.clip(step, -0.1, 0.1), 0.0)
             before, slope_before = q, slope
             q, y = q + step, y + joined(here.x[1], here.t[1]) * step[:, None]
-            if not ((np.abs(step) > 1e-10) & ~self.unsure).any():
+            if not ((np.abs(step) > 1e-8) & ~self.unsure).any():
                 break
         off = (np.abs(q - start) > _FAR) | (np.abs(step) > 1e-7) | (hump.sign * bend >= 0.0)
         return self._there(key, q, y, off)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,12 +46,14 @@ class Jets:
     Fields
         x, t, e : lists of (N, bodies) arrays - origins, directions, e^(i t)
         side : +1 or -1 - of inputs at which a law changes, the one just after or just before
+        kept : by row - what it knows of the places, for all orders
     """
 
     x: list[Points]
     t: list[Reals]
     e: list[Points] = field(default_factory=list)
     side: int = 1
+    kept: dict[int, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         while len(self.e) < len(self.t):
@@ -83,7 +85,7 @@ class Jets:
 
     def and_next(self, x: Points, t: Reals) -> Jets:
         """With one more order."""
-        return Jets([*self.x, x], [*self.t, t], list(self.e), self.side)
+        return Jets([*self.x, x], [*self.t, t], list(self.e), self.side, self.kept)
 
 
 def _unit(t: Sequence[Reals], e: Sequence[Points]) -> Points:
@@ -253,10 +255,11 @@ class System:
         squares, fastest = [float(np.sum(each * each)) for each in k], 0.0
         for row in self.rows:
             parts = np.zeros(3) if row.lift is None else np.array(row.lift.bounds(jets))
+            line = row.line
             if row.contact is not None:
-                parts += row.contact.bounds(jets)
-            if row.line is not None:
-                of_line, moved = line_bounds(row.line, jets)
+                parts, line = parts + row.contact.bounds(jets), row.contact.line
+            if line is not None:
+                of_line, moved = _line_bounds(line, jets)
                 parts, fastest = parts + of_line, max(fastest, moved)
             squares = [total + part * part for total, part in zip(squares, parts.tolist(), strict=True)]
         k_size, k_rate, m_size = (total**0.5 for total in squares)
@@ -275,7 +278,7 @@ def _skewed(row: Row) -> Row:
     return row
 
 
-def line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
+def _line_bounds(line: Line, jets: Jets) -> tuple[tuple[float, float, float], float]:
     """K, K', M of a line, and the fastest that its point moves against it."""
     a, b, s = line.body, line.other, abs(line.point)
     t_b = abs(float(jets.t[1][0, b]))

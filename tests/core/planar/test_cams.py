@@ -85,7 +85,7 @@ def test_motion_and_profile_are_those_of_a_disc_cam(name: str) -> None:
     cam, sense = mine.structure.cams["main"], mine.spec.cams["main"].sense
     phi = np.radians(np.arange(0.0, 360.0, 7.3))
     q = sense * phi  # the cam turns with the input, its angle counts in its own sense
-    jets = mine.course.jets(q, 3)
+    jets = mine.course.jets(q, 3, sense)  # at a joint what is just after it by the cam angle
     follower = mine.structure.numbers["follower"]
     if cam.slide is not None:
         line = cam.slide.line

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,11 @@ from sweeps import mostly_slow
 from gearlink.cli.opening import design
 from gearlink.core.base.design_axis import as_arrays
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.machines.planar.course import contact_row
 from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.spec import PlanarSpec
+from gearlink.core.machines.planar.system import Jets, System
 from gearlink.core.studies.tolerance_study.problem import problem
 from gearlink.core.studies.tolerance_study.samples import _single, evaluated, rows_of
 
@@ -102,18 +105,133 @@ def test_the_course_of_samples_is_that_of_their_tables() -> None:
         assert off[:, k] == pytest.approx(wanted, abs=1e-9)
 
 
-def test_cams_are_refused() -> None:
-    file = {
-        "frame": {"O": [0, 0]},
-        "links": {"cam": {"O": [0, 0]}, "ram": {"B": [0, 0]}},
-        "slides": {"guide": {"link": "ram", "through": [0, 0], "direction": 90}},
-        "cams": {"c": {"cam": "cam", "follower": "ram", "point": "B", "roller_radius": 9,
-                       "motion": [{"to": 180, "lift": 9}, {"to": 360, "lift": 0}]}},
-        "drive": {"link": "cam"}, "start": {"guide": 50},
-    }  # fmt: skip
+LAW = [{"to": 120, "lift": 10, "law": "cycloidal"}, {"to": 150}, {"to": 270, "lift": 0, "law": "polynomial-345"},
+       {"to": 360}]  # fmt: skip
+SLIDING = {
+    "frame": {"O": [0, 0]},
+    "links": {"cam": {"O": [0, 0]}, "ram": {"B": [0, 0]}},
+    "slides": {"guide": {"link": "ram", "through": [6, 0], "direction": 90}},
+    "drive": {"link": "cam"}, "start": {"guide": 50}, "outputs": ["guide"],
+}  # fmt: skip
+ROCKING = {
+    "frame": {"O": [0, 0], "A": [120, 10]},
+    "links": {"cam": {"O": [0, 0]}, "lever": {"A": [0, 0], "F": [100, 10]}},
+    "drive": {"link": "cam"}, "start": {"lever": 145}, "outputs": ["lever"],
+}  # fmt: skip
+
+
+def with_cam(file: dict[str, Any], **more: Any) -> dict[str, Any]:
+    follower, point = ("ram", "B") if "slides" in file else ("lever", "F")
+    return {**file, "cams": {"c": {"cam": "cam", "follower": follower, "point": point, "motion": LAW, **more}}}
+
+
+CAMS = {
+    "sliding roller": with_cam(SLIDING, roller_radius=9, sense=-1),
+    "sliding face": with_cam(SLIDING, face=90),
+    "rocking roller": with_cam(ROCKING, roller_radius=12, phase=20),
+    "rocking face": with_cam(ROCKING, face=4),
+}
+
+
+def row_of(file: dict[str, Any]) -> tuple[PlanarMechanism, Any]:
+    """A mechanism and the equation of its cam as cut, the only other row being those of the joints."""
+    made_ = PlanarMechanism(PlanarSpec.model_validate({"kind": "planar-mechanism", "name": "x", **file}))
+    cam = made_.structure.cams["c"]
+    row = contact_row(cam, made_.structure, made_.course.at_start.lifts["c"], {})
+    return made_, System(len(made_.structure.bodies), (), (row,))
+
+
+@pytest.mark.parametrize("name", CAMS)
+def test_the_row_of_a_cam_as_cut_is_the_gap_to_its_profile(name: str) -> None:
+    """Along any motion of cam and follower near the start: the roller's nearest point of a dense profile, the face's
+    farthest one; Taylor coefficients against differences of that row alone."""
+    made_, system = row_of(CAMS[name])
+    cam, size = made_.structure.cams["c"], made_.structure.size
+    x, t = (each[None] for each in made_.course.at_start.closed)
+    rng = np.random.default_rng(7)
+    dx, dt = (0.02 * rng.normal(size=(4, x.shape[1])) for _ in range(2))
+    dx[:, 0] = dt[:, 0] = 0.0
+
+    def jets(q: float) -> Jets:
+        """x + sum dx_k q^k about q."""
+        ways = np.concatenate([[x[0]], dx[1:] * (1 + 0.5j)]), np.concatenate([[t[0]], dt[1:]])
+        parts = [
+            [sum(math.comb(n, k) * way[n] * q ** (n - k) for n in range(k, 4))[None] for k in range(4)] for way in ways
+        ]
+        return Jets(parts[0], parts[1])
+
+    here = jets(0.3)
+    turn = np.exp(1j * here.t[0][0])
+    profile, touching = cam.shapes(made_.course.at_start.lifts["c"].phase)
+    body, other = made_.structure.numbers["cam"], cam.follower
+    phi = np.linspace(0.0, 2.0 * math.pi, 200_001)
+    outline = (
+        cam.bore
+        + np.exp(1j * cam.sense * made_.course.at_start.lifts["c"].phase)
+        * (cam.profile.points(phi)[0 if cam.given.face is not None else 1])
+    )
+    there = here.x[0][0] * size
+    points = there[body] + outline * turn[body]
+    if cam.given.face is None:
+        gap = np.abs(points - (there[other] + cam.point * turn[other])).min() - cam.given.roller_radius
+    else:
+        normal = cam.face_normal / cam.ahead * turn[other]
+        gap = -(np.conj(normal) * (points - (there[other] + cam.point * turn[other]))).real.max()
+    assert system.values(here, 0, np.zeros(1))[0, 0] * size == pytest.approx(gap, abs=1e-6)
+    assert profile.size > 700
+    assert touching.size > 1
+    h = 1e-3
+    for k in range(1, 4):
+        beside = [system.values(jets(0.3 + way * h), k - 1, np.zeros(1))[0, 0] for way in (-2, -1, 1, 2)]
+        slope = (beside[0] - 8.0 * beside[1] + 8.0 * beside[2] - beside[3]) / (12.0 * h) / k
+        assert system.values(here, k, np.zeros(1))[0, 0] == pytest.approx(slope, abs=2e-8), k
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CAMS)
+def test_samples_of_a_cam_at_once_are_those_of_the_class(name: str) -> None:
+    file = CAMS[name]
+    key = "slides.guide.through[0]" if "slides" in file else "frame.A[0]"
+    more = "cams.c.phase" if "slides" in file else "links.lever.F[1]"
+    given = {each: {"plus_minus": 0.05} for each in (key, more, "cams.c.profile")}
+    if "roller_radius" in file["cams"]["c"]:
+        given["cams.c.roller_radius"] = {"plus_minus": 0.02}
+    made_ = study(file, given | {"pins.O": {"clearance": [0.01, 0.05]}})
+    assert made_.is_quick
+    columns = made_.sizes(np.random.default_rng(5).uniform(size=(2, made_.coordinates)))
+    many = evaluated(made_, columns)
+    few = as_arrays([_single(made_, row) for row in rows_of(columns)], made_.names, list(made_.base.codes))
+    assert len(made_.quick_names) >= 7
+    for name_ in made_.quick_names:
+        size = max(1.0, np.abs(few.quantities[name_]).max())
+        assert many.quantities[name_] == pytest.approx(few.quantities[name_], rel=0.0, abs=1e-9 * size), name_
+    assert {one.code for one in many.findings} == {one.code for one in few.findings}
+
+
+@pytest.mark.slow
+def test_a_lever_as_made_dwells_on_the_arcs_of_the_profile() -> None:
+    """By the law of cosines: its roller, larger, on arcs of the nominal cam that are farther out."""
+    given = ("links.lever.F[0]", "frame.A[0]", "cams.c.profile", "cams.c.roller_radius")
+    made_ = study(CAMS["rocking roller"], {each: {"plus_minus": 0.5} for each in given})
+    values = dict(zip(given, (100.21, 119.7, 0.13, 12.05), strict=True))
+    assert made_.axis is not None
+    names = ["lever.angle_max", "lever.angle_min"]
+    found = made_.axis.evaluate({key: np.array([value]) for key, value in values.items()}, names).quantities
+    radii = np.abs(made_.nominal.structure.cams["c"].profile.points(np.linspace(0.0, 2.0 * math.pi, 720_001))[1])
+    pivot, arm = 119.7 + 10j, 100.21 + 10j
+    angles = []
+    for reach in (radii.max() + 12.05 + 0.13, radii.min() + 12.05 + 0.13):
+        cosine = (abs(pivot) ** 2 + abs(arm) ** 2 - reach**2) / (2.0 * abs(pivot) * abs(arm))
+        angles.append(np.angle(-pivot / abs(pivot) * np.exp(-1j * math.acos(cosine)) / arm) % (2.0 * math.pi))
+    want = sorted(np.degrees(angles))
+    assert [found[name][0] for name in reversed(names)] == pytest.approx(want, rel=0.0, abs=1e-6)
+
+
+def test_what_is_no_size_of_a_cam_is_refused() -> None:
+    """The lift of a law: the profile is cut by it."""
     with pytest.raises(NoSolution) as refused:
-        study(file, {"slides.guide.through[0]": {"plus_minus": 0.05}})
-    assert refused.value.key == "cams"
+        _ = study(CAMS["sliding face"], {"cams.c.motion[0].lift": {"plus_minus": 0.05}}).is_quick
+    assert refused.value.key == "tolerance.sources"
 
 
 @pytest.mark.slow
