@@ -272,7 +272,7 @@ class _Layout(NamedTuple):
 
 
 def draw(design: Any) -> Figure:
-    """The sheet of `loads` on A4, of many panels on A3: mechanism, curves over the turn, pin loads as polars."""
+    """The sheet of `loads` on A4, of many panels on A3: mechanism, curves over the turn, loads of the pins."""
     if design.kind == "wide-swing-cam" and not design.whole and not design.locked:
         return stroke_sheet(design)
     curves, pins, cams = _panels_of(design)

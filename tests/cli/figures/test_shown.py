@@ -299,6 +299,18 @@ def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
         assert np.abs(y[inside]).max() <= np.degrees(found.tolerance) * (1.0 + 1e-6)
 
 
+def test_a_dwell_without_a_tolerance_has_one_of_two_digits() -> None:
+    """The half range of 60 deg of samples was 0.2998 deg."""
+    found = magnified.dwell_of(design("geneva_drive"))
+    assert found is not None
+    assert np.degrees(found.tolerance) == pytest.approx(0.3, rel=1e-12, abs=0.0)
+
+
+def test_an_even_speed_has_its_value_once() -> None:
+    axes = motion_sheet.draw(design("cycloidal_reducer")).axes[1]
+    assert [text.get_text() for text in axes.texts if "0.0909" in text.get_text()] == ["−0.090909 at 0°"]
+
+
 def test_a_dwell_after_a_revolution_of_the_input_begins_where_its_axis_says() -> None:
     """Its heading had named the angle within a revolution, beside an axis of six."""
     made = design("mutilated_gear_press")

@@ -89,8 +89,14 @@ def dwell_of(design: Any) -> Dwell | None:
     asked = _asked(design)
     if asked is None and standing < _LEAST and "dwell" not in design.kind:
         return None  # what only turns back
-    found = longest(q, np.asarray(y), asked or _USUAL * float(np.ptp(y)), _gain(motion))
+    found = longest(q, np.asarray(y), asked or _usual(motion.outputs[0].course.unit, float(np.ptp(y))), _gain(motion))
     return found if found.width >= _LEAST else None
+
+
+def _usual(unit: str, reach: float) -> float:
+    """A share of the range of an output, of two digits in its unit on the sheet."""
+    shown = math.degrees(1.0) if unit == "rad" else 1.0
+    return float(f"{_USUAL * reach * shown:.2g}") / shown
 
 
 def _gain(motion: Any) -> float | None:

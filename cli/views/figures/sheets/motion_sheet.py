@@ -189,7 +189,8 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     axes.plot(course.x, values, color=_COLORS[order], linewidth=1.6, gid=f"{_NAMES[order]}-{course.name}")
     if order and np.isfinite(values).all():
-        for greatest in (True, False):
+        uneven = np.ptp(values) > 1e-9 * np.abs(values).max()
+        for greatest in (True, False) if uneven else (True,):
             place, value = course.extreme(order, greatest=greatest)
             at_end = place in (float(course.x[0]), float(course.x[-1]))
             if not at_end or abs(value) > 1e-9 * np.ptp(values):  # a rest at an end is seen
