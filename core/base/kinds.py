@@ -106,7 +106,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "flatbed-press",
-            "flatbed cylinder press: bed and cylinder chain, synchronous zone, compensation cam",
+            "flatbed cylinder press: bed and cylinder drive, synchronous zone, compensation cam",
             "machines.flatbed_press",
             "spec:FlatbedPressSpec",
             {

@@ -187,9 +187,9 @@ MOTION_EXTREMES = {
     "rocker_acceleration_max_at": Term("", "deg", "angle of the maximum acceleration of the rocker"),
     "rocker_acceleration_min": Term("", "rad/s^2", "minimum acceleration of the rocker"),
     "rocker_acceleration_min_at": Term("", "deg", "angle of the minimum acceleration of the rocker"),
-    "min_transmission_angle_bed_at": Term("", "deg", "input angle of the bed chain's minimum transmission angle"),
+    "min_transmission_angle_bed_at": Term("", "deg", "input angle at the minimum transmission angle of the bed drive"),
     "min_transmission_angle_cylinder_at": Term(
-        "", "deg", "input angle of the cylinder chain's minimum transmission angle"
+        "", "deg", "input angle at the minimum transmission angle of the cylinder drive"
     ),
     "max_pressure_angle_at": Term("", "deg", "cam angle of the maximum pressure angle (press: of the main cam)"),
     "min_curvature_radius_at": Term("", "deg", "cam angle of the minimum radius of curvature (press: of the main cam)"),
@@ -529,8 +529,8 @@ _PRESS = {
     "cam_sync_start": Term("theta_s", "deg", "cam angle at the start of the zone", "TY-460 report 3.2"),
     "cam_sync_end": Term("theta_e", "deg", "cam angle at the end of the zone", "TY-460 report 3.2"),
     "compensation": Term("h0", "mm", "bed displacement made good by the cam in the zone", "TY-460 report 3.3"),
-    "min_transmission_angle_bed": Term("mu_ABCD", "deg", "minimum transmission angle of the bed chain", "VDI 2142"),
-    "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "minimum transmission angle of the cylinder chain"),
+    "min_transmission_angle_bed": Term("mu_ABCD", "deg", "minimum transmission angle of the bed drive", "VDI 2142"),
+    "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "minimum transmission angle of the cylinder drive"),
     "cam_base_radius": Term("r_b", "mm", "cam axis to roller centre at zero lift, given or chosen by size"),
     "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, repaired"),
     "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),

@@ -225,7 +225,7 @@ class Rule(NamedTuple):
 
         Parameters
             status, value, limit, unit : as they are judged
-            what : str - what was measured ("transmission angle of the bed chain"), no number, no advice
+            what : str - what was measured ("transmission angle of the bed drive"), no number, no advice
             name : str - of the check, where the rule has several
             side : how a value that passes stands to the limit, where that is not the rule's
             at : str - where in the cycle: "input angle 40 deg"

@@ -1,8 +1,8 @@
 """The two chains of a flatbed cylinder press: travel of cylinder and bed over the input angle.
 
-One turn of the input is one sheet. The bed chain is a drag link A-B-C-D, whose driven crank CD carries the crank
+One turn of the input is one sheet. The bed drive is a drag link A-B-C-D, whose driven crank CD carries the crank
 DE of the slider-crank D-E-F at the fixed angle CDE; a pinion on the slider F doubles its travel to the bed. The
-cylinder chain is a drag link G-H-M-N, whose crank turns against the input. All derivatives are with respect to
+cylinder drive is a drag link G-H-M-N, whose crank turns against the input. All derivatives are with respect to
 the input angle and come from the chain rule.
 """
 

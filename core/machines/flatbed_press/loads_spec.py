@@ -16,16 +16,16 @@ class PressMasses(Spec):
     """Masses of the links; a gear or a cam that is fixed to a link belongs to it."""
 
     gear2: Body | None = Field(None, description="gear 2 with crank AB")
-    BC: Body | None = Field(None, description="coupler of the bed chain")
-    CDE: Body | None = Field(None, description="driven crank of the bed chain with the cams, from D to C")
+    BC: Body | None = Field(None, description="coupler of the bed drive")
+    CDE: Body | None = Field(None, description="driven crank of the bed drive with the cams, from D to C")
     EF: Body | None = Field(None, description="connecting rod, from E to F")
     carriage: Body | None = Field(None, description="carriage of the pinion, at F")
     pinion: Body | None = Field(None, description="pinion on F")
     rack: Body | None = Field(None, description="lower rack with the cam's follower")
     bed: Body | None = Field(None, description="bed with the upper rack")
     gear1: Body | None = Field(None, description="gear 1 with crank GH")
-    HM: Body | None = Field(None, description="coupler of the cylinder chain, from H to M")
-    MN: Body | None = Field(None, description="driven crank of the cylinder chain with gear 3, from N to M")
+    HM: Body | None = Field(None, description="coupler of the cylinder drive, from H to M")
+    MN: Body | None = Field(None, description="driven crank of the cylinder drive with gear 3, from N to M")
     cylinder: Body | None = Field(None, description="cylinder with gear 4")
 
 

@@ -59,7 +59,7 @@ class CylinderGears(PairKeys):
 
 
 class Cylinder(Spec):
-    """The cylinder chain."""
+    """The cylinder drive."""
 
     radius: Length = Field(description="radius of the printing cylinder")
     gear_ratio: Ratio = Field(
@@ -89,7 +89,7 @@ class Pinion(PairKeys):
 
 
 class Bed(Spec):
-    """The bed chain: drag link, slider-crank, pinion between two racks."""
+    """The bed drive: drag link, slider-crank, pinion between two racks."""
 
     stroke: Length = Field(description="stroke of the bed, twice the slider's")
     double_crank: DoubleCrank
@@ -170,7 +170,7 @@ class PressLimits(DrawingLimits, GearLimits, LoadLimits):
 
 
 class FlatbedPressSpec(TolerancedSpec):
-    """Cylinder chain, bed chain, synchronous zone and compensation cams."""
+    """Cylinder drive, bed drive, synchronous zone and compensation cams."""
 
     kind: Literal["flatbed-press"]
     speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")

@@ -287,7 +287,7 @@ def test_twin_rocker_needs_a_fast_rocker() -> None:
 def test_refusals_name_value_and_remedy() -> None:
     with pytest.raises(NoSolution, match=r"cam angle of the stroke: 0 deg.*360 deg"):
         WideSwingCam("twin-cam", LAW, 0.0, 200.0, 8.0)
-    with pytest.raises(NoSolution, match="centre distance is -1 mm"):
+    with pytest.raises(NoSolution, match="centre distance: -1 mm"):
         WideSwingCam("twin-cam", LAW, 2.0, -1.0, 8.0)
     with pytest.raises(NoSolution, match="roller radius is nan mm"):
         WideSwingCam("twin-cam", LAW, 2.0, 200.0, math.nan)
@@ -299,6 +299,6 @@ def test_transition_zone_that_fills_the_stroke() -> None:
     wide = replace(cam("twin-cam", 200.0), roller_radius=200.0)
     with pytest.raises(NoSolution, match=r"set cam.roller_radius below") as refusal:
         _ = wide.max_pressure_angle
-    limit = float(str(refusal.value).split("less than ")[1].split(" mm")[0])
+    limit = float(str(refusal.value).split("below ")[1].split(" mm")[0])
     assert replace(wide, roller_radius=0.999 * limit).transition_zone < 0.5
     assert replace(wide, roller_radius=1.001 * limit).transition_zone == 0.5

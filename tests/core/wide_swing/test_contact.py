@@ -106,7 +106,7 @@ def test_roller_too_large() -> None:
     large = replace(cam("twin-cam"), roller_radius=0.5)
     with pytest.raises(NoSolution, match=r"set cam.roller_radius below") as refusal:
         contact_end(large)
-    limit = float(str(refusal.value).split("less than ")[1].split(" mm")[0])
+    limit = float(str(refusal.value).split("below ")[1].split(" mm")[0])
     # four digits of the limit are printed
     assert contact_end(replace(large, roller_radius=limit)) < 1e-3
     with pytest.raises(NoSolution):

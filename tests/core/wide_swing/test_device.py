@@ -135,7 +135,7 @@ def test_refusals_name_value_and_remedy() -> None:
         Spring(3.0, -0.1)
     with pytest.raises(NoSolution, match=r"extension ratio of the cylinder: 1 .*13/9"):
         least_pivot_ratio_pneumatic(2.0, 1.0)
-    with pytest.raises(NoSolution, match="closed length of the spring is 0 mm"):
+    with pytest.raises(NoSolution, match="closed length of the spring: 0 mm"):
         least_pivot_ratio_spring(2.0, 0.5, 120.0, 0.0)
     with pytest.raises(NoSolution, match="the arm is -1 mm"):
         least_pivot_ratio_spring(2.0, 0.5, -1.0, 100.0)

@@ -184,7 +184,7 @@ def test_least_radius_is_that_of_the_points_that_are_touched(cam: OscillatingCam
 def test_standing_roller_that_covers_all_is_refused_with_a_number() -> None:
     with pytest.raises(NoSolution, match=r"set cam.roller_radius below") as refused:
         _ = example(150.0).contact
-    limit = float(str(refused.value).split("less than ")[1].split(" mm")[0])
+    limit = float(str(refused.value).split("below ")[1].split(" mm")[0])
     assert example(150.0).transition_zone == 0.5
     assert example(0.999 * limit).transition_zone < 0.5
 

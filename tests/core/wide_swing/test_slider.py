@@ -133,7 +133,7 @@ def test_refusals() -> None:
     assert SliderLaw(Pneumatic(2.5), SWING, toward_dead_center, 0.2).energy_parameter > 0.0
     with pytest.raises(NoSolution, match="ends where it began"):
         SliderLaw(Pneumatic(2.5), SWING, SliderDrive(1.0, 3.0, 0.0), 0.5)
-    with pytest.raises(NoSolution, match=r"rocker share 1\.5"):
+    with pytest.raises(NoSolution, match=r"share of the rocker in the inertia: 1\.5"):
         SliderLaw(Pneumatic(2.5), SWING, DRIVE, 1.5)
     with pytest.raises(NoSolution, match="between 0 and 1"):
         SliderLaw(Pneumatic(2.5), SWING, DRIVE).invariants(np.array([1.1]))

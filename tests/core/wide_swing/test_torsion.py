@@ -82,7 +82,7 @@ def test_weak_damping_tends_to_none() -> None:
 def test_refusals() -> None:
     with pytest.raises(NoSolution, match="natural frequency times stroke time: 0"):
         dynamic_coefficient(HARMONIC, 0.0)
-    with pytest.raises(NoSolution, match="damping ratio 1: it must be at least 0 and below 1"):
+    with pytest.raises(NoSolution, match=r"damping ratio: 1 .at least 0, below 1"):
         dynamic_coefficient(HARMONIC, 10.0, 1.0)
     with pytest.raises(NoSolution, match=r"leave the section shaft out, or make speed 3 times higher"):
         dynamic_coefficient(HARMONIC, 60_000.0)
