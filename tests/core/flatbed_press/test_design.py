@@ -511,7 +511,7 @@ def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
 TURNS_BACK = "the bed reverses at input angle 224 deg, before the synchronous zone ends"
 
 
-@pytest.mark.slow
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("keys", "key", "words"),
     [

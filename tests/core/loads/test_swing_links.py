@@ -316,7 +316,6 @@ def test_a_lighter_slider_lets_both_change_sides_together() -> None:
     assert [check.status for made in found for check in made.check("side-change")] == ["fail", "pass"]
 
 
-@pytest.mark.slow
 def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> None:
     apart = factory.design(
         "wide_swing_slider_cam", command="loads", slider__middle_angle=90, loads={"roller": {"width": 20}}

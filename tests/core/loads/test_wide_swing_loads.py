@@ -77,7 +77,6 @@ def test_whole_cycle(layout: str) -> None:
     assert abs(design.input_torque_mean) <= 1e-12 * design.input_torque_max
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_with_all_that_may_act(layout: str) -> None:
     """Friction's power is what virtual power and reactions differ by; the shafts together bear what acts outside."""
@@ -138,7 +137,6 @@ def test_a_check_of_what_is_no_number_does_not_pass() -> None:
     assert rule.check("pass", "nothing to compare").value is None
 
 
-@pytest.mark.slow
 def test_every_result_can_be_asked_for(swing: Any) -> None:
     report = swing.report("loads", tables=("spectrum",))
     assert {table.name for table in report.tables} == {"torque", "contact_stroke", "spectrum"}

@@ -260,7 +260,6 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
         machine(**changes)
 
 
-@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("changes", "code", "status", "words"),
     [

@@ -246,7 +246,6 @@ def study(name: str, count: int) -> Problem:
     return sampled({**BASE, **section}, command, variables, [*QUANTITIES, *own], count)
 
 
-@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     "name", [name if name in QUICK_TASKS else pytest.param(name, marks=pytest.mark.slow) for name in TASKS]
 )

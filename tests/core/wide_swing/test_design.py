@@ -564,7 +564,6 @@ class TestSections:
                 made.quantity(name)
             assert refusal.value.key == "slider"
 
-    @pytest.mark.slow
     def test_iteration(self) -> None:
         made = design(method="iteration", iteration_steps=10)
         assert value(made, "iteration_error") == pytest.approx(2.65e-3, rel=0.05)
