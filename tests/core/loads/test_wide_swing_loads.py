@@ -77,6 +77,7 @@ def test_whole_cycle(layout: str) -> None:
     assert abs(design.input_torque_mean) <= 1e-12 * design.input_torque_max
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_with_all_that_may_act(layout: str) -> None:
     """Friction's power is what virtual power and reactions differ by; the shafts together bear what acts outside."""

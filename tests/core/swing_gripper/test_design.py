@@ -260,6 +260,7 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
         machine(**changes)
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize(
     ("changes", "code", "status", "words"),
     [
