@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.position import FourBar
@@ -61,7 +60,9 @@ def _methods(size: int) -> list[Method]:
             name = f"Newton with predictor to 1e-{digits}"
             methods.append(Method(name, size, _bound(march, np.sort(phi), tolerance)))
     if size <= 100_000:
-        methods.append(Method("Newton sweep", size, lambda: _with_rates(phi, fourbar_newton.solve(LINKAGE, phi))))
+        methods.append(
+            Method("Newton sweep", size, lambda: _with_rates(phi, fourbar_sweep.solve_by_newton(LINKAGE, phi)))
+        )
         methods += _scipy(phi)
     return [Method(m.name, m.size, m.run, error_of(m.run, m.name, phi)) for m in methods]
 

@@ -16,14 +16,17 @@ from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn,
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
 from gearlink.cli.commands.laws import laws
-from gearlink.cli.commands.picture_options import PageFormat, Show
-from gearlink.cli.commands.picture_options import register as register_pictures
-from gearlink.cli.commands.reference_options import register
-from gearlink.cli.commands.tolerance_options import register as register_tolerances
+from gearlink.cli.commands.reference_options import (
+    ReportFormat,
+    Show,
+    register_exploring,
+    register_export,
+    register_pictures,
+    register_reference,
+    register_tolerances,
+)
 from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.exploring.commands import register as register_exploring
-from gearlink.cli.export.commands import register as register_export
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
 from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes
@@ -72,7 +75,9 @@ for _name, _words in COMMANDS.items():
 def _report(
     spec: Spec,
     options: Options,
-    format: Annotated[PageFormat, typer.Option("--format", "-f", help="file format of the report")] = PageFormat.HTML,
+    format: Annotated[
+        ReportFormat, typer.Option("--format", "-f", help="file format of the report")
+    ] = ReportFormat.HTML,
     against: Annotated[str, typer.Option(metavar="OLD", help="another file of the kind: say what has changed")] = "",
     show: Show = "",
 ) -> None:
@@ -80,7 +85,7 @@ def _report(
 
     Example: gearlink report designs/ty460.yaml --against old.yaml --out reports
     """
-    if format is PageFormat.HTML and not against and not show:
+    if format is ReportFormat.HTML and not against and not show:
         raise typer.Exit(run_line("report", spec, options))
     from gearlink.cli.commands.report import Asked, run_report
 
@@ -162,7 +167,7 @@ def _batch(
     raise typer.Exit(run_batch(places, BatchOptions(design, format, out, unchanged, share(shard), jobs, dask, more)))
 
 
-register(app)
+register_reference(app)
 register_export(app)
 register_exploring(app)
 register_tolerances(app)

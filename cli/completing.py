@@ -70,7 +70,7 @@ def tables(incomplete: str) -> Offer:
 
 def settings(incomplete: str) -> Offer:
     """Keys of the design file on the line, as `--set` takes them."""
-    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.cli.texts.schema import spec_keys
 
     keys = [key for kind in _kinds() for key in spec_keys(kind)]
     return _beginning(

@@ -2,22 +2,28 @@
 
 It comes after a second and is taken back at the end. A thread draws it past the streams of Python, so that a process
 that is forked meanwhile finds none of their locks taken.
+
+A word on a terminal where something takes longer than a second.
 """
 
 from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from gearlink.cli import process
 from gearlink.cli.printable import visible
 
-TYPE_CHECKING = False  # as typing has it
 if TYPE_CHECKING:
     import threading
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable
+
+
+TYPE_CHECKING = False  # as typing has it
 
 _AFTER = 1.0
 """Nothing is shown of what takes less [s]."""
@@ -191,3 +197,15 @@ def _width() -> int:
     with suppress(OSError, ValueError):
         return os.get_terminal_size(sys.stderr.fileno()).columns or _NARROW
     return _NARROW
+
+
+@contextmanager
+def patience(words: str, *, quiet: bool = False) -> Iterator[None]:
+    """Say what is going on, and for how long, once it takes more than a second; take the words back when it is done.
+
+    Parameters
+        words : str - "drawing ty460", shown with dots and the time that has passed behind it
+        quiet : bool - say nothing; nothing is said either where standard error is no terminal
+    """
+    with progress(1, words, quiet=quiet):
+        yield

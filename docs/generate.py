@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from gearlink.cli import glossary
-from gearlink.cli.texts import known
-from gearlink.cli.texts.known import Index, worked_design
-from gearlink.cli.texts.spec_keys import known_keys
+from gearlink.cli.texts import schema
+from gearlink.cli.texts.schema import Index, known_keys, worked_design
 from gearlink.cli.verification import page
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES
@@ -317,8 +316,8 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 
 
 if __name__ == "__main__":
-    known.SCHEMAS.write_text(schemas_text(), encoding="utf-8")  # the other pages read these two
-    known.INDEX.write_text(index_text(), encoding="utf-8")
+    schema.SCHEMAS.write_text(schemas_text(), encoding="utf-8")  # the other pages read these two
+    schema.INDEX.write_text(index_text(), encoding="utf-8")
     TARGET.write_text(text(), encoding="utf-8")
     GLOSSARY.write_text(glossary_text(), encoding="utf-8")
     VALIDATION.write_text(page.text(), encoding="utf-8")

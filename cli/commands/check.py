@@ -20,7 +20,7 @@ from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.render.errors import fitted
 from gearlink.cli.render.json_report import FORMAT, plain_check
-from gearlink.cli.texts.finding_keys import key_of
+from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Outline
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.report import Check

@@ -1,27 +1,32 @@
 """One command on one design file: read, build the design, report, render, plot.
 
 What is computed is printed before it is drawn: no picture that cannot be made takes the numbers with it.
+
+`--profile`: what a command computed and how long each took, reported on standard error.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, require_folder, wrote
 from gearlink.cli.options import STREAM, Format, Options
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.render.markdown_report import text_of
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import fixed_name
 from gearlink.core.base.report import Report
+from gearlink.core.base.results import observed
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
@@ -33,7 +38,6 @@ def run_design(command: str, source: str, options: Options) -> int:
     """Run `command` on the design file `source`, print the result, and give the exit status."""
     if not options.profile:
         return _run(command, source, options, _untimed)
-    from gearlink.cli.commands.profile import Profile
 
     profile = Profile()
     try:
@@ -143,7 +147,7 @@ def print_report(report: Report, options: Options) -> None:
     elif options.quantities:
         print(as_lines(report))
     elif report.key and not options.all:
-        from gearlink.cli.render.key_results import show_key_results
+        from gearlink.cli.render.terminal import show_key_results
 
         show_key_results(report, options)
     else:
@@ -160,3 +164,57 @@ def as_lines(report: Report) -> str:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
         lines.append((f"{quantity.name} = " if several else "") + visible(text_of(quantity.value)) + unit)
     return "\n".join(lines)
+
+
+@dataclass(slots=True)
+class Step:
+    """A result that was computed: with what it took itself, and with what it asked others for."""
+
+    name: str
+    depth: int
+    total: float = 0.0
+    own: float = 0.0
+
+
+@dataclass(slots=True)
+class Profile:
+    """The steps of a run in the order in which they were begun."""
+
+    steps: list[Step] = field(default_factory=list)
+    _open: list[Step] = field(default_factory=list)
+
+    @contextmanager
+    def step(self, name: str) -> Iterator[None]:
+        """Time what is done within; what is begun inside counts to the total, not to its own time."""
+        step = Step(name, len(self._open))
+        self.steps.append(step)
+        self._open.append(step)
+        begun = perf_counter()
+        try:
+            yield
+        finally:
+            took = perf_counter() - begun
+            step.total += took
+            step.own += took
+            self._open.pop()
+            if self._open:
+                self._open[-1].own -= took
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Time a stage of a command; while it computes, every result of gearlink.core is a step below it."""
+        with observed(self.step) if name == "compute" else nullcontext(), self.step(name):
+            yield
+
+    def lines(self) -> list[str]:
+        """The profile as text, one line per step, indented under the one that asked for it.
+
+        Example
+            >>> profile = Profile([Step("read", 0, 0.002, 0.002)])
+            >>> profile.lines()
+            ['   total ms     own ms  computed', '      2.000      2.000  read']
+        """
+        rows = [
+            f"{step.total * 1e3:11.3f}{step.own * 1e3:11.3f}  {'  ' * step.depth}{step.name}" for step in self.steps
+        ]
+        return [f"{'total ms':>11}{'own ms':>11}  computed", *rows]

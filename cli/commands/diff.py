@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import json_text, visible
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.places import is_named_pipe, piped
 from gearlink.cli.render.json_report import FORMAT, as_plain
@@ -295,7 +295,7 @@ def _report(design: Design, command: str) -> Report:
 
 
 def _units(kind: Kind) -> dict[str, str]:
-    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.cli.texts.schema import spec_keys
 
     return {key.path: key.unit for key in spec_keys(kind)}
 

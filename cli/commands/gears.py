@@ -143,7 +143,7 @@ def run_gears(task: PairTask, options: Options, carried: Carried | None = None, 
     import sys
 
     from gearlink.cli.commands.design import print_report
-    from gearlink.cli.patience import patience
+    from gearlink.cli.progress import patience
     from gearlink.core.base.report import Report
     from gearlink.core.base.wording import amount
     from gearlink.core.parts.gears.shifts.search import candidates, table_of

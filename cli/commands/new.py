@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
-from gearlink.cli.texts.known import index, worked_design
+from gearlink.cli.texts.schema import index, worked_design
 from gearlink.core.base.kinds import FILES, KINDS
 from gearlink.core.base.spec_paths import part_at
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.spec_keys import SpecKey
+    from gearlink.cli.texts.schema import SpecKey
     from gearlink.core.base.kind import Kind
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
     """Print the template of a kind or write it to a file; give the exit status."""
-    from gearlink.cli.commands.kind_names import kind_named
+    from gearlink.cli.commands.schema import kind_named
     from gearlink.cli.files import CannotWrite, require_free, stem_of, write_atomically
 
     if not kind_name:
@@ -94,7 +94,7 @@ def _read(text: str) -> Any:
 
 def _left_out(kind: Kind, text: str) -> str:
     """The keys that a design leaves out, as comments; nothing where it uses all."""
-    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.cli.texts.schema import spec_keys
 
     data = _read(text)
     rows = []

@@ -1,18 +1,36 @@
 """Commands around the design files: new, schema, explain, check, diff; and verify.
 
 Each imports what it runs when it runs.
+
+Commands that make pictures of their own: chart, animate. Each imports what it runs when it runs.
+
+The commands of tolerances: their own options become keys of the sections `tolerance` and `register_tolerances`.
+
+Puts `gearlink explore` into the command tree; what it runs is imported when it runs.
+
+Puts `gearlink export` into the command tree; what it runs is imported when it runs.
 """
 
 from __future__ import annotations
 
+import math
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from gearlink.cli.options import Format, Options, file, folder
-from gearlink.cli.typer_options import offers, option, place, takes
+from gearlink.cli.exploring.options import Exploring
+from gearlink.cli.export.options import (
+    DEFAULT_TOLERANCE,
+    LEAST_TOLERANCE,
+    MOST_TOLERANCE,
+    CurveForm,
+    Export,
+    FileFormat,
+)
+from gearlink.cli.options import OPTIONS, Format, Options, PlotFormat, file, folder, plain_file
+from gearlink.cli.typer_options import Dask, Jobs, Spec, keyed, offers, option, place, takes
 from gearlink.core.base.kinds import FILES
 
 
@@ -27,7 +45,7 @@ class PageFormat(StrEnum):
 PageOption = Annotated[PageFormat, option("format", help="how the answer is printed")]
 
 
-def register(app: typer.Typer) -> None:
+def register_reference(app: typer.Typer) -> None:
     """Add the commands of this module to the command tree."""
     for name, command in (
         ("check", _check),
@@ -167,3 +185,338 @@ def _verify(
     from gearlink.cli.commands.verify import run_verify
 
     raise typer.Exit(run_verify(prefixes or (), options, everything=everything))
+
+
+Show = Annotated[
+    str,
+    typer.Option(
+        "--show",
+        metavar="WHAT,...",
+        help="draw on the mechanism: velocity, acceleration, force (each also as :POINT), path:POINT, centres, ghosts",
+    ),
+]
+
+
+class ReportFormat(StrEnum):
+    """How a report is written."""
+
+    HTML = "html"
+    PDF = "pdf"
+
+
+class MovingFormat(StrEnum):
+    """How a moving picture is written."""
+
+    GIF = "gif"
+    MP4 = "mp4"
+    HTML = "html"
+
+
+class Paper(StrEnum):
+    """Sheets of paper, ISO 216."""
+
+    A0 = "A0"
+    A1 = "A1"
+    A2 = "A2"
+    A3 = "A3"
+    A4 = "A4"
+
+
+def register_pictures(app: typer.Typer) -> None:
+    """Add the commands of this module to the command tree."""
+    app.command("chart")(_chart)
+    app.command("animate")(_animate)
+    app.command("sheet")(_sheet)
+
+
+@takes(
+    *("format", "plot", "plot_format", "dpi", "out", "overrides", "all", "digits", "color", "quiet"),
+    plot="write the figure NAME-chart.png",
+    all="show every row",
+)
+def _chart(
+    options: Options,
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="chart; default: list the charts", autocompletion=offers("charts"))
+    ] = "",
+    spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file, of the chart residual")] = "",
+    design: Annotated[str, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")] = "",
+    range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
+    curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",
+    samples: Annotated[int, option("samples", help="rows of the table", most=1_000_000)] = 91,
+    device: Annotated[str, typer.Option("--device", metavar="TYPE", help="of a wide swing: pneumatic or spring")] = "",
+    stretch_ratio: Annotated[float | None, typer.Option("--stretch-ratio", min=0.0, help="of that spring")] = None,
+    pivot_ratio: Annotated[float | None, typer.Option("--pivot-ratio", min=1.0, help="of that device")] = None,
+) -> None:
+    """Design charts of the three-gear four-bar with I = 1 over frame and gears, and of wide swings over the swing.
+
+    The chart residual SPEC shows what vibration the laws of a file leave over the speed, beside usual laws.
+
+    Example: gearlink chart back-step --curves 60,90,120 --range -6:-1 --plot --format csv
+    """
+    from gearlink.cli.commands.chart import Asked, run_chart
+
+    raise typer.Exit(
+        run_chart(Asked(name, range_, curves, samples, design or spec, (device, stretch_ratio, pivot_ratio)), options)
+    )
+
+
+@takes("out", "overrides", "quiet")
+def _animate(
+    spec: Spec,
+    options: Options,
+    format: Annotated[MovingFormat, option("format", help="file format of the animation")] = MovingFormat.GIF,
+    fps: Annotated[int, typer.Option(min=1, max=50, help="frames per second")] = 25,
+    seconds: Annotated[
+        float | None,
+        typer.Option(min=0.1, max=120.0, help="length of the loop; default: 4, or longer where teeth move fast"),
+    ] = None,
+    size: Annotated[str, typer.Option(metavar="WIDTHxHEIGHT", help="size of the figure in pixels")] = "960x720",
+    show: Show = "",
+) -> None:
+    """Animate the mechanism as a seamless loop, NAME-motion.gif; HTML has controls, mp4 needs ffmpeg.
+
+    Instants at which a check fails have a red frame.
+
+    Example: gearlink animate design.yaml --format html --show velocity,path:C
+    """
+    from gearlink.cli.commands.animate import Asked, run_animate
+
+    raise typer.Exit(run_animate(spec, Asked(format.value, fps, seconds, size, show), options))
+
+
+@takes("plot_format", "dpi", "out", "overrides", "quiet")
+def _sheet(
+    spec: Spec,
+    options: Options,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[NAME]...",
+            help="motion, vectors, forces, dwell, zone, tornado, timing, pressure, contact, drawing; default: all",
+            autocompletion=offers("sheets"),
+        ),
+    ] = None,
+    scale: Annotated[
+        str | None, typer.Option(metavar="1[:N]", help="draw cams true to this scale, with a bar that checks the print")
+    ] = None,
+    paper: Annotated[
+        Paper | None, typer.Option(help="of --scale: the sheet of paper; default: as large as the drawing")
+    ] = None,
+    at: Annotated[
+        str,
+        typer.Option(metavar="X,...", help="of vectors: inputs in deg or mm, at most 4; default: the fastest"),
+    ] = "",
+    show: Show = "",
+    format: Annotated[  # the name of the option
+        PlotFormat | None, typer.Option("--format", "-f", help="the same as --plot-format")
+    ] = None,
+) -> None:
+    """Write further sheets of a design: motion of every output, velocities and accelerations, timing, drawings of cams.
+
+    A drawing of a cam whose check fails is stamped, exit status 1.
+
+    Example: gearlink sheet press.yaml drawing --scale 1 --format pdf
+    """
+    from gearlink.cli.commands.sheet import Asked, run_sheet
+
+    chosen = options if format is None else options._replace(plot_format=format)
+    raise typer.Exit(
+        run_sheet(spec, names or [], chosen, Asked(scale, None if paper is None else paper.value, at, show))
+    )
+
+
+_SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force", "candidates")]
+
+
+class Method(StrEnum):
+    """How a register_tolerances band is computed."""
+
+    WORST = "worst"
+    RSS = "rss"
+    MC = "mc"
+
+
+Samples = Annotated[
+    int | None, typer.Option("--samples", min=16, max=2**24, help="designs as manufactured; rounded up to 16 x 2^k")
+]
+Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
+
+Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on this scheduler's Dask cluster")]
+
+
+def register_tolerances(app: typer.Typer) -> None:
+    """Add the commands of this module to the command tree."""
+    app.command("tolerance")(_tolerance)
+    app.command("register_tolerances")(_register)
+
+
+def _place(text: str) -> str | float:
+    """An input angle [deg], or the name of a place."""
+    try:
+        angle = float(text)
+    except ValueError:
+        return text
+    return angle if math.isfinite(angle) else text
+
+
+@takes(*_SHARED)
+def _tolerance(
+    spec: Spec,
+    options: Options,
+    samples: Samples = None,
+    seed: Seed = None,
+    worst_case: Annotated[bool, typer.Option("--worst-case", help="add the table corners")] = False,
+    sobol: Annotated[bool, typer.Option("--sobol", help="Sobol' indices of every source")] = False,
+    allocate: Annotated[
+        bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
+    ] = False,
+    jobs: Jobs = 0,
+    dask: Scheduler = "",
+) -> None:
+    """Yield of a design as manufactured: spreads, capabilities, and which tolerance contributes what.
+
+    Exit status: 1 a check of the nominal design fails, or the yield may lie below its target.
+
+    Example: gearlink tolerance designs/candy_feed_tolerances.yaml --worst-case
+    """
+    from gearlink.cli.commands.design import run_design
+    from gearlink.cli.parallel.shares import shares_by
+
+    options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed, "--sobol": sobol or None})
+    added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
+    options = options._replace(tables=(*options.tables, *added))
+    with shares_by(jobs, dask, words="samples", quiet=options.quiet):
+        raise typer.Exit(run_design("tolerance", spec, options))
+
+
+@takes(*_SHARED)
+def _register(
+    spec: Spec,
+    options: Options,
+    at: Annotated[
+        str | None,
+        typer.Option(
+            "--at", metavar="PLACE", help="dwell, zone, handover, range, or an angle", autocompletion=offers("places")
+        ),
+    ] = None,
+    method: Annotated[Method | None, typer.Option("--method", help="how the band is computed")] = None,
+    radius: Annotated[
+        float | None, typer.Option("--radius", min=1e-6, help="radius of the output's error in mm")
+    ] = None,
+    samples: Samples = None,
+    seed: Seed = None,
+    jobs: Jobs = 0,
+    dask: Scheduler = "",
+) -> None:
+    """Register: what play, runout and the other errors of the parts cost at the output, by source.
+
+    Exit status: 1 the budget is exceeded.
+
+    Example: gearlink register_tolerances designs/candy_feed_tolerances.yaml --at dwell
+    """
+    from gearlink.cli.commands.design import run_design
+    from gearlink.cli.parallel.shares import shares_by
+
+    place = None if at is None else _place(at)
+    options = keyed(
+        options, "register_tolerances", {"--at": place, "--method": method and method.value, "--radius": radius}
+    )
+    options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed})
+    with shares_by(jobs, dask, words="samples", quiet=options.quiet):
+        raise typer.Exit(run_design("register_tolerances", spec, options))
+
+
+def register_exploring(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("explore")(_explore)
+
+
+@takes("format", "plot", "plot_format", "out", "overrides", "digits", "strict", "color", "quiet")
+def _explore(
+    source: Annotated[str, typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
+    options: Options,
+    store: Annotated[
+        Path | None, place(plain_file, "--store", metavar="FILE", help="keep what is finished in this file")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="continue what the store has")] = False,
+    budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
+    jobs: Jobs = 0,
+    dask: Dask = "",
+    show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
+    write: Annotated[
+        Path | None, place(folder, "--write", metavar="DIR", help="write the kept designs as files")
+    ] = None,
+) -> None:
+    """Find the best of many designs: the exact front of a grid, or a sampled one.
+
+    Exit status: 0 there is a front, 1 no design satisfies everything, 2 the study is wrong.
+
+    Example: gearlink explore designs/studies/dwell_feed.yaml
+    """
+    from gearlink.cli.exploring.run import run_explore
+
+    options = keyed(options, "sampling", {"--budget": budget, "--seed": seed})
+    asked = Exploring(options, source, store, resume, jobs, dask, show, write)
+    raise typer.Exit(run_explore(asked))
+
+
+def register_export(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("export")(_export)
+
+
+@takes("out", "overrides", "quiet", quiet="do not list the files that are written")
+def _export(
+    spec: Spec,
+    options: Options,
+    as_: Annotated[list[FileFormat], typer.Option("--as", help="format of the files (repeatable)")] = [FileFormat.DXF],  # noqa: B006 - Typer copies it
+    part: Annotated[
+        list[str],
+        typer.Option(
+            "--part",
+            metavar="NAME",
+            help="main_cam, gear1, blocking_contour ... (repeatable)",
+            autocompletion=offers("parts"),
+        ),
+    ] = [],  # noqa: B006
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            min=LEAST_TOLERANCE,
+            max=MOST_TOLERANCE,
+            metavar="MM",
+            help="maximum chord error, default 0.001; of --cam-table the maximum error of position (mm, deg)",
+        ),
+    ] = None,
+    curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,
+    width: Annotated[
+        float | None,
+        typer.Option(min=1e-3, max=1e5, metavar="MM", help="width of STEP solids; default: face_width of the file"),
+    ] = None,
+    cam_table: Annotated[
+        bool, typer.Option("--cam-table", help="the table of a servo drive instead of a cam, NAME-cam-table.csv")
+    ] = False,
+    rows: Annotated[
+        int | None, typer.Option(min=2, max=100_000, help="rows of --cam-table, both ends; default: servo of the file")
+    ] = None,
+) -> None:
+    """Write the profiles of cams and gears as DXF, SVG, CSV or STEP, NAME-PART.dxf for each part; gears as REXS.
+
+    Closed outlines run counter-clockwise, also round a hole; the rows of a CSV of a cam follow its angle.
+
+    STEP (solids) needs cadquery-ocp: pip install cadquery-ocp. REXS 1.7 is one file for all gears.
+
+    Exit status 1: the files were written, but a roller cuts into its profile.
+
+    Example: gearlink export designs/ty460.yaml --part main_cam --as dxf --as svg
+    """
+    if cam_table:
+        from gearlink.cli.export.cam_table import run_cam_table
+
+        raise typer.Exit(run_cam_table(spec, options, rows, tolerance))
+    from gearlink.cli.export.command import run_export
+
+    within = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), within, curve, options, width)))

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
-from gearlink.cli.patience import patience
+from gearlink.cli.progress import patience
 from gearlink.cli.quiet import without_notes
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import require_free, stem_of, write_atomically
 from gearlink.cli.options import STREAM
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.schema import spec_keys
 from gearlink.cli.texts.written_design import flow, written
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import part_at, put

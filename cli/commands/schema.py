@@ -1,4 +1,7 @@
-"""`gearlink schema`: the JSON Schema of one kind of design file, or of all."""
+"""`gearlink schema`: the JSON Schema of one kind of design file, or of all.
+
+A kind of design by name, or the nearest names on standard error.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +9,30 @@ import json
 import sys
 from pathlib import Path
 
-from gearlink.cli.commands.kind_names import kind_named
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema
+from gearlink.core.base.errors import named
+from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES
+
+
+def kind_named(name: str) -> Kind | None:
+    """The kind, or None after the error has been shown."""
+    if name in FILES:
+        return FILES[name]
+    from difflib import get_close_matches
+
+    near = get_close_matches(name.lower().replace("_", "-"), FILES, n=3, cutoff=0.4)
+    known = f"the kinds are {', '.join(FILES)}"
+    remedy = f"nearest: {', '.join(near)}; {known}" if near else known
+    show_errors([Diagnostic("GL109", f"no kind {named(name)}", "<command line>", key=name, help=remedy)], Options())
+    return None
+
 
 PATTERNS = ("designs/**/*.yaml", "*.gearlink.yaml")
 """Names of files that an editor takes for design files."""

@@ -15,8 +15,7 @@ from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whol
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
-from gearlink.cli.patience import patience
-from gearlink.cli.progress import counted
+from gearlink.cli.progress import counted, patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import named

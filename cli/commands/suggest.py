@@ -17,8 +17,8 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import STREAM, Format, Options
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import json_text
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import NoSolution

@@ -29,7 +29,7 @@ def run_verify(prefixes: Sequence[str], options: Options, *, everything: bool = 
     Parameters
         everything : bool - in the table form every number, as where prefixes are given
     """
-    from gearlink.cli.patience import patience
+    from gearlink.cli.progress import patience
     from gearlink.cli.render.errors import show_errors
     from gearlink.cli.verification.cases import sources
     from gearlink.cli.verification.computing import computed

@@ -19,8 +19,8 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.base.errors import NoSolution

@@ -22,8 +22,8 @@ from gearlink.cli.export.header import describe, design_hash
 from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
 from gearlink.cli.export.sampling import Sampled
 from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
-from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
+from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors, show_refusal

@@ -1,4 +1,7 @@
-"""Processes to compute in, as an ordinary Executor: they end with this process, whatever ends it."""
+"""Processes to compute in, as an ordinary Executor: they end with this process, whatever ends it.
+
+Ctrl-C where what is finished is worth keeping: the first asks for the end, a second one ends the process.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,7 @@ from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from types import FrameType
 from typing import Any, ParamSpec, TypeVar
 
 from gearlink.cli.files import leave_nothing_behind
@@ -143,3 +147,28 @@ def _end_with_parent() -> None:
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(_GRACE_SECONDS)
     os._exit(128 + signal.SIGTERM)
+
+
+@contextmanager
+def calm() -> Iterator[Callable[[], bool]]:
+    """Gives what tells whether the user has asked for the end; nothing is broken off by the asking.
+
+    Notes
+        A second Ctrl-C does what it did before. What the parent of the process chose to ignore stays ignored.
+    """
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(before):
+        yield lambda: False
+        return
+    heard: list[int] = []
+
+    def hear(number: int, frame: FrameType | None) -> None:
+        heard.append(number)
+        if len(heard) > 1:
+            before(number, frame)
+
+    signal.signal(signal.SIGINT, hear)
+    try:
+        yield lambda: bool(heard)
+    finally:
+        signal.signal(signal.SIGINT, before)

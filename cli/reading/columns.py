@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
-from gearlink.cli.reading.files_read import note
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile
-from gearlink.cli.reading.places import base_path, nearest_file
+from gearlink.cli.reading.places import base_path, nearest_file, note
 from gearlink.cli.reading.yaml_reader import format_path
 
 _MOST_ROWS = 100_000

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 from gearlink.cli.files import stem_of
 from gearlink.cli.options import Keyed
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
-from gearlink.cli.reading.files_read import note
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray, base_path, is_named_pipe, nearest_file, piped
+from gearlink.cli.reading.places import ENDINGS, astray, base_path, is_named_pipe, nearest_file, note, piped
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,

@@ -419,7 +419,7 @@ class _Wording:
         A word of the field that means a size of other mechanisms is none of the loads, tolerances and ratings.
         """
         from gearlink.cli.glossary import meanings_of
-        from gearlink.cli.texts.spec_keys import known_keys
+        from gearlink.cli.texts.schema import known_keys
 
         kind = str(self.loaded.data.get("kind", ""))
         of_kind = (path for path, kinds in known_keys() if kind in kinds)

@@ -1,11 +1,16 @@
-"""The design files that folders, patterns and names on a command line stand for."""
+"""The design files that folders, patterns and names on a command line stand for.
+
+Which files a result was made of: every reader of a design's files tells them here.
+"""
 
 from __future__ import annotations
 
 import glob
 import os
 import stat
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from itertools import islice
 from pathlib import Path
 
@@ -134,3 +139,24 @@ def _neighbours(name: str, folders: bool) -> list[str]:
 def base_path(file: str, of: str) -> Path:
     """Where the file named by `of` stands: beside the file that names it; in the current folder where that is none."""
     return Path(of) if file.startswith("<") else Path(file).parent / of
+
+
+_NOTED: ContextVar[dict[str, bytes] | None] = ContextVar("noted", default=None)
+
+
+@contextmanager
+def files_read() -> Iterator[dict[str, bytes]]:
+    """The content of the files that are read within, by their paths."""
+    found: dict[str, bytes] = {}
+    token = _NOTED.set(found)
+    try:
+        yield found
+    finally:
+        _NOTED.reset(token)
+
+
+def note(path: str | os.PathLike[str], content: bytes) -> None:
+    """Tell what a file held when it was read."""
+    noted = _NOTED.get()
+    if noted is not None:
+        noted[os.fspath(path)] = content

@@ -1,15 +1,86 @@
-"""The keys of the design files as JSON Schema draft-07, the dialect that editors read."""
+"""The keys of the design files as JSON Schema draft-07, the dialect that editors read.
+
+What is known of every kind of file, kept in two files: reading all models and design classes takes a second.
+
+`make docs` writes them; a test compares them with models and classes.
+
+Every key that a kind of design file may have: path, unit, range, default and meaning, read from its schema.
+"""
 
 from __future__ import annotations
 
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.texts.known import schema_parts
+from gearlink import designs
 
 if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind
 
+
+_KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
+
+
+def worked_design(kind: Kind) -> str:
+    """The text of the kind's example: the file that bears its name, else the first by name."""
+    folder = Path(str(designs.__file__)).parent
+    files = [(file.stem, file.read_text(encoding="utf-8")) for file in folder.rglob("*.yaml")]
+    own = {stem: text for stem, text in files if (found := _KIND.search(text)) and found[1] == kind.name}
+    if not own:
+        raise LookupError(f"no example of kind {kind.name} in gearlink.designs")
+    return own.get(kind.worked or kind.name.replace("-", "_"), own[min(own)])
+
+
 Node = dict[str, Any]
+SCHEMAS = Path(__file__).parent / "schemas.json"
+INDEX = Path(__file__).parent / "index.json"
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """Who gives what.
+
+    Fields
+        checks : check -> kinds that make it
+        quantities : quantity -> kinds with the commands that show it
+        laws : names of motion laws
+        first_commands : kind -> the first command that its example asks for
+    """
+
+    checks: dict[str, list[str]]
+    quantities: dict[str, list[str]]
+    laws: list[str]
+    first_commands: dict[str, str]
+
+
+@cache
+def index() -> Index:
+    """The index, as the file has it."""
+    return Index(**json.loads(INDEX.read_text(encoding="utf-8")))
+
+
+def schema_parts(kind: Kind, prefix: str) -> tuple[Node, Node]:
+    """The schema of a kind and its definitions, whose names get a prefix."""
+    stored = _schemas()
+    body, names = stored["kinds"][kind.name]
+    found = {name.partition("#")[0]: stored["definitions"][name] for name in names}
+    if prefix:
+        text = json.dumps([body, found]).replace('"#/definitions/', f'"#/definitions/{prefix}')
+        body, found = json.loads(text)
+    return body, {prefix + name: node for name, node in found.items()}
+
+
+@cache
+def _schemas() -> Node:
+    found: Node = json.loads(SCHEMAS.read_text(encoding="utf-8"))
+    return found
+
+
 DRAFT = "http://json-schema.org/draft-07/schema#"
 
 
@@ -59,3 +130,119 @@ def for_editors(node: Any) -> Any:
 
 
 _NUMBER_UNIT = r"^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^\s0-9.,+-]"
+
+
+_LOWER, _UPPER = (
+    (("exclusiveMinimum", "above"), ("minimum", "from")),
+    (("exclusiveMaximum", "below"), ("maximum", "to")),
+)
+"""Of two bounds that are one number the exclusive one is narrower, and comes first."""
+
+
+_MOST_CHOICES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class SpecKey:
+    """A key of a design file.
+
+    Fields
+        path : str - dotted, 'gears.module'
+        unit, words : str - unit ('1': none), meaning
+        range : str - 'above 0, below 45', 'arc or parabola'; empty where anything goes
+        default : the value when the key is left out; None where there is none
+        required : bool - its section needs it
+        section : bool - it holds keys of its own
+        also : the standard terms that are accepted for its last word
+    """
+
+    path: str
+    unit: str
+    words: str
+    range: str
+    default: Any
+    required: bool
+    section: bool
+    also: tuple[str, ...] = ()
+
+
+def spec_keys(kind: Kind) -> list[SpecKey]:
+    """The keys of a kind in the order of its model, sections before what they hold, each once."""
+    schema = kind_schema(kind)
+    found: dict[str, SpecKey] = {}
+    for key in _keys(schema, schema["definitions"], ""):
+        before = found.setdefault(key.path, key)
+        if key.range != before.range:  # `type` of a section that has several
+            either = [*before.range.split(" or "), *key.range.split(" or ")] if before.range and key.range else []
+            found[key.path] = replace(before, range=" or ".join(dict.fromkeys(either)))
+    return list(found.values())
+
+
+def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
+    required = {*section.get("required", ()), *_either(section)}
+    for name, node in section.get("properties", {}).items():
+        if "aliasOf" in node:
+            continue
+        path = before + name
+        inner = list(_sections(node, definitions))
+        yield SpecKey(
+            path,
+            node.get("unit", ""),
+            node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
+            _range(node),
+            node.get("default"),
+            name in required,
+            bool(inner),
+            tuple(node.get("also", ())),
+        )
+        for part in inner:
+            yield from _keys(part, definitions, path + ".")
+
+
+def _either(section: Node) -> Iterator[str]:
+    """The keys that a section needs under one of their names, the fixed one."""
+    for part in section.get("allOf", ()):
+        yield from (choice["required"][0] for choice in part.get("anyOf", ())[:1] if "required" in choice)
+
+
+def _sections(node: Node, definitions: Node) -> Iterator[Node]:
+    """Sections that may stand at a node: itself, an alternative of it, but not elements of a list."""
+    if "$ref" in node:
+        yield definitions[str(node["$ref"]).rpartition("/")[2]]
+    elif "properties" in node and "description" in node:  # of a law by its numbers nothing is said
+        yield node
+    for combination in ("allOf", "anyOf", "oneOf"):
+        for part in node.get(combination, ()):
+            yield from _sections(part, definitions)
+
+
+def _range(node: Node) -> str:
+    """Bounds or choices of a node; of its alternatives or of its elements where it has none itself."""
+    choices = [node["const"]] if "const" in node else node.get("enum", ())
+    if choices:
+        words = [str(choice).lower() if isinstance(choice, bool) else str(choice) for choice in choices]
+        return "" if len(words) > _MOST_CHOICES else " or ".join(words)
+    bounds = [*_narrowest(node, _LOWER, 1.0), *_narrowest(node, _UPPER, -1.0)]
+    if bounds:
+        return ", ".join(bounds)
+    inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]
+    return " or ".join(dict.fromkeys(words for words in map(_range, inner) if words))
+
+
+def _narrowest(node: Node, bounds: tuple[tuple[str, str], ...], sign: float) -> list[str]:
+    """The bound of one side in words, the narrower where a node has two."""
+    found = [(sign * node[bound], word) for bound, word in bounds if bound in node]
+    return [f"{word} {sign * value:.15g}" for value, word in found if value == max(found)[0]][:1]
+
+
+@cache
+def known_keys() -> list[tuple[SpecKey, list[str]]]:
+    """Each key of files with the kinds that have it in the same words and range."""
+    from gearlink.core.base.kinds import FILES
+
+    found: dict[tuple[str, str, str], tuple[SpecKey, list[str]]] = {}
+    for kind in FILES.values():
+        for key in spec_keys(kind):
+            if key.path != "kind":
+                found.setdefault((key.path, key.words, key.range), (key, []))[1].append(kind.name)
+    return list(found.values())

@@ -7,8 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.texts.schema import kind_schema
-from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
+from gearlink.cli.texts.schema import SpecKey, kind_schema, spec_keys
 
 if TYPE_CHECKING:
     from gearlink.core.base.kind import Kind

@@ -13,7 +13,7 @@ import yaml
 
 from docs.manual import runs, tables
 from docs.manual.runs import ROOT
-from gearlink.cli.texts import known as stored
+from gearlink.cli.texts import schema
 from gearlink.cli.texts.codes import explanations
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.report import Rule
@@ -130,7 +130,7 @@ def _check(rule: Rule) -> str:
     lines += [f"**Limit.** `{rule.formula}`\n"] if rule.formula else []
     lines += [f"**How to repair.** {rule.remedy}\n"]
     lines += [f"**Keys.** {', '.join(f'`{key}`' for key in rule.keys)}\n"] if rule.keys else []
-    kinds = sorted({kind for name in rule.checks for kind in stored.index().checks.get(name, ())})
+    kinds = sorted({kind for name in rule.checks for kind in schema.index().checks.get(name, ())})
     lines += [f"**Kinds.** {', '.join(f'[{kind}](../kinds/{kind}.md)' for kind in kinds)}\n"] if kinds else []
     lines += [f"**Source.** {rule.source}\n"] if rule.source else []
     if rule.code in FAILING:

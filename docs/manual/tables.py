@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cache
 
-from gearlink.cli.texts import known as stored
+from gearlink.cli.texts import schema
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
+from gearlink.cli.texts.schema import SpecKey, spec_keys
 from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.nomenclature import TERMS
@@ -85,7 +85,7 @@ def _checks_of() -> dict[str, list[str]]:
     """Codes by kind, in their order."""
     found: dict[str, list[str]] = {kind: [] for kind in FILES}
     for code, rule in rules().items():
-        for kind in dict.fromkeys(kind for name in rule.checks for kind in stored.index().checks.get(name, ())):
+        for kind in dict.fromkeys(kind for name in rule.checks for kind in schema.index().checks.get(name, ())):
             found[kind].append(code)
     return found
 

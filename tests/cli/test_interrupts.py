@@ -21,7 +21,7 @@ import pytest
 
 from gearlink.cli import process
 from gearlink.cli.files import _without_name
-from gearlink.cli.parallel.calm import calm
+from gearlink.cli.parallel.workers import calm
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 OWN = re.compile(re.escape(str(Path(process.__file__).parent)) + r"/(\S+)")

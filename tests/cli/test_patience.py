@@ -6,7 +6,7 @@ import time
 import pytest
 
 from gearlink.cli import progress as module
-from gearlink.cli.patience import patience
+from gearlink.cli.progress import patience
 
 
 class Terminal(io.StringIO):

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
-from gearlink.cli.texts.spec_keys import known_keys
+from gearlink.cli.texts.schema import known_keys
 from gearlink.core.base.kinds import FILES
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -24,7 +24,7 @@ _SHOWN = 0.125
 
 def draw_disc(command: str, design: DiscCamDesign) -> Figure:
     """The picture of a command on a disc cam."""
-    from gearlink.cli.views.scenes.disc_cam import build
+    from gearlink.cli.views.scenes.cams import build
 
     outline, rows = _page(f"{design.spec.name}: {command}", 3.2)
     panels.drawing(outline, "Cam and follower an eighth of a revolution after cam angle 0")

@@ -11,9 +11,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.figures.gears.mesh import COLORS, Mesh, gear_zone, mesh_zone, values, whole_gears
-from gearlink.cli.views.figures.gears.path_of_contact import contact_path, zone_frame, zone_legend, zone_size
-from gearlink.cli.views.figures.gears.values import gear_text, headed, ruled, value_rows
+from gearlink.cli.views.figures.gears.mesh import (
+    COLORS,
+    Mesh,
+    contact_path,
+    gear_text,
+    gear_zone,
+    headed,
+    mesh_zone,
+    ruled,
+    value_rows,
+    values,
+    whole_gears,
+    zone_frame,
+    zone_legend,
+    zone_size,
+)
 from gearlink.cli.views.scenes.rack import rack_body, rack_scene
 from gearlink.cli.views.scenes.scene import Body, Scene, placed
 from gearlink.core.base.errors import NoSolution

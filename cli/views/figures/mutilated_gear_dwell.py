@@ -1,19 +1,128 @@
-"""Sheets of a dwell by a mutilated gear: wheel and four-bar to scale, motion over a cycle; the mesh for `gear`."""
+"""Sheets of a dwell by a mutilated gear: wheel and four-bar to scale, motion over a cycle; the mesh for `gear`.
+
+The mutilated gear: as many cycles as bring the driven gear, and the four-bar on it, home.
+"""
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.mutilated_gear_dwell import build, mesh_scene
+from gearlink.cli.views.scenes.colors import BLUE, ORANGE, pale
+from gearlink.cli.views.scenes.gears import gear
+from gearlink.cli.views.scenes.linkages import Joints
+from gearlink.cli.views.scenes.scene import (
+    TURN,
+    Band,
+    Body,
+    Chart,
+    Curve,
+    Mark,
+    Points,
+    Readout,
+    Reals,
+    Scene,
+    loop,
+    track,
+)
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
+from gearlink.core.machines.dwell_gears.mutilated_mechanism import driven
+from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
+    """Positions over fractions of the loop; the wheel turns clockwise, a motion begins at fraction 0."""
+    cycles = design.mutilated.cycles_to_repeat
+    turns = cycles * design.cycle_turns * fraction
+    moved, axis = _driven(design, turns), track(0.0, fraction)
+    bars, toward = design.linkage, 1.0 if design.linkage is None else 1j
+    center = track(-toward * design.mesh.center_distance, fraction)
+    at = None if bars is None else Joints.of(design.moving, TURN * turns)
+    return Scene(
+        parts=(*_gears(design, turns, center, toward), *([] if at is None else [at.chain()])),
+        marks=(Mark(center, pivot=True), *((Mark(axis, pivot=True),) if at is None else at.marks())),
+        chart=_chart(design, cycles * design.cycle_turns, turns, moved),
+        readouts=(Readout("input turns", "", turns), Readout("driven gear", "°", np.degrees(moved))),
+    )
+
+
+def mesh_scene(design: MutilatedGearDwell) -> Scene:
+    """The two gears alone in the middle of a motion, the wheel in the origin."""
+    turns, center = np.array([0.5 * design.motion_turns]), np.zeros(1)
+    marks = (Mark(center, pivot=True), Mark(center + design.mesh.center_distance, pivot=True))
+    return Scene(parts=tuple(_gears(design, turns, center, 1.0)), marks=marks)
+
+
+def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: complex) -> list[Body]:
+    """The wheel, and the driven gear in a direction from it, after turns of the input."""
+    # A space of the wheel and a tooth of the driven gear stand on the line of centres where a motion begins.
+    line = cmath.phase(toward)
+    place = line + math.pi - math.pi / design.mesh.teeth[1] + _driven(design, turns)
+    axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
+    return [
+        _wheel(design, center, line - TURN * turns / design.reduction),
+        *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, ORANGE, "2", "driven gear"),
+    ]
+
+
+def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
+    return driven(design.mutilated, TURN * turns)[0]
+
+
+def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, now: Reals) -> Chart:
+    x = whole * loop(361)
+    curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(now))
+    cycle, count = design.cycle_turns, design.mutilated.cycles_to_repeat
+    dwells = tuple(Band("dwell", k * cycle + design.motion_turns, (k + 1) * cycle) for k in range(count))
+    return Chart("input turns", "driven gear [deg]", x, turns, (curve,), dwells)
+
+
+def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
+    """The wheel's outline, its first group counter-clockwise from the x axis.
+
+    The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
+    more of them, nor of the locking arcs.
+    """
+    from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, tooth_space
+
+    gears, mesh = design.spec.gears, design.mesh
+    root = mesh.root_radius[0]
+    step = TURN / design.full_teeth
+    try:
+        space = tooth_space(ToothProfile.of(mesh, 0), 0.012 * mesh.module)
+    except NoSolution:
+        space = mesh.tip_radius[0] * np.exp(1j * np.linspace(-0.5 * step, 0.5 * step, 5))
+    half = space[np.angle(space) >= 0.0]
+    tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
+    reach, end = np.abs(tooth), end_tooth_radius(mesh)
+    cut = np.where(reach > end, tooth * (end / reach), tooth)
+    # A wheel with one tooth in a group has a single cut tooth.
+    teeth = [cut if k in (0, design.group_teeth - 1) else tooth for k in range(design.group_teeth)]
+    group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])
+    gap = np.linspace(design.group_teeth * step, TURN / gears.groups, 180)
+    part = np.concatenate([group, root * np.exp(1j * gap)])
+    whole = np.concatenate([part * np.exp(1j * TURN * k / gears.groups) for k in range(gears.groups)])
+    return Body(
+        outline=np.append(whole, whole[0]),
+        place=center,
+        turn=turn,
+        repeats=gears.groups,
+        color=BLUE,
+        fill=pale(BLUE),
+        label="1",
+        name=f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth",
+        pitch=mesh.working_radius[0],
+    )
+
 
 _WORDS = {
     "cycle_turns": "input revolutions per cycle",

@@ -1,4 +1,7 @@
-"""The mechanism of a crank-rocker: crank, coupler, rocker."""
+"""The mechanism of a crank-rocker: crank, coupler, rocker.
+
+What the errors of a crank-rocker move.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,11 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.mechanism.courses import turned
-from gearlink.core.mechanism.links import Link, Mechanism
+from gearlink.core.mechanism.dual import longer
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
+from gearlink.core.studies.register.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.crank_rocker.design import CrankRocker
@@ -36,3 +41,10 @@ def rocker(design: CrankRocker) -> Course:
     first = design.state(0.0 if design.crank_range is None else design.crank_range[0]).rocker_angle
     turns = math.ceil((first - math.pi) / (2.0 * math.pi))
     return turned("rocker").less(2.0 * math.pi * turns) if turns else turned("rocker")
+
+
+def errors(design: CrankRocker, mechanism: Mechanism) -> Movable:
+    """The four links; the error is measured at the joint on the rocker where the file says nothing else."""
+    bar = design.linkage
+    ends = {f"links.{name}": (name, getattr(bar, name)) for name in ("crank", "coupler", "rocker")}
+    return Movable(longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)}), radius=bar.rocker)

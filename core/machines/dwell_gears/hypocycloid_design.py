@@ -31,9 +31,8 @@ from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.studies.clearance.bodies import Layout
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks

@@ -27,9 +27,8 @@ from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.parts.gears.checks import GEAR_CHECKS
 from gearlink.core.parts.gears.codes import TRUE_FILLET
 from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
 from gearlink.core.parts.linkages.codes import TARGET
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing

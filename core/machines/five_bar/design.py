@@ -27,9 +27,8 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.lm import State, descend
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.numerics.quasi_random import halton
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, mesh_quantity, named, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, named, train_ways
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_quantity
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
 from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
@@ -37,11 +36,10 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, 
 from gearlink.core.studies.clearance.reach import Reach, constant, crank_pin
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.five_bar.fit import Fit
+    from gearlink.core.machines.five_bar.fit import Fit, TimedFit
     from gearlink.core.machines.five_bar.function_fit import FunctionFit, Round
     from gearlink.core.machines.five_bar.guidance import Guidance
     from gearlink.core.machines.five_bar.spec import GearedFiveBarSpec
-    from gearlink.core.machines.five_bar.timed_fit import TimedFit
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.parts.linkages.functions import Wanted
 
@@ -593,7 +591,7 @@ class FiveBarParts(Meshed):
             return None
         import numpy as np
 
-        from gearlink.core.machines.five_bar.timed_fit import fit_timed
+        from gearlink.core.machines.five_bar.fit import fit_timed
 
         points = np.array([complex(x, y) for x, y in target.points])
         least = math.radians(self.spec.limits.transmission_angle)

@@ -18,9 +18,8 @@ from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
 from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
-from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, train_ways
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults

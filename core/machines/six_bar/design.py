@@ -28,7 +28,7 @@ from gearlink.core.numerics.roots import sign_changes
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.gears.checks import gear_ways
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning, standing
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at

@@ -23,10 +23,14 @@ from gearlink.core.machines.swing_gripper.law import SixPhaseLaw
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 from gearlink.core.numerics.together import kept_last
-from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.position import solve_inverse as solve_one_inverse
-from gearlink.core.parts.linkages.fourbar.sweep import FourBarInverseSweep, dead_point_distance, solve_inverse
+from gearlink.core.parts.linkages.fourbar.sweep import (
+    FourBarInverseSweep,
+    dead_point_distance,
+    solve_by_newton,
+    solve_inverse,
+)
 
 _MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room
 
@@ -365,7 +369,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     driving, coupler, rocker = _inverse_angles(linkage, motion)
     bite = linkage.output_direction + linkage.output_shift - linkage.frame_direction + math.pi
     swing = (bite, bite + linkage.swing_sense * linkage.law.total_swing)
-    newton = fourbar_newton.solve(linkage.four_bar.inverse(), driving, swing)
+    newton = solve_by_newton(linkage.four_bar.inverse(), driving, swing)
     return TwoWays(
         deviation=np.maximum(_apart(newton.coupler_angle, coupler), _apart(newton.rocker_angle, rocker)),
         iterations=newton.iterations,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearlink.core.base.judged import Judged
-from gearlink.core.base.report import Rule
+from gearlink.core.base.report import Judged, Rule
 
 ACHIEVED = Rule(
     "GL304",

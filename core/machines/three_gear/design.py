@@ -22,8 +22,7 @@ from gearlink.core.machines.three_gear.motion import Extremes, GearTrain, idler_
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
-from gearlink.core.parts.gears.train.meshed import TRAIN_CHECKS, Meshed, named, train_ways
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, named, train_ways
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check, window_judged
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
@@ -35,10 +34,9 @@ from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, 
 from gearlink.core.studies.clearance.reach import constant, coupler_joint, crank_pin
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.three_gear.families import Room
+    from gearlink.core.machines.three_gear.families import Room, Uniform
     from gearlink.core.machines.three_gear.spec import Gears, ThreeGearSpec
     from gearlink.core.machines.three_gear.synthesis import Task
-    from gearlink.core.machines.three_gear.uniform import Uniform
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
@@ -453,7 +451,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         share = self.uniform_tolerance
         if share is None:
             return None
-        from gearlink.core.machines.three_gear.uniform import uniform
+        from gearlink.core.machines.three_gear.families import uniform
 
         return uniform(self._forwards, self._speed_turnings, share)
 

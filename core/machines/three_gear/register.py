@@ -31,7 +31,7 @@ from gearlink.core.machines.three_gear.synthesis import (
 )
 from gearlink.core.mechanism.dual import Shift
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_judged, window_judged
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle

@@ -526,7 +526,7 @@ class SpeedTask(FamilyTask):
         """Thesis (4-20); for an even stretch the minimum frame that has it."""
         speed = self.request
         if speed.uniform_angle is not None:
-            from gearlink.core.machines.three_gear.uniform import frame_ratio_for_window
+            from gearlink.core.machines.three_gear.families import frame_ratio_for_window
 
             mu = math.radians(self.spec.limits.transmission_angle)
             with at_key("speed.uniform_angle"):

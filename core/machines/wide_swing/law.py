@@ -37,8 +37,7 @@ from gearlink.core.machines.wide_swing.device import (
 )
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
-from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
-from gearlink.core.numerics.rising import RisingTable
+from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series, midpoint_mean
 from gearlink.core.numerics.roots import roots_on
 
 _MOST, _SIZE = 64, 4096

@@ -25,8 +25,7 @@ from gearlink.core.machines.wide_swing.law import ElasticLaw, Kept, MiddleView, 
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
-from gearlink.core.numerics.periodic import CosineSeries, cosine_series
-from gearlink.core.numerics.rising import RisingTable
+from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.slider_crank.position import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank.sweep import slider

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gearlink.cli.batch.out import place_of
+from gearlink.cli.batch.run import place_of
 
 CRANK = "kind: slider-crank\nstroke: {stroke}\nrod: 520\noffset: 50\n"
 ALIKE = ("a b.yaml", "a-b.yaml", "a-b.yml", "a_b.yaml", "a b .yaml", "-a-b.yaml", "a-b.yaml.yaml", "a-b~1.yaml")

@@ -14,7 +14,7 @@ from factory import DESIGNS, QUICK
 from sweeps import ALL
 
 from gearlink.cli.commands import check
-from gearlink.cli.texts.finding_keys import key_of
+from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Design
 from gearlink.core.base.report import Check
 

@@ -11,9 +11,8 @@ import pytest
 from factory import DESIGNS, design, each_kind, worked
 from sweeps import mostly_slow
 
-from gearlink.cli.commands.explain import names
+from gearlink.cli.commands.explain import FORMULAS, column_words, names
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.words import FORMULAS, column_words
 from gearlink.core.base.codes import rules
 from gearlink.core.base.kinds import FILES as KINDS
 from gearlink.core.base.nomenclature import TERMS
@@ -78,7 +77,7 @@ def test_no_check_stands_under_two_codes() -> None:
 
 def test_keys_of_the_explanations_exist_in_a_kind() -> None:
     """A finding of `gearlink check` is placed at them."""
-    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.cli.texts.schema import spec_keys
 
     paths = {key.path for kind in KINDS.values() for key in spec_keys(kind)}
     missing = {(code, key) for code, text in explanations().items() for key in text.keys if key not in paths}
@@ -88,10 +87,10 @@ def test_keys_of_the_explanations_exist_in_a_kind() -> None:
 def test_what_is_known_is_what_models_and_classes_say() -> None:
     """After a change of specs or outlines: `make docs`."""
     from docs.generate import index_text, schemas_text
-    from gearlink.cli.texts import known
+    from gearlink.cli.texts import schema
 
-    assert known.SCHEMAS.read_text(encoding="utf-8") == schemas_text()
-    assert known.INDEX.read_text(encoding="utf-8") == index_text()
+    assert schema.SCHEMAS.read_text(encoding="utf-8") == schemas_text()
+    assert schema.INDEX.read_text(encoding="utf-8") == index_text()
 
 
 def test_formulas_belong_to_quantities() -> None:

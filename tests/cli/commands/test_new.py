@@ -11,9 +11,7 @@ import yaml
 from jsonschema import Draft7Validator
 
 from gearlink.cli.reading.design_file import load, validate
-from gearlink.cli.texts.known import worked_design
-from gearlink.cli.texts.schema import kind_schema
-from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.schema import kind_schema, spec_keys, worked_design
 from gearlink.core.base.kinds import FILES as KINDS
 
 SEARCHED = ("geared-five-bar", [*KINDS][-1])

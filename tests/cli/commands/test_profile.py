@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gearlink.cli.commands.profile import Profile
+from gearlink.cli.commands.design import Profile
 from gearlink.cli.main import run
 
 CRANK = ["crank", "designs/ty460_slider_crank.yaml", "--quantity", "crank_length"]

@@ -13,7 +13,7 @@ from factory import design
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.views.scenes.mutilated_gear_dwell import mesh_scene
+from gearlink.cli.views.figures.mutilated_gear_dwell import mesh_scene
 from gearlink.core.machines.dwell_gears.wheel import free_radius
 
 

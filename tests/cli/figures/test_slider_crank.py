@@ -11,9 +11,8 @@ from sheets import curve, lines, panel, placed_sheet, points, sheet, words
 from sweeps import mostly_slow
 
 from gearlink.cli.options import Options
-from gearlink.cli.views.figures.slider_crank import dead_centers
+from gearlink.cli.views.figures.slider_crank import build, dead_centers
 from gearlink.cli.views.figures.write import write_plot
-from gearlink.cli.views.scenes.slider_crank import build
 
 DATA = {"kind": "slider-crank", "name": "sc", "stroke": 310.0, "rod": 520.0, "offset": 50.0}
 CASES = [

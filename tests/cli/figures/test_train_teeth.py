@@ -90,7 +90,7 @@ def depth(points, polygon, inside):
 @pytest.mark.parametrize("name", [name for name in DRAWN if name != "mutilated"])  # its wheel has cut teeth
 def test_drawn_teeth_touch_and_do_not_overlap(name):
     made = design(DRAWN[name])
-    build = import_module(f"gearlink.cli.views.scenes.{made.kind.replace('-', '_')}").build
+    build = import_module(f"gearlink.cli.views.figures.{made.kind.replace('-', '_')}").build
     fractions = np.array([0.0, 0.137, 0.61])
     bodies = toothed(build(made, fractions))
     for index in range(len(fractions)):
@@ -134,7 +134,7 @@ def test_the_rim_of_the_file_is_drawn_and_exported():
     made = design(DRAWN["ring"])
     circles = {circle.layer: circle.radius for circle in parts.makers(made)["gear5"]().circles}
     assert circles["RIM"] == 90.0
-    scene = import_module("gearlink.cli.views.scenes.two_gear_four_bar").build(made, np.zeros(1))
+    scene = import_module("gearlink.cli.views.figures.two_gear_four_bar").build(made, np.zeros(1))
     rims = [part for part in scene.parts if isinstance(part, Body) and part.repeats == 0]
     assert max(abs(rims[0].outline)) == pytest.approx(90.0, rel=1e-12)
     ring = next(gear for gear in made.layout.gears if gear.axis == "A")

@@ -11,14 +11,12 @@ from factory import design, worked
 from sheets import curve, labels, panel, sheet, words
 
 from gearlink.cli.commands.chart import draw
-from gearlink.cli.views.figures import write
+from gearlink.cli.views.figures import three_gear_four_bar, write
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.cli.views.figures.drawing import panels, style
-from gearlink.cli.views.figures.geared_five_bar import _gears
+from gearlink.cli.views.figures.geared_five_bar import _gears, build
 from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet
 from gearlink.cli.views.figures.write import fonts_of
-from gearlink.cli.views.scenes import three_gear_four_bar
-from gearlink.cli.views.scenes.geared_five_bar import build
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 

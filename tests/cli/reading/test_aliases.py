@@ -17,9 +17,7 @@ from gearlink.cli.evaluate import read_spec
 from gearlink.cli.glossary import meaning_in
 from gearlink.cli.reading.design_file import parse, validate, with_overrides
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.texts.known import worked_design
-from gearlink.cli.texts.schema import kind_schema
-from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.schema import kind_schema, spec_keys, worked_design
 from gearlink.core.base.kinds import FILES, STUDY
 from gearlink.core.base.nomenclature import ALIASES, TERMS, fixed_name
 

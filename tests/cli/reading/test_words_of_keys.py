@@ -12,8 +12,7 @@ import yaml
 from gearlink.cli.glossary import Meaning, folded, meanings
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.texts.known import worked_design
-from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.schema import spec_keys, worked_design
 from gearlink.core.base.kinds import FILES
 
 WORKED = {name: yaml.safe_load(worked_design(kind)) for name, kind in FILES.items()}

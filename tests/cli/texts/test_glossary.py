@@ -15,7 +15,7 @@ from factory import DESIGNS
 from gearlink.cli.commands.explain import find, plain_names
 from gearlink.cli.glossary import folded, glossary, meanings, named_places, named_terms, places
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.spec_keys import known_keys, spec_keys
+from gearlink.cli.texts.schema import known_keys, spec_keys
 from gearlink.cli.views.figures.chart_list import CHARTS
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.nomenclature import TERMS

@@ -16,8 +16,7 @@ from pydantic import ValidationError
 
 from gearlink.cli.reading.design_file import load, parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema
-from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.schema import all_kinds_schema, for_editors, kind_schema, spec_keys
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kinds import FILES as KINDS
 

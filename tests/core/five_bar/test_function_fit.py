@@ -21,10 +21,10 @@ from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.five_bar import function_fit
+from gearlink.core.machines.five_bar.fit import fit_timed
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, structural_error
 from gearlink.core.machines.five_bar.path import points
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.machines.five_bar.timed_fit import fit_timed
 from gearlink.core.parts.linkages.functions import Wanted
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())

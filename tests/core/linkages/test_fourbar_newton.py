@@ -24,12 +24,11 @@ from oracles.vector_loop import exact_angles, loop_rates
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.linkages.fourbar import newton as fourbar_newton
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.parts.linkages.fourbar.loop import closing_range
-from gearlink.core.parts.linkages.fourbar.newton import loop_step
 from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.sweep import loop_step
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -99,10 +98,10 @@ def test_every_safe_start_converges_to_its_own_assembly(
     start = (0.0, 0.0)
     while True:
         start = (true.coupler_angle + reach * math.cos(way), true.rocker_angle + reach * math.sin(way))
-        if fourbar_newton.start_is_safe(linkage, phi, *start):
+        if fourbar_sweep.start_is_safe(linkage, phi, *start):
             break
         reach *= 0.9
-    found = fourbar_newton.polish(linkage, phi, *start)
+    found = fourbar_sweep.polish(linkage, phi, *start)
     assert int(found.iterations) <= 8
     assert abs(float(found.coupler_angle) - true.coupler_angle) <= 16 * EPS / g
     assert abs(float(found.rocker_angle) - true.rocker_angle) <= 16 * EPS / g
@@ -129,7 +128,7 @@ def test_exact_dead_point_converges_by_halves_and_stalls_at_root_eps() -> None:
 def test_sweeps_agree_with_the_closed_form(linkage: FourBar) -> None:
     low, high = closing_range(linkage.reading)
     phi = np.linspace(-7.0, 7.0, 281) if linkage.turns_fully() else np.linspace(low, high, 203)[1:-1]
-    found, closed = fourbar_newton.solve(linkage, phi), fourbar_sweep.solve(linkage, phi)
+    found, closed = fourbar_sweep.solve_by_newton(linkage, phi), fourbar_sweep.solve(linkage, phi)
     dev = np.asarray(fourbar_sweep.dead_point_distance(closed.transmission_angle))
     for name in ("coupler_angle", "rocker_angle"):
         want = getattr(closed, name)
@@ -141,11 +140,11 @@ def test_sweeps_agree_with_the_closed_form(linkage: FourBar) -> None:
 
 def test_shape_and_order_of_the_angles_are_kept() -> None:
     phi = np.radians([[300.0, 45.0, 0.0], [720.0, -90.0, 1.0]])
-    found, closed = fourbar_newton.solve(CRANK_ROCKER, phi), fourbar_sweep.solve(CRANK_ROCKER, phi)
+    found, closed = fourbar_sweep.solve_by_newton(CRANK_ROCKER, phi), fourbar_sweep.solve(CRANK_ROCKER, phi)
     assert found.rocker_angle == pytest.approx(closed.rocker_angle, abs=32 * EPS)
     assert found.iterations.shape == found.residual.shape == (2, 3)
-    assert fourbar_newton.solve(CRANK_ROCKER, []).rocker_angle.shape == (0,)
-    assert fourbar_newton.solve(CRANK_ROCKER, 1.0).rocker_angle.shape == ()
+    assert fourbar_sweep.solve_by_newton(CRANK_ROCKER, []).rocker_angle.shape == (0,)
+    assert fourbar_sweep.solve_by_newton(CRANK_ROCKER, 1.0).rocker_angle.shape == ()
 
 
 @pytest.mark.parametrize("name", FORWARD)
@@ -189,18 +188,18 @@ def test_rates_of_loop_and_triangle_agree(linkage: FourBar) -> None:
 def test_start_on_the_wrong_side_is_not_safe_and_its_result_refused() -> None:
     mirror = fourbar.solve(FourBar(18.0, 50.0, 100.0, 121.4, -1), 1.0)
     start = mirror.coupler_angle, mirror.rocker_angle
-    assert not fourbar_newton.start_is_safe(CRANK_ROCKER, 1.0, *start)
+    assert not fourbar_sweep.start_is_safe(CRANK_ROCKER, 1.0, *start)
     with pytest.raises(NoSolution, match=r"no position of assembly \+1 at crank angle 57"):
-        fourbar_newton.polish(CRANK_ROCKER, 1.0, *start)
+        fourbar_sweep.polish(CRANK_ROCKER, 1.0, *start)
 
 
 def test_no_position_beyond_the_limit() -> None:
     with pytest.raises(NoSolution, match=r"Newton-Raphson found no position of assembly \+1 at crank angle"):
-        fourbar_newton.polish(STRETCHING, 1.3, 0.0, 3.0)
+        fourbar_sweep.polish(STRETCHING, 1.3, 0.0, 3.0)
     with pytest.raises(NoSolution, match=r"does not close at crank angle"):
-        fourbar_newton.solve(STRETCHING, [0.5, 1.0, 1.2])
+        fourbar_sweep.solve_by_newton(STRETCHING, [0.5, 1.0, 1.2])
     with pytest.raises(NoSolution, match=r"does not close at crank angle"):
-        fourbar_newton.solve(FOLDING, np.radians([45.0, 10.0]))
+        fourbar_sweep.solve_by_newton(FOLDING, np.radians([45.0, 10.0]))
 
 
 def test_dead_points_are_refused_where_a_step_is_wanted() -> None:

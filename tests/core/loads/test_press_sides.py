@@ -14,7 +14,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.cli.views.scenes.flatbed_press import Machine
+from gearlink.cli.views.figures.flatbed_press import Machine
 from gearlink.core.machines.flatbed_press.loads import PressLoads
 from gearlink.core.mechanism.rates import cross
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlink.core.numerics.rising import RisingTable
+from gearlink.core.numerics.periodic import RisingTable
 
 _PLACES = np.linspace(0.0, 2.0, 33)
 

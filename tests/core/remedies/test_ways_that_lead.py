@@ -15,7 +15,7 @@ from oracles.random_designs import draw
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.remedies.ways import Standing, modules, steps_to_limit
 from gearlink.core.base.report import Check, Remedy
-from gearlink.core.machines.five_bar import timed_fit
+from gearlink.core.machines.five_bar import fit as five_bar_fit
 from gearlink.core.machines.flatbed_press import zone
 
 
@@ -166,8 +166,8 @@ def test_what_is_tried_seeks_no_advice(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_links_for_points_with_times_are_not_sought_for_a_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each search takes tenths of a second, and a gear of one tooth fails five checks: seconds in all."""
     sought: list[Any] = []
-    fit = timed_fit.fit_timed
-    monkeypatch.setattr(timed_fit, "fit_timed", lambda *given: sought.append(given) or fit(*given))
+    fit = five_bar_fit.fit_timed
+    monkeypatch.setattr(five_bar_fit, "fit_timed", lambda *given: sought.append(given) or fit(*given))
     made = factory.design("five_bar_timed_points", command="gear", gears__output=1)
     assert failing(made, "gear", "undercut")
     assert len(sought) <= 1

@@ -332,7 +332,7 @@ def test_speeds_of_an_output_that_turns_against_the_crank() -> None:
 
 def test_drawn_teeth_roll_in_mesh() -> None:
     """Over a turn each drawn gear turns as the kinematics say, and the places of the teeth agree at the pitch point."""
-    from gearlink.cli.views.scenes.three_gear_four_bar import build
+    from gearlink.cli.views.figures.three_gear_four_bar import build
     from gearlink.core.parts.gears.outline.mesh_geometry import ring_turn
 
     fraction = np.linspace(0.0, 1.0, 25)

@@ -13,7 +13,7 @@ import pytest
 from factory import design
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.three_gear.uniform import window_of_family
+from gearlink.core.machines.three_gear.families import window_of_family
 from gearlink.core.parts.linkages.feed import gentlest
 from gearlink.core.parts.linkages.standstills import Turning
 

@@ -1,28 +1,319 @@
-"""Gears in mesh: both gears to scale with their true teeth, the mesh zone magnified, and a table of values."""
+"""Gears in mesh: both gears to scale with their true teeth, the mesh zone magnified, and a table of values.
+
+The path of contact in a mesh zone: line of action, A, C and E, contact points, and the frame about them.
+
+The table beside a mesh: words, symbols, units and values of both gears.
+
+A gear pair: so many pitches that the teeth, and where it goes the holes, come to meet themselves.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.figures.gears.path_of_contact import contact_path, zone_frame, zone_legend, zone_size
-from gearlink.cli.views.figures.gears.values import gear_text, ruled, value_rows
-from gearlink.cli.views.scenes.gear_pair import pair_scene
-from gearlink.cli.views.scenes.scene import Body, Points, Scene
+from gearlink.cli.views.scenes.colors import BLUE, ORANGE
+from gearlink.cli.views.scenes.gears import gear as gear_body
+from gearlink.cli.views.scenes.gears import holes_for
+from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Readout, Reals, Scene, track
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.nomenclature import term
 from gearlink.core.parts.gears.checks import gear_quantity
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry, driven_turn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from gearlink.core.machines.gear_pair.design import GearPairDesign
+
+
+_MOST_PITCHES = 36
+
+
+def build(design: GearPairDesign, fraction: Reals) -> Scene:
+    """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
+    if design.rack is not None:
+        from gearlink.cli.views.scenes.rack import rack_scene
+
+        return rack_scene(design.rack, design.rack_teeth, design.rack_back, fraction)
+    return pair_scene(design.gear_pair, ("1", "2"), fraction)
+
+
+def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scene:
+    """Both gears over a loop of whole pitches; at its start two flanks touch at the pitch point."""
+    pitches = loop_pitches(pair.teeth)
+    turns = pitches / pair.teeth[0], -pitches / pair.teeth[1]
+    start = MeshGeometry(pair).first_space
+    first = TURN * turns[0] * fraction + start[0]
+    if pair.internal:
+        second = TURN * turns[1] * fraction + start[1]
+    else:
+        second = driven_turn(pair.teeth, np.zeros_like(fraction), first)
+    one, two = track(0.0, fraction), track(pair.center_distance, fraction)
+    bodies = (
+        gear_body(pair, 0, one, first, turns[0], BLUE, labels[0], f"gear {labels[0]}"),
+        gear_body(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
+    )
+    behind, before = bodies[::-1] if pair.internal else bodies
+    readouts = tuple(
+        Readout(f"gear {label}", "°", np.degrees(turn - turn.flat[0]))
+        for label, turn in zip(labels, (first, second), strict=True)
+    )
+    return Scene(parts=(*behind, *before), marks=(Mark(one, pivot=True), Mark(two, pivot=True)), readouts=readouts)
+
+
+def loop_pitches(teeth: tuple[int, int]) -> int:
+    """Pitches that pass in the loop: a revolution of a small gear 1, else as many as let both gears keep their holes.
+
+    Example
+        >>> loop_pitches((20, 40)), loop_pitches((72, 72)), loop_pitches((101, 103))
+        (20, 36, 36)
+    """
+    z1, z2 = teeth[0], abs(teeth[1])
+    if z1 <= _MOST_PITCHES and holes_for(z1 / z2):
+        return z1
+    return max(range(1, _MOST_PITCHES + 1), key=lambda k: (bool(holes_for(k / z1)) + bool(holes_for(k / z2)), k))
+
+
+Quantity = Callable[[str], Any]
+"""A quantity of a mesh by name, of two gears a pair; None where it has none."""
+
+_OF_MESH = (
+    "center_distance",
+    "working_pressure_angle",
+    "contact_ratio",
+    "shift_sum",
+    "tip_shortening",
+)
+_OF_GEAR = (
+    "profile_shift",
+    "reference_radius",
+    "base_radius",
+    "working_radius",
+    "tip_radius",
+    "root_radius",
+    "tooth_thickness",
+    "tip_thickness",
+    "specific_sliding",
+)
+_WORDS = {
+    "center_distance": "centre distance",
+    "working_pressure_angle": "working pressure angle",
+    "base_radius": "base radius",
+    "tip_radius": "tip radius",
+    "root_radius": "root radius",
+    "reference_radius": "reference radius",
+    "tooth_thickness": "thickness, reference circle",
+    "working_radius": "working pitch radius",
+    "specific_sliding": "specific sliding, foot of flank",
+    "shift_sum": "sum of the profile shifts",
+    "tip_shortening": "tip shortening coefficient",
+    "contact_stress": "contact stress",
+    "safety_pitting": "safety against pitting",
+    "root_stress": "root stress",
+    "safety_bending": "safety against breaking",
+}
+_SYMBOL = 1
+"""The column of the symbols, as the nomenclature writes them."""
+_SIGNS = {"alpha": "α", "beta": "β", "eps": "ε", "gamma": "γ", "rho": "ρ", "sigma": "σ", "zeta": "ζ"}
+
+
+def ruled(
+    axes: Axes,
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    size: float = 7.5,
+    rows_of: int = 0,
+    at: tuple[float, float] = (0.38, 0.46),
+) -> None:
+    """Rows of text with light rules: words, symbol and unit on the left, numbers on the right.
+
+    Parameters
+        at : (float, float) - places of symbol and unit in the width
+        rows_of : int - so many rows fill the height; 0: those that there are
+    """
+    axes.set_axis_off()
+    extra = 1.0 if "\n" in head[-1] else 0.0  # a head of two lines
+    axes.set_xlim(0.0, 1.0)
+    axes.set_ylim((rows_of or len(rows)) + 1.0 + extra, 0.0)
+    numbers = len(head) - 3
+    edges = [at[1] + 0.06 + (0.94 - at[1]) * (i + 1) / numbers - 0.01 for i in range(numbers)]
+    places = [(0.0, "left"), *((place, "left") for place in at), *((edge, "right") for edge in edges)]
+    for row, line in enumerate([head, *rows]):
+        middle = row + 0.5 + (extra if row else 0.5 * extra)
+        for column, ((x, side), text) in enumerate(zip(places, line, strict=True)):
+            if row and column == _SYMBOL and text:
+                _set_symbol(axes, (x, middle), text, size)
+                continue
+            weight = "normal" if row else "bold"
+            # To measure each cell for the layout takes longer than to draw it; a remark alone in its row may need room.
+            alone = not any(line[1:])
+            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight, in_layout=alone)
+        axes.axhline(row + 1.0 + extra, color=style.LIGHT if row else style.GREY, linewidth=0.6)
+
+
+def headed(name: str) -> tuple[str, str, str]:
+    """Words, symbol and unit of a quantity."""
+    entry = term(name)
+    words = _WORDS.get(name, entry.words)
+    return words, entry.symbol, "" if entry.unit == "1" else entry.unit.replace("^2", "²")
+
+
+def value_rows(teeth: list[str], modules: list[str], quantities: Sequence[Quantity]) -> list[list[str]]:
+    """Rows of words, symbol, unit and values: two columns for each mesh, its own values in the first of them."""
+    rows = [["teeth", "z", "", *teeth], ["module", "m", "mm", *modules]]
+    for name in _OF_GEAR:
+        rows.append([*headed(name), *(_text(quantity, name, gear) for quantity in quantities for gear in (0, 1))])
+    for name in _OF_MESH:
+        rows.append([*headed(name), *(text for quantity in quantities for text in (_text(quantity, name), ""))])
+    return rows
+
+
+def _text(quantity: Quantity, name: str, gear: int | None = None) -> str:
+    """A value to six digits; what the pair does not have is a dash."""
+    try:
+        found = quantity(name)
+    except NoSolution:
+        found = None
+    value = found[gear or 0] if isinstance(found, tuple) else found
+    if value is None:
+        return "–"
+    return style.number(math.degrees(value) if term(name).unit == "deg" else value)
+
+
+def gear_text(value: Any) -> str:
+    """A cell of a gear table: numbers to six digits, minus signs, nothing for what a gear does not have."""
+    if value is None:
+        return ""
+    return str(value) if isinstance(value, str) else style.number(value)
+
+
+def _set_symbol(axes: Axes, place: tuple[float, float], symbol: str, size: float) -> None:
+    """A symbol of the nomenclature: its letter, and smaller texts beside it.
+
+    matplotlib's own formulas take ten times as long as text, for it reads them by a grammar.
+    """
+    (letter, *_), *beside = _parted(symbol)
+    stem: Any = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
+    before = stem
+    for words, height, align, share in beside:
+        look: dict[str, Any] = {"fontsize": share * size, "fontstyle": "italic", "va": align, "in_layout": False}
+        of: Any = (before, stem)  # whatever stands before it, it is as high as the first letter says
+        before = axes.annotate(words, (1.0, height), (0.3, 0.0), xycoords=of, textcoords="offset points", **look)
+
+
+def _parted(symbol: str) -> list[tuple[str, float, str, float]]:
+    """Letters, indices and star of a symbol, each with its place on the height of a letter, and its share of its size.
+
+    Example
+        >>> [words for words, *_ in _parted("alpha_wt")], [words for words, *_ in _parted("x1+x2")]
+        (['α', 'wt'], ['x', '1', '+x', '2'])
+        >>> _parted("h_fP*")
+        [('h', 0.0, 'bottom', 1.0), ('fP', 0.0, 'bottom', 0.7), ('*', 1.0, 'top', 0.9)]
+    """
+    plain = symbol.removesuffix("*")
+    letter, _, index = plain.partition("_")
+    words = [_SIGNS[letter]] if letter in _SIGNS else re.findall(r"\d+|\D+", letter)
+    found = [(each, 0.0, "bottom", 0.7 if each.isdigit() else 1.0) for each in words]
+    if index:
+        found.append((_SIGNS.get(index, index), 0.0, "bottom", 0.7))
+    return [*found, ("*", 1.0, "top", 0.9)] if plain != symbol else found
+
+
+class Contact(Protocol):
+    """What a mesh zone shows of a mesh; points in mm."""
+
+    @property
+    def pitch_point(self) -> complex: ...
+    @property
+    def direction(self) -> complex: ...
+    @property
+    def contact_start(self) -> complex: ...
+    @property
+    def contact_end(self) -> complex: ...
+    @property
+    def contacts(self) -> list[complex]: ...
+
+
+def zone_size(geometry: Contact, module: float) -> tuple[float, float]:
+    """Half the width and half the height that show the path of contact and some teeth [mm]."""
+    pitch, ends = geometry.pitch_point, (geometry.contact_start, geometry.contact_end)
+    high = max(2.6 * module, *(1.3 * abs((end - pitch).imag) for end in ends))
+    return max(2.7 * module, *(1.3 * abs((end - pitch).real) for end in ends), 0.95 * high), high
+
+
+def zone_frame(axes: Axes, pitch: complex, wide: float, high: float, names: tuple[str, str]) -> None:
+    """The limits of a mesh zone, to scale, and the names of both bodies in its lower corners."""
+    axes.set_xlim(pitch.real - wide, pitch.real + wide)
+    axes.set_ylim(-high, high)
+    axes.set_aspect("equal", adjustable="box")
+    panels.few_ticks(axes.xaxis, 5)
+    for name, side, align in zip(names, (-0.94, 0.94), ("left", "right"), strict=True):
+        axes.text(pitch.real + side * wide, -0.93 * high, name, color=style.BLACK, fontsize=8, ha=align)
+
+
+def contact_path(axes: Axes, geometry: Contact, length: float) -> None:
+    """Line of action, path of contact from A to E, and where flanks touch now."""
+    pitch, way = geometry.pitch_point, geometry.direction
+    line = [pitch - length * way, pitch + length * way]
+    axes.plot([p.real for p in line], [p.imag for p in line], color=style.BLACK, linewidth=0.8, label="line of action")
+    ends = [geometry.contact_start, geometry.contact_end]
+    axes.plot(
+        [p.real for p in ends],
+        [p.imag for p in ends],
+        color=style.RED,
+        linewidth=2.4,
+        marker="|",
+        markersize=11,
+        label="path of contact A–E",
+        zorder=5,
+    )
+    touching = geometry.contacts
+    axes.plot(
+        [p.real for p in touching],
+        [p.imag for p in touching],
+        "o",
+        color="white",
+        markeredgecolor=style.RED,
+        markersize=5.5,
+        label="contact points",
+        zorder=6,
+    )
+    for name, point, shift in (("A", ends[0], (8, -4)), ("C", pitch, (8, -4)), ("E", ends[1], (8, -2))):
+        _boxed(axes, name, point, shift)
+
+
+def _boxed(axes: Axes, name: str, point: complex, shift: tuple[float, float]) -> None:
+    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
+    place = (point.real, point.imag)
+    axes.annotate(name, place, shift, textcoords="offset points", fontsize=9, bbox=box, zorder=7)
+
+
+def zone_legend(axes: Axes) -> None:
+    handles, labels = axes.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    axes.legend(
+        unique.values(),
+        unique.keys(),
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.11),
+        ncols=3,
+        frameon=False,
+        fontsize=7.5,
+        handlelength=2.4,
+        columnspacing=1.2,
+    )
+
 
 COLORS = (style.BLUE, style.ORANGE)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.scenes.three_gear_four_bar import build
+from gearlink.cli.views.figures.three_gear_four_bar import build
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,7 +14,7 @@ import pytest
 
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.train.single_mesh import MESH_CHECKS, mesh_checks
+from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, mesh_checks
 
 LIMITS = KINDS["gear-pair"].spec_model().model_validate(
     {"kind": "gear-pair", "module": 1, "teeth": [20, 30], "profile_shift": [0, 0]}
