@@ -165,6 +165,8 @@ class SwingStroke:
     @cached_property
     def is_undercut(self) -> bool:
         """Whether the roller is somewhere as large as the bend of its path: there is no contact there."""
+        if self.loads.spec.drive is None and self.parts:  # where it touches, its cam has been searched for the same
+            return self.cam.min_curvature_radius <= self.cam.roller_radius
         return any(minimum_over(self.relative_radius, *part, samples=128).value <= 0.0 for part in self.curved_parts)
 
     def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
