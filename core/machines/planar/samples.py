@@ -310,19 +310,23 @@ class PlanarSamples:
         names = ("shaft-clearance", "pressure-angle", "cam-undercut", "acceleration-step")
         return [check for name in names for check in self.nominal.check(name)]
 
+    course_units = ("deg", "mm")
+
     def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
-        """By how much the first output, a link, is turned against the nominal design [rad]; (K, N), NaN if unsure."""
-        course = self.nominal.course
-        body = self.nominal.structure.numbers[self.nominal.spec.shown[0]]
-        q, jets = course.walked(input_angle), course.jets(input_angle, 0)
-        y = joined(jets.x[0], jets.t[0])
+        """By how much the first output, a link or a slide, is off that of the nominal design [rad or mm]; (K, N), NaN
+        if unsure."""
+        course, name = self.nominal.course, self.nominal.spec.shown[0]
+        inputs = np.degrees(input_angle) if course.by_slide else input_angle  # of a slide mm, taken for deg
+        q, jets = course.walked(inputs), course.jets(inputs, 0)
+        y, nominal = joined(jets.x[0], jets.t[0]), self.nominal.moving_numbers[name][0](jets, 0)
         rows = []
         for some in self._parts(columns):
             many = _Many(self, some)
             off = np.empty((q.size, many.count))
             for k in range(q.size):
                 found, open_ones = many.closed(q[k], np.tile(y[k], (many.count, 1)))
-                off[k] = np.where(many.unsure | open_ones, math.nan, found[:, 3 * body - 1] - y[k, 3 * body - 1])
+                value = many.number(name)(Jets.of(found), 0)
+                off[k] = np.where(many.unsure | open_ones, math.nan, value - nominal[k])
             rows.append(off)
         return np.concatenate(rows, axis=1)
 
@@ -474,6 +478,10 @@ class _Many:
     def _numbers(self) -> dict[str, Coefficient]:
         found = {each.output.name: each.output.coefficient for each in self.design.meanings.values()}
         return found | {f"dyad {i}": dyad.angle for i, dyad in enumerate(self._dyads)}
+
+    def number(self, name: str) -> Coefficient:
+        """Taylor coefficients of what moves."""
+        return self._numbers[name]
 
     @cached_property
     def _dyads(self) -> list[Dyad]:

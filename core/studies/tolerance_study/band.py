@@ -92,11 +92,13 @@ def deviations(made: Problem, number: int) -> list[Reals]:
     nominal = made.nominal.table(table, samples=_PLACES)
     places = np.asarray(nominal.data[0], dtype=float)
     units = [nominal.units[nominal.columns.index(name)] for name in names]
-    over_arrays = made.is_quick and made.axis is not None and units == ["deg"]
+    known = getattr(made.axis, "course_units", ("deg",))
+    over_arrays = made.is_quick and made.axis is not None and len(units) == 1 and units[0] in known
     count = rounded_up(getattr(made.axis, "samples", ARRAY_SAMPLES) // 8 if over_arrays else _SCALAR_SAMPLES)
     columns = made.sizes(replication(made.coordinates, count, made.section.seed, number))
     if over_arrays and made.axis is not None:
-        return [np.degrees(made.axis.course(columns, np.radians(places)))]
+        off = made.axis.course(columns, np.radians(places))
+        return [np.degrees(off) if units == ["deg"] else off]
     tables = [_table(made, row, table, len(places)) for row in rows_of(columns)]
     found = []
     for name in names:

@@ -19,7 +19,7 @@ from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.spec import PlanarSpec
 from gearlink.core.machines.planar.system import Jets, System
 from gearlink.core.studies.tolerance_study.problem import problem
-from gearlink.core.studies.tolerance_study.samples import _single, evaluated, rows_of
+from gearlink.core.studies.tolerance_study.samples import _single, design_of, evaluated, rows_of
 
 
 def planar(name: str, **more: Any) -> PlanarMechanism:
@@ -261,6 +261,18 @@ def test_samples_follow_the_keys_of_the_file_and_the_play() -> None:
     assert 0.0 < made_.raw("yield") < 1.0
     table = made_.table("contributions")
     assert {*table["source"]} == {"links.crank[2]", "pins.C"}
+
+
+@pytest.mark.slow
+def test_the_course_of_a_slide_is_that_of_each_design() -> None:
+    """A ram on a cam whose roller is larger: its place against the table of the single design."""
+    made_ = study(CAMS["sliding roller"], {"cams.c.roller_radius": {"plus_minus": 0.5}})
+    assert made_.axis is not None
+    off = made_.axis.course({"cams.c.roller_radius": np.array([9.3])}, np.radians([0.0, 60.0, 200.0]))
+    single = design_of(made_, {"cams.c.roller_radius": 9.3}).table("motion", samples=36)["guide_position"]
+    nominal = made_.nominal.table("motion", samples=36)["guide_position"]
+    want = (np.asarray(single) - np.asarray(nominal))[[0, 6, 20]]
+    assert off[:, 0] == pytest.approx(want, rel=0.0, abs=1e-9)
 
 
 @pytest.mark.slow
