@@ -2,6 +2,7 @@
 
 A profile is what no place of the follower cuts and every point of which one touches: over 3600 places a roller's centre
 is nowhere nearer than its radius, 1e-9 mm for rounding, and at the place of its own row just as far. A face is a line.
+Both walls of a groove keep off the roller like that, opposite each other; a conjugate pair has two rollers.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ LAWS: list[Any] = [
     {"type": "harmonic"},
 ]
 ROWS, ROUNDING = 3600, 1e-9
+CHECKS = {"spring": ("cam-undercut",), "groove": ("cam-undercut", "outer-wall"), "conjugate": ("cam-undercut",)}
 
 
-def drawn(seed: int, follower: str) -> tuple[dict[str, Any], Any]:
+def drawn(seed: int, follower: str, closure: str = "spring") -> tuple[dict[str, Any], Any]:
     """A random cam without undercut, as data and design."""
     dice = random.Random(f"{follower} {seed}")
     while True:
@@ -53,12 +55,18 @@ def drawn(seed: int, follower: str) -> tuple[dict[str, Any], Any]:
                 {} if flat else {"offset": dice.uniform(-25.0, 25.0)}
             )
         data = {"kind": "disc-cam", "name": "random", "motion": motion, "follower": parts, "cam": body}
+        if closure != "spring":
+            data["closure"] = closure
+        if closure == "conjugate":
+            data["return_roller"] = {"radius": dice.uniform(5.0, 20.0)} | (
+                {"arm": dice.uniform(90.0, 150.0), "angle": parts["side"] * dice.uniform(60.0, 100.0)} if rocks else {}
+            )
         design = factory.design(data, command="cam")
         try:
-            (found,) = design.check("cam-undercut")
+            found = [check.status for name in CHECKS[closure] for check in design.check(name)]
         except NoSolution:  # no triangle
             continue
-        if found.status != "fail":
+        if "fail" not in found:
             return data, design
 
 
@@ -78,16 +86,22 @@ def pivot_of(data: dict[str, Any]) -> complex:
     return cmath.rect(parts["center_distance"], math.radians(parts["pivot_direction"]))
 
 
-def centres(data: dict[str, Any], lift: Any, phi: Any) -> Any:
-    """The roller's centre in the cam's frame."""
+def centres(data: dict[str, Any], lift: Any, phi: Any, *, back: bool = False) -> Any:
+    """The centre of the roller, or of the return roller, in the cam's frame."""
     parts, prime = data["follower"], data["cam"]["prime_radius"]
     if parts["type"] == "translating-roller":
         u = cmath.rect(1.0, math.radians(parts["direction"]))
-        found = u * (math.sqrt(prime**2 - parts["offset"] ** 2) + lift - 1j * parts["offset"])
+        height = math.sqrt(prime**2 - parts["offset"] ** 2)
+        apart = 2.0 * height + lift.max() + lift.min() if back else 0.0
+        found = u * (height - apart + lift - 1j * parts["offset"])
     else:
         f, length = parts["center_distance"], parts["arm"]
         start = math.acos((f * f + length * length - prime * prime) / (2.0 * f * length))
-        found = pivot_of(data) + length * arm(data, start, np.radians(lift))
+        along = arm(data, start, np.radians(lift))
+        if back:
+            length = data["return_roller"]["arm"]
+            along = along * cmath.rect(1.0, math.radians(data["return_roller"]["angle"]))
+        found = pivot_of(data) + length * along
     return found * turned_back(data, phi)
 
 
@@ -125,3 +139,27 @@ def test_no_place_of_the_follower_cuts_the_profile(follower: str, seed: int) -> 
         gaps = np.abs(points[:, None] - centres(data, lift, phi)[None, :]) - data["follower"]["roller_radius"]
     assert float(gaps.min()) >= -ROUNDING
     assert np.abs(gaps[np.arange(len(own)), own]).max() <= ROUNDING
+
+
+CLOSED = [(name, closure, seed) for name in FOLLOWERS[::2] for closure in ("groove", "conjugate") for seed in range(15)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("follower", "closure", "seed"), CLOSED)
+def test_no_roller_cuts_walls_or_return_cams(follower: str, closure: str, seed: int) -> None:
+    data, design = drawn(seed, follower, closure)
+    lifts = design.table("follower", samples=ROWS)
+    phi, lift = np.radians(lifts["cam_angle"]), lifts["lift"]
+    own, radius = np.arange(ROWS)[::12], data["follower"]["roller_radius"]
+    other, back = ("outer_wall", radius) if closure == "groove" else ("return_cam", data["return_roller"]["radius"])
+    sides = []
+    for name, far in (("main_cam", radius), (other, back)):
+        places = centres(data, lift, phi, back=name == "return_cam")
+        table = design.table(name, samples=ROWS)
+        points = (table["x"] + 1j * table["y"])[::12]
+        gaps = np.abs(points[:, None] - places[None, :]) - far
+        assert float(gaps.min()) >= -ROUNDING, name
+        assert np.abs(gaps[np.arange(len(own)), own]).max() <= ROUNDING, name
+        sides.append(points - places[::12])
+    if closure == "groove":
+        assert np.abs(sides[0] + sides[1]).max() <= ROUNDING
