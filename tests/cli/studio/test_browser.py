@@ -123,8 +123,8 @@ class Page:
             time.sleep(0.05)
 
     def rests(self) -> None:
-        """Wait for the sheets, the last to come."""
-        self.window.wait("return document.querySelectorAll('.sheet svg').length", 60.0)
+        """Wait for the sheets, the last to come: two seconds of a quiet machine, whose rest they are left."""
+        self.window.wait("return document.querySelectorAll('.sheet svg').length", 300.0)
 
     def joint(self, letter: str) -> tuple[float, float]:
         """Where a joint is in the window."""
