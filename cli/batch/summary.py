@@ -272,7 +272,10 @@ def as_github(results: Sequence[Outcome]) -> str:
     lines = []
     for outcome in results:
         for status, code, name, message, line, column in _findings(outcome):
-            place = f"file={_property(outcome.file)},line={line},col={column},title={_property(f'{code} {name}')}"
+            file = PurePath(
+                outcome.file
+            ).as_posix()  # of Windows too: GitHub knows files by their path in the repository
+            place = f"file={_property(file)},line={line},col={column},title={_property(f'{code} {name}')}"
             words = _data(f"{outcome.name} ({outcome.command or 'read'}): {message}")
             lines.append(f"::{_SARIF_LEVEL[status]} {place}::{words}")
     return "".join(line + "\n" for line in lines)

@@ -117,7 +117,8 @@ studio.results = found => {
     if (!now) return false;
     if (now.textContent !== found[name][0]) now.textContent = found[name][0];
     if (was.textContent !== found[name][1]) was.textContent = found[name][1];
-    if (title.textContent !== found[name][2]) title.textContent = found[name][2];
+    if (title.textContent !== found[name][2])  // long names may break behind each of their words
+      title.replaceChildren(...found[name][2].split(/(?<=_)/).flatMap((word, k) => k ? [document.createElement("wbr"), word] : [word]));
     return true;
   });
 };

@@ -58,10 +58,10 @@ class Drawing:
         made_of = "" if stale else program()
         name = hashlib.sha256(repr(self).encode()).hexdigest()[:20]
         path, note = KEPT / f"{name}.svg", KEPT / f"{name}.txt"
-        if not path.exists() or not (stale or (note.exists() and note.read_text() == made_of)):
+        if not path.exists() or not (stale or (note.exists() and note.read_text(encoding="utf-8") == made_of)):
             KEPT.mkdir(parents=True, exist_ok=True)
             self._draw(path)
-            note.write_text(program())
+            note.write_text(program(), encoding="utf-8")
         return path.name
 
     def _draw(self, path: Path) -> None:

@@ -9,14 +9,18 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from gearlink.cli import main as program
+from gearlink.cli.batch import summary
+from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.parallel import shares, workers
+from gearlink.cli.reading.diagnostics import Diagnostic
 
 ROOT = Path(__file__).resolve().parents[2]
 FEED = "designs/standing_feed.yaml"
@@ -138,3 +142,10 @@ def test_workers_that_are_started_anew_give_the_same(gearlink: Any, monkeypatch:
     monkeypatch.setattr(shares, "sys", elsewhere)
     started = gearlink(*arguments, "--jobs", "2")
     assert (started.status, started.out) == (forked.status, forked.out), started.err
+
+
+def test_annotations_of_windows_have_paths_of_the_repository(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(summary, "PurePath", PureWindowsPath)
+    wrong = Diagnostic("GL116", "no number", file="designs\\feed.yaml")
+    text = summary.as_github([Outcome("designs\\feed.yaml", "", "feed", "", ExitCode.WRONG_INPUT, errors=(wrong,))])
+    assert text.startswith("::error file=designs/feed.yaml,line=1,")

@@ -268,7 +268,12 @@ class _Layout(NamedTuple):
     def height(self) -> float:
         """Height that it needs, that of A4 being 1."""
         curves, polars = self.rows
-        return 0.115 * (curves + 0.3 + _POLAR * polars + self.shown)
+        return 0.115 * (self.row * curves + 0.3 + _POLAR * polars + self.shown)
+
+    @property
+    def row(self) -> float:
+        """Height of a row of curves: in several columns the legend takes two lines."""
+        return 1.0 if self.across == 1 else 1.4
 
 
 def draw(design: Any) -> Figure:
@@ -286,13 +291,17 @@ def draw(design: Any) -> Figure:
         f"{design.spec.name}: loads", min(1.0, layout.height / (math.sqrt(2.0) if large else 1.0)), large=large
     )
     curve_rows, polar_rows = layout.rows
-    parts = made.add_gridspec(3, 1, height_ratios=(max(shown, 1e-3), curve_rows + 0.3, _POLAR * polar_rows))
+    parts = made.add_gridspec(
+        3, 1, height_ratios=(max(shown, 1e-3), layout.row * curve_rows + 0.3, _POLAR * polar_rows)
+    )
     if shown:
         force_sheet.mechanism(made.add_subplot(parts[0]), design)
     grid: Any = parts[1].subgridspec(curve_rows, layout.across, height_ratios=[1.3, *(curve_rows - 1) * [1.0]])
     drawn = [made.add_subplot(grid[divmod(i, layout.across)]) for i in range(len(curves))]
     for axes, panel in zip(drawn, curves, strict=True):
         panel(axes, design)
+        if large:
+            panels.few_ticks(axes.yaxis, 4)
     for column in range(layout.across):
         time_axes.once(drawn[column :: layout.across], 2e3 * math.pi / design.speed)
     if pins:
