@@ -430,7 +430,7 @@ class WideSwingCam:
                     "a twin-rocker)"
                 ),
                 fix=(
-                    f"set {self.angle_words} to at most {safely_below(0.5 * limit)} deg (possible below "
+                    f"reduce {self.angle_words} to at most {safely_below(0.5 * limit)} deg (possible below "
                     f"{safely_below(limit)} deg), or increase the swing"
                 ),
             )

@@ -289,9 +289,9 @@ def test_refusals_name_value_and_remedy() -> None:
         WideSwingCam("twin-cam", LAW, 0.0, 200.0, 8.0)
     with pytest.raises(NoSolution, match="centre distance: -1 mm"):
         WideSwingCam("twin-cam", LAW, 2.0, -1.0, 8.0)
-    with pytest.raises(NoSolution, match="roller radius is nan mm"):
+    with pytest.raises(NoSolution, match="roller radius: nan mm"):
         WideSwingCam("twin-cam", LAW, 2.0, 200.0, math.nan)
-    with pytest.raises(NoSolution, match="rocker radius is 0 mm"):
+    with pytest.raises(NoSolution, match="rocker radius: 0 mm"):
         WideSwingCam("twin-cam", LAW, 2.0, 200.0, 8.0, 0.0)
 
 

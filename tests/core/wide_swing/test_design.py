@@ -330,7 +330,7 @@ class TestLoops:
 
     def test_tables_are_refused(self) -> None:
         for name in ("main_cam",):
-            with pytest.raises(NoSolution, match="set the cycle angle") as refusal:
+            with pytest.raises(NoSolution, match="reduce the cycle angle") as refusal:
                 looped().table(name)
             assert refusal.value.key == "cycle_angle"
         longer = design(cam=CAM | {"rocker_radius": 80.0})

@@ -137,9 +137,9 @@ def test_refusals_name_value_and_remedy() -> None:
         least_pivot_ratio_pneumatic(2.0, 1.0)
     with pytest.raises(NoSolution, match="closed length of the spring: 0 mm"):
         least_pivot_ratio_spring(2.0, 0.5, 120.0, 0.0)
-    with pytest.raises(NoSolution, match="the arm is -1 mm"):
+    with pytest.raises(NoSolution, match="arm: -1 mm"):
         least_pivot_ratio_spring(2.0, 0.5, -1.0, 100.0)
-    with pytest.raises(NoSolution, match="end fittings are -1 mm"):
+    with pytest.raises(NoSolution, match="end fittings: -1 mm"):
         least_pivot_ratio_spring(2.0, 0.5, 120.0, 100.0, -1.0)
     with pytest.raises(NoSolution, match="stretch capacity 0 must be above 0"):
         least_pivot_ratio_spring_material(2.0, 0.5, 0.0)

@@ -84,7 +84,7 @@ def test_refusals() -> None:
         dynamic_coefficient(HARMONIC, 0.0)
     with pytest.raises(NoSolution, match=r"damping ratio: 1 .at least 0, below 1"):
         dynamic_coefficient(HARMONIC, 10.0, 1.0)
-    with pytest.raises(NoSolution, match=r"leave the section shaft out, or make speed 3 times higher"):
+    with pytest.raises(NoSolution, match=r"omit the section shaft, or make speed 3 times higher"):
         dynamic_coefficient(HARMONIC, 60_000.0)
 
 
