@@ -44,7 +44,7 @@ def test_svg_has_the_design_its_free_region_and_margins(gearlink: Any, designs: 
 def test_it_is_no_profile_and_needs_two_gears(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     folder = tmp_path / "out"
     solid = gearlink("export", designs / "ring_pair.yaml", "--part", "blocking_contour", "--out", folder)
-    assert (solid.status, "take --as svg or --as csv" in solid.err) == (2, True)
+    assert (solid.status, "give --as svg or --as csv" in solid.err) == (2, True)
     rack = gearlink("export", designs / "rack_drive.yaml", "--part", "blocking_contour", "--as", "svg", "--out", folder)
     assert (rack.status, "needs two gears, not a rack" in rack.err) == (2, True)
     press = gearlink("export", designs / "ty460.yaml", "--part", "blocking_contour", "--as", "svg", "--out", folder)

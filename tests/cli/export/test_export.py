@@ -278,7 +278,7 @@ def test_a_profile_that_does_not_exist(gearlink: Any, swing: Path, tmp_path: Pat
     ended = gearlink("export", swing, "--set", "cam.roller_radius=150", "--out", tmp_path / "out")
     assert ended.status == 2
     assert "GL112" in ended.err
-    assert "make it less than" in ended.err
+    assert "set cam.roller_radius below" in ended.err
     assert not (tmp_path / "out").exists()
 
 

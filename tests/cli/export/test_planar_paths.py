@@ -51,4 +51,4 @@ def test_a_mechanism_without_an_output_point_has_none(tmp_path: Path) -> None:
 def test_a_path_is_no_body(tmp_path: Path) -> None:
     done = run("export", str(DESIGNS / "planar_watt.yaml"), "--as", "step", "--out", str(tmp_path))
     assert done.exit_code == 2
-    assert "a path is no body" in done.output
+    assert "a path is no solid" in done.output
