@@ -79,7 +79,7 @@ class BackStepAngle(Spec):
 
 
 class MotionTarget(Spec):
-    """What the output shall do; otherwise the design is refused or fails."""
+    """What the output shall do; otherwise there is an error or a failed check."""
 
     motion: Literal["unidirectional", "momentary-dwell", "back-step"] = Field(description="kind of output motion")
 

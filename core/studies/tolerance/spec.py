@@ -55,7 +55,7 @@ class ToleranceSource(Spec):
     group: str | None = Field(None, description="clearance group of a deep-groove ball bearing: C2, CN, C3, C4, C5")
     bore: Length | None = Field(None, description="bore of the bearing")
     clearance: Pair | None = Field(None, description="[minimum, maximum] clearance in diameter")
-    reduction: Distance = Field(0.0, description="what fits and heat take off the bearing's clearance")
+    reduction: Distance = Field(0.0, description="reduction of the bearing's clearance by fits and heat")
     grade: FlankClass | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
     width: Length | None = Field(None, description="face width of the gear")
     eccentricity: Length | None = Field(None, description="maximum distance of a gear's pitch circle from its axis")

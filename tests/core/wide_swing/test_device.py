@@ -141,7 +141,7 @@ def test_refusals_name_value_and_remedy() -> None:
         least_pivot_ratio_spring(2.0, 0.5, -1.0, 100.0)
     with pytest.raises(NoSolution, match="end fittings: -1 mm"):
         least_pivot_ratio_spring(2.0, 0.5, 120.0, 100.0, -1.0)
-    with pytest.raises(NoSolution, match="stretch capacity 0 .limit > 0"):
+    with pytest.raises(NoSolution, match=r"stretch capacity 0 .limit > 0"):
         least_pivot_ratio_spring_material(2.0, 0.5, 0.0)
     with pytest.raises(NoSolution, match="moment of inertia: 0 kg m"):
         force(4.0, 0.0, 2.0, 120.0, 0.2)
