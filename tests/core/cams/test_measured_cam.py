@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.disc_cam.measured_profile import ROWS, phases_of
+from gearlink.core.machines.disc_cam.measured import ROWS, phases_of
 from gearlink.core.parts.cams.laws import law
 
 RADIUS, ECCENTRICITY, ROLLER = 60.0, 12.0, 15.0
