@@ -16,7 +16,11 @@ from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn,
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
 from gearlink.cli.commands.laws import laws
-from gearlink.cli.commands.reference_options import (
+from gearlink.cli.completing import better_scripts
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
+from gearlink.cli.quick import run_line
+from gearlink.cli.typer_commands import (
     ReportFormat,
     Show,
     register_exploring,
@@ -25,10 +29,6 @@ from gearlink.cli.commands.reference_options import (
     register_reference,
     register_tolerances,
 )
-from gearlink.cli.completing import better_scripts
-from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options
-from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, share, takes
 from gearlink.core.base.kinds import KINDS
 

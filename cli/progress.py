@@ -13,17 +13,15 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from gearlink.cli import process
 from gearlink.cli.printable import visible
 
+TYPE_CHECKING = False  # as typing has it
+
 if TYPE_CHECKING:
     import threading
     from collections.abc import Callable, Iterable
-
-
-TYPE_CHECKING = False  # as typing has it
 
 _AFTER = 1.0
 """Nothing is shown of what takes less [s]."""

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Rule
 
 
-_WORDS: dict[str, dict[str, str]] = json.loads((Path(__file__).parent / "words.json").read_text(encoding="utf-8"))
+_PLACE = Path(__file__).parents[1] / "texts" / "words.json"
+_WORDS: dict[str, dict[str, str]] = json.loads(_PLACE.read_text(encoding="utf-8"))
 COLUMNS, CONSTANTS, FORMULAS = (_WORDS[name] for name in ("columns", "constants", "formulas"))
 _ROLLER = {
     "force": "force between cam and roller",

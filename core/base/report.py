@@ -1,8 +1,6 @@
 """The result of a command as plain data: quantities with unit and symbol, checks with code and limit, tables.
 
 Reports and tables as HTML, which notebooks show instead of text.
-
-What a check compares, of one design or of many: the words come after.
 """
 
 from __future__ import annotations
@@ -19,7 +17,6 @@ from gearlink.core.base.wording import DIGITS, amount, apart, compared, directed
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from gearlink.core.base.design_axis import Findings
     from gearlink.core.base.key_results import KeyResult
 
     Column: TypeAlias = Sequence[Any] | NDArray[Any]
@@ -492,41 +489,3 @@ def _cell(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.9g}"
     return "" if value is None else escape(str(value)).replace("\n", "<br>")
-
-
-class Judged(NamedTuple):
-    """A value beside its limit, and whether it fails or warns; numbers, or arrays over designs.
-
-    Fields
-        rule : Rule
-        value, limit : float or (N,) array - in the units of design files
-        fails, warns : bool or (N,) array - never both
-        unit : str
-    """
-
-    rule: Rule
-    value: Any
-    limit: Any
-    fails: Any
-    warns: Any
-    unit: str
-
-    def check(self, what: str, fix: str = "", **parts: Any) -> Check:
-        """The finding of one design, of the words of `Rule.check`, with a fix where it does not pass."""
-        status: Any = "fail" if self.fails else "warn" if self.warns else "pass"
-        return self.rule.check(status, what, self.value, self.limit, self.unit, fix=fix, **parts)
-
-    def of(self, count: int) -> Findings:
-        """The findings of so many designs."""
-        import numpy as np
-
-        from gearlink.core.base.design_axis import Findings
-
-        value, limit, fails, warns = (np.broadcast_to(np.asarray(each), (count,)) for each in self[1:5])
-        return Findings(self.rule.code, value, limit, fails, warns, self.unit)
-
-
-def below(rule: Rule, value: Any, limit: Any, warn: Any, unit: str) -> Judged:
-    """What fails unless it reaches a limit, and warns below another, as `Rule.below`."""
-    keeps = value >= limit
-    return Judged(rule, value, limit, keeps ^ True, keeps & (value < warn), unit)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearlink.core.base.report import Judged, Rule
+from gearlink.core.base.judged import Judged
+from gearlink.core.base.report import Rule
 
 ACHIEVED = Rule(
     "GL304",

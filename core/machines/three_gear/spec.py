@@ -88,7 +88,7 @@ class ThreeGearSpec(DrivenSpec):
     gears: Gears
     links: Links | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
-    dwell: Annotated[Any, Deferred("machines.three_gear.task_spec:Dwell")] | None = Field(
+    dwell: Annotated[Any, Deferred("machines.three_gear.dwell_spec:Dwell")] | None = Field(
         None,
         description="specification for `synth dwell`: a crank angle until the output is back, or one within a "
         "tolerance",

@@ -1,7 +1,4 @@
-"""Sections of a three-gear four-bar that few of its files have: what the other syntheses are asked for, shafts.
-
-What `synth dwell` is asked for, and what fixes crank and frame besides.
-"""
+"""Sections of a three-gear four-bar that few of its files have: what the other syntheses are asked for, shafts."""
 
 from __future__ import annotations
 
@@ -11,47 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Length, SignedLength, Spec
-from gearlink.core.parts.linkages.dwell_band_spec import DwellBand
-
-
-class Placing(Spec):
-    """What fixes crank and frame of unequal gears besides the task, which fixes only one of them."""
-
-    crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, instead of crank; the crank is sought")
-    balanced: Literal[True] | None = Field(
-        None, description="true, instead of crank: the transmission angle deviates equally at both ends"
-    )
-
-    @model_validator(mode="after")
-    def _one_placing(self) -> Placing:
-        given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
-        if len(given) > 1:
-            message = "crank, frame and balanced exclude each other\nkeep one of them"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
-        return self
-
-
-class Dwell(DwellBand, Placing):
-    """Specification for `synth dwell`: crank angle until the output is back (angle) or within a tolerance (window)."""
-
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None,
-        description="crank angle phi13 from the start of the back-step until the output is back at its starting "
-        "position",
-    )
-
-    @model_validator(mode="after")
-    def _one_request(self) -> Dwell:
-        if self.angle is None and self.window is None and self.tolerance is None:
-            raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
-        if self.angle is not None and (self.window is not None or self.tolerance is not None):
-            message = "angle excludes window and tolerance: it specifies another dwell"
-            raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
-        if self.margin is not None and (self.window is not None or self.tolerance is None):
-            message = "margin goes with tolerance alone\nomit it"
-            raise PydanticCustomError("GL111", message, {"key": "margin"})
-        return self
+from gearlink.core.machines.three_gear.dwell_spec import Placing
 
 
 class BackStep(Placing):

@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Check, Judged, Shown, below, safely_above, without_noise
+from gearlink.core.base.judged import Judged, below
+from gearlink.core.base.report import Check, Shown, safely_above, without_noise
 from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
 

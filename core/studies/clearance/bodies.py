@@ -18,14 +18,12 @@ from dataclasses import dataclass
 from itertools import chain, combinations, product
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-import numpy as np
-
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 from gearlink.core.studies.clearance.reach import Reach
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.gears.mesh.pair import GearPair
 
 
@@ -276,9 +274,12 @@ def beside_line(place: Points | complex, start: Points, end: Points | complex) -
     Returns
         distance : (N,) array [mm]
     Example
+        >>> import numpy as np
         >>> beside_line(1 + 2j, np.array([0j, 2 + 2j]), np.array([4 + 0j, 4 + 2j])).tolist()
         [2.0, 1.0]
     """
+    import numpy as np
+
     line, seen = end - start, place - start
     along = (seen.real * line.real + seen.imag * line.imag) / (line.real**2 + line.imag**2)
     return np.abs(np.clip(along, 0.0, 1.0) * line - seen)

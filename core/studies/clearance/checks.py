@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 from typing import Any, Protocol
 
+from gearlink.core.base.judged import Judged
 from gearlink.core.base.remedies.ways import down
-from gearlink.core.base.report import Check, Judged
+from gearlink.core.base.report import Check
 from gearlink.core.base.wording import short
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.studies.clearance.bodies import Clearance, Gear, Layout, Seat, Shaft

@@ -1,14 +1,6 @@
-"""Commands around the design files: new, schema, explain, check, diff; and verify.
+"""Commands as Typer takes them, but for those of designs: around files, pictures, tolerances, studies and exports.
 
 Each imports what it runs when it runs.
-
-Commands that make pictures of their own: chart, animate. Each imports what it runs when it runs.
-
-The commands of tolerances: their own options become keys of the sections `tolerance` and `register_tolerances`.
-
-Puts `gearlink explore` into the command tree; what it runs is imported when it runs.
-
-Puts `gearlink export` into the command tree; what it runs is imported when it runs.
 """
 
 from __future__ import annotations
