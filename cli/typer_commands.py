@@ -322,7 +322,7 @@ _SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save"
 
 
 class Method(StrEnum):
-    """How a register_tolerances band is computed."""
+    """How a register band is computed."""
 
     WORST = "worst"
     RSS = "rss"
@@ -340,7 +340,7 @@ Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compu
 def register_tolerances(app: typer.Typer) -> None:
     """Add the commands of this module to the command tree."""
     app.command("tolerance")(_tolerance)
-    app.command("register_tolerances")(_register)
+    app.command("register")(_register)
 
 
 def _place(text: str) -> str | float:
@@ -405,18 +405,16 @@ def _register(
 
     Exit status: 1 the budget is exceeded.
 
-    Example: gearlink register_tolerances designs/candy_feed_tolerances.yaml --at dwell
+    Example: gearlink register designs/candy_feed_tolerances.yaml --at dwell
     """
     from gearlink.cli.commands.design import run_design
     from gearlink.cli.parallel.shares import shares_by
 
     place = None if at is None else _place(at)
-    options = keyed(
-        options, "register_tolerances", {"--at": place, "--method": method and method.value, "--radius": radius}
-    )
+    options = keyed(options, "register", {"--at": place, "--method": method and method.value, "--radius": radius})
     options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed})
     with shares_by(jobs, dask, words="samples", quiet=options.quiet):
-        raise typer.Exit(run_design("register_tolerances", spec, options))
+        raise typer.Exit(run_design("register", spec, options))
 
 
 def register_exploring(app: typer.Typer) -> None:

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from gearlink.core.base.report import Rule
 
 
-_PLACE = Path(__file__).parents[1] / "texts" / "words.json"
-_WORDS: dict[str, dict[str, str]] = json.loads(_PLACE.read_text(encoding="utf-8"))
+_WORDS_FILE = Path(__file__).parents[1] / "texts" / "words.json"
+_WORDS: dict[str, dict[str, str]] = json.loads(_WORDS_FILE.read_text(encoding="utf-8"))
 COLUMNS, CONSTANTS, FORMULAS = (_WORDS[name] for name in ("columns", "constants", "formulas"))
 _ROLLER = {
     "force": "force between cam and roller",

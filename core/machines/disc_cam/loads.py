@@ -13,7 +13,7 @@ from gearlink.core.machines.disc_cam.design import DiscCamDesign
 from gearlink.core.machines.disc_cam.mechanism import roller_on
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
 from gearlink.core.studies.loads.cams.contact import positive_drive
-from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign, contact
+from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign, contact_table
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
@@ -228,7 +228,7 @@ class FollowerCamLoads(_Loads):
 
     def table_contact(self, samples: int | None = None) -> Table:
         """Force, pressure and radius of the contact; of a roller its speeds as well."""
-        found = contact(self, samples)
+        found = contact_table(self, samples)
         if not self.spec.is_flat:
             return found
         kept = [k for k, column in enumerate(found.columns) if column not in ("roller_speed", "entrainment")]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _RPM = 2.0 * math.pi / 60.0
 
 
-def contact(design: CamLoadsDesign, samples: int | None = None) -> Table:
+def contact_table(design: CamLoadsDesign, samples: int | None = None) -> Table:
     """Force, pressure, relative radius, roller speed and entrainment of each roller over the input angle."""
     import numpy as np
 
@@ -309,7 +309,7 @@ class CamLoadsDesign(LoadsDesign):
         """Force of a follower between two cams [N], positive on the main cam; of those `on_two_sides`."""
         raise NotImplementedError
 
-    table_contact: Any = contact
+    table_contact: Any = contact_table
 
     check_contact_pressure, check_contact_loss = checks.contact_pressure, checks.contact_loss
     check_roller_skid, check_preload = checks.roller_skid, checks.preload
