@@ -37,6 +37,7 @@ def test_convergence_table() -> None:
     assert MARK + "\n" + convergence() in PAGE.read_text()
 
 
+@pytest.mark.slow
 def test_numbers_of_the_iteration() -> None:
     law, device = ElasticLaw(Pneumatic(2.5), math.radians(120.0)), Pneumatic(2.5)
     for steps, error in ((10, 2.7e-3), (20, 6.6e-4), (100, 2.65e-5)):

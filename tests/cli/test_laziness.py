@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 
 import factory
 import pytest
-from sweeps import ALL
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
@@ -58,7 +57,6 @@ SCALAR_LINES = [
 ]
 CHECKS = ["check designs/wide_lever.yaml", "check designs/two_gear_ring.yaml"]
 LINES = ["crank designs/ty460_slider_crank.yaml", "press designs/ty460.yaml"]
-PICTURES = [f"{line} --plot --quiet --out OUT" for line in (LINES if ALL else LINES[:1])]
 VERSION = ["--version"]
 ASKED = [*(f"explain {name}" for name in ("GL301", "contact_ratio", "gears.module", "gear-pair")), "schema gear-pair"]
 NEW = ["new gear-pair"]
@@ -89,7 +87,6 @@ def ladder() -> dict[str, set[str]]:
         *as_json(SWEEP_LINES),
         *EXPORTS,
         *LINES,
-        *PICTURES,
     ]
     with TemporaryDirectory() as folder:
         found = modules_after(*(line.replace("OUT", shlex.quote(folder)) for line in lines))
@@ -185,6 +182,7 @@ def test_help_imports_no_models() -> None:
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("lines", "besides"), [(ASKED, set()), (NEW, {"yaml", "_yaml"})])
 def test_what_is_known_of_files_needs_no_models(lines: list[str], besides: set[str]) -> None:
     """Explanations, schemas and templates come from two files: no pydantic, no Typer, no design class."""
@@ -222,8 +220,9 @@ def test_curves_as_svg_and_csv_import_no_dxf_library() -> None:
     assert not packages(loaded_after(*EXPORTS)) & {"ezdxf", "scipy", "matplotlib"}
 
 
-def test_a_picture_imports_neither_pyplot_nor_scipy() -> None:
-    drawn = loaded_after(*PICTURES)
+@pytest.mark.slow
+def test_a_picture_imports_neither_pyplot_nor_scipy(tmp_path: Path) -> None:
+    *_, drawn = modules_after(*(f"{line} --plot --quiet --out {shlex.quote(str(tmp_path))}" for line in LINES))
     assert "matplotlib.figure" in drawn
     assert not drawn & {"matplotlib.pyplot", "scipy"}
 

@@ -102,7 +102,7 @@ def test_long_tables_are_read_as_often_as_asked() -> None:
     assert whole.rows() == whole.rows() == [[1.0], [2.0], [1.0], [2.0]]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "table"),
     [("geared_six_bar", "links"), ("geared_six_bar", "joints"), ("five_bar_path", "path"), ("swing_gripper", "tip")],

@@ -82,6 +82,7 @@ def test_a_mark_outside_the_range_widens_it() -> None:
     assert axes.get_xlim() == (-6.0, -1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "ending"),
     mostly_slow([("back-step", "png"), ("back-step", "pdf"), *((name, "svg") for name in CHARTS)], 1),

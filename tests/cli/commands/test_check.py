@@ -186,7 +186,7 @@ ITS_OWN_CHECKS = {
 """Designs with checks that no design of QUICK has."""
 
 
-@pytest.mark.quick(8)
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(
     "path",
     [

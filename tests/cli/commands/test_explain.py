@@ -196,6 +196,7 @@ def test_markdown(gearlink: Any) -> None:
     assert "**How to repair:** " in out
 
 
+@pytest.mark.slow
 def test_unknown_name_gives_the_nearest(gearlink: Any) -> None:
     ended = gearlink("explain", "GL901")
     assert ended.status == 2

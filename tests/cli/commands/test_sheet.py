@@ -321,6 +321,7 @@ def test_what_the_vectors_cannot_show_is_refused_before_a_sheet_is_written(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_an_input_beyond_a_revolution_is_drawn_within_it() -> None:
     """The mechanism had stood at the end of its loop, beside the polygons of the input."""
     one, other = (vector_sheet.draw(design("crank_rocker"), [place]).axes[0] for place in (400.0, 40.0))

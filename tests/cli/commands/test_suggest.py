@@ -154,6 +154,7 @@ def test_good_design_needs_no_change(gearlink: Any, designs: Path) -> None:
     assert gearlink("gear", path, "--suggest").out == "suggestions: none\n\n" + gearlink("gear", path).out
 
 
+@pytest.mark.slow
 def test_formats(gearlink: Any, loop: Path) -> None:
     table = gearlink("swing", loop, "--suggest").out
     assert table.startswith("suggestions, tried in this order:\n  cycle_angle: 150 -> 101")

@@ -243,6 +243,7 @@ def test_estimates_stand_with_their_intervals_on_a_terminal(gearlink: Any, spec:
     assert "mean_pm" in gearlink("tolerance", str(spec), "--samples", "512", "--format", "csv").out
 
 
+@pytest.mark.slow
 def test_a_word_alone_scatters_nothing(gearlink: Any, spec: Path) -> None:
     ended = gearlink("tolerance", str(spec), "--samples", "64", "--set", "tolerance.require=[motion == back-step]")
     assert ended.status == 0

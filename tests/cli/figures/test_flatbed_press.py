@@ -125,6 +125,7 @@ def test_least_transmission_angle_is_drawn_and_named(press: Sheet, title: str, v
 # cam
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("column", "ylabel"), [(1, "lift [mm]"), (2, "velocity [mm/rad]"), (3, "acceleration [mm/rad²]")]
 )

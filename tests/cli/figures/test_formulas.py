@@ -26,7 +26,7 @@ def test_a_star_stands_above_the_index_before_it() -> None:
     assert star.y1 > index.y1
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "name"),
     [

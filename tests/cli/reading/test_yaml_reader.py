@@ -352,7 +352,7 @@ ATTACKS = {
 }
 
 
-@pytest.mark.quick(12)
+@pytest.mark.quick(8)
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize(
     "name",

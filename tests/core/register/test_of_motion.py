@@ -223,6 +223,7 @@ def test_tables_run_over_the_range_of_the_input() -> None:
     assert (min(angles), max(angles)) == pytest.approx((start, end), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_point_counts_along_a_direction() -> None:
     phi = np.array([0.4, 1.7, 4.0])
     gains = [

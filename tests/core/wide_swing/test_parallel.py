@@ -64,7 +64,8 @@ def test_gap_of_contours_that_turn_against_each_other(direction: float) -> None:
         one = near + first * np.exp(-1j * (turn - math.radians(60.0)))
         # the second cam's own stroke begins after working stroke and rest, mirrored, about the direction of its shaft
         two = far + far / abs(far) * np.conj(second * np.exp(-1j * (turn - math.radians(180.0 + 60.0))))
-        apart = min(apart, float(np.abs(one[:, None] - two[None, :]).min()))
+        nearest, _ = cKDTree(np.column_stack([two.real, two.imag])).query(np.column_stack([one.real, one.imag]))
+        apart = min(apart, float(nearest.min()))
         cuts = cuts or bool(np.any(np.abs(one - far) < whole.back.least_radius))
     found = shafts._contour_gap
     # contours that cross come near each other, those that do not keep the gap
