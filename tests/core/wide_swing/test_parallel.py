@@ -14,6 +14,7 @@ import pytest
 from pydantic import ValidationError
 from scipy.interpolate import CubicSpline
 from scipy.optimize import fsolve
+from scipy.spatial import cKDTree
 
 from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import motion
