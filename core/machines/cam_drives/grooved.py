@@ -277,6 +277,7 @@ class CamLinkage(Grooved):
     keys = {
         "analyze": (
             ("max_pressure_angle", "<limits.pressure_angle"),
+            ("min_transmission_angle", ">limits.transmission_angle"),
             "min_curvature_radius",
             "max_radius",
             "min_radius",
@@ -287,10 +288,16 @@ class CamLinkage(Grooved):
             "acceleration_ratio_max",
         )
     }
-    outlines = {"analyze": Outline((*_GROOVE, *_OUTPUT), _CHECKS, ("motion", "main_cam"))}
+    outlines = {
+        "analyze": Outline(
+            (*_GROOVE, "min_transmission_angle", *_OUTPUT), (*_CHECKS, "transmission-angle"), ("motion", "main_cam")
+        )
+    }
+    requirements = Grooved.requirements | {"limits.transmission_angle"}
     ways = {
         "pressure-angle": either("links.coupler", "links.follower", "links.output", "links.input", "phase"),
         "cam-undercut": either("roller_radius", "links.coupler", "links.follower"),
+        "transmission-angle": either("links.output", "links.follower", "links.coupler", "phase"),
     }
     larger = "change coupler, follower or phase, or give the motion more input angle"
 
@@ -336,3 +343,43 @@ class CamLinkage(Grooved):
         links = five_bar(self, theta, 2, 1)
         place = links["coupler"].at("C")
         return Path(place.value, place.first, place.second, np.asarray(1j * links["coupler"].unit))
+
+    @cached_property
+    def _flattest(self) -> Extreme:
+        """Signed angle between the lines of follower and output where it is nearest to 0; 0 where they are in line."""
+        import numpy as np
+
+        from gearlink.core.machines.cam_drives.mechanism import five_bar
+        from gearlink.core.numerics.extremes import Extreme, extremes_over
+        from gearlink.core.numerics.roots import bracketed_root
+
+        def lean(theta: Reals) -> Reals:
+            links = five_bar(self, theta, 0, 1)
+            apart = np.conj(links["follower"].unit) * links["output"].unit
+            return np.asarray(np.arctan2(apart.imag, np.abs(apart.real)))
+
+        self.require_closed()
+        joints = self.output_motion.joints
+        high, low = extremes_over([(lean, True), (lean, False)], joints=joints, samples=1024)
+        if low.value * high.value > 0.0:
+            return min(high, low, key=lambda each: abs(each.value))
+        ends = sorted((low.place, high.place))
+        return Extreme(0.0, bracketed_root(lambda place: float(lean(np.array([place]))[0]), *ends))
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Minimum angle between follower and output, at D [rad]; 0 where a force at C does not turn the output."""
+        return abs(self._flattest.value)
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        from gearlink.core.parts.linkages.checks import transmission_check
+
+        limit, place = self.spec.limits.transmission_angle, math.degrees(self._flattest.place)
+        return transmission_check(
+            self.min_transmission_angle,
+            limit,
+            "change output, follower or phase, or give the motion more input angle",
+            "minimum transmission angle of follower and output",
+            at=f"input angle {short(place)} deg",
+        )

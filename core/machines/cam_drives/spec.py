@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import (
+    AcuteAngle,
     Angle,
     Assembly,
     Deferred,
@@ -37,6 +38,12 @@ class CamDriveLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
     pressure_angle: SteepAngle = Field(45.0, description="maximum pressure angle")
+
+
+class CamLinkageLimits(CamDriveLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(30.0, description="minimum transmission angle of follower and output, at D")
 
 
 Roller = Annotated[Length, Field(description="radius of the roller in the groove")]
@@ -96,7 +103,7 @@ class CamLinkageSpec(DrivenSpec):
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D")
     roller_radius: Roller
     motion: Output
-    limits: CamDriveLimits = CamDriveLimits.model_construct()
+    limits: CamLinkageLimits = CamLinkageLimits.model_construct()
     loads: Annotated[Any, Deferred("machines.cam_drives.loads:CamLinkageSection")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

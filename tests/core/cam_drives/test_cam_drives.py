@@ -173,3 +173,30 @@ def test_refusals() -> None:
     ):
         with pytest.raises(ValueError, match=words):
             design(data, **keys)
+
+
+@pytest.mark.parametrize(
+    ("links", "phase", "law"),
+    [
+        ({"input": 60.0, "coupler": 62.0, "follower": 45.0, "output": 21.0, "frame": 0.0}, 230.0, "modified-sine"),
+        ({"input": 60.0, "coupler": 60.0, "follower": 80.0, "output": 50.0, "frame": 12.0}, 150.0, "cycloidal"),
+    ],
+)
+def test_transmission_angle_of_follower_and_output(links: dict[str, float], phase: float, law: str) -> None:
+    """The angle of the triangle C-D-E by its sides, C by a cut of two circles; 0 where the sides come into line."""
+    motion = [{"to": 20.0}, {"to": 360.0, "output": 360.0, "law": law}]
+    found = design(LINKAGE, links=links, phase=phase, motion=motion)
+    theta = np.radians(np.linspace(0.0, 360.0, 20_001))
+    output = found.output_motion.evaluate(theta, 0)[0]
+    b = links["input"] * np.exp(1j * theta)
+    d = links["frame"] + links["output"] * np.exp(1j * (math.radians(phase) + output))
+    n = np.abs(d - b)
+    along = (links["coupler"] ** 2 - links["follower"] ** 2 + n * n) / (2.0 * n)
+    c = b + (d - b) / n * (along + 1j * np.sqrt(links["coupler"] ** 2 - along**2))
+    sides = np.abs(c - links["frame"]), links["follower"], links["output"]
+    cosine = (sides[1] ** 2 + sides[2] ** 2 - sides[0] ** 2) / (2.0 * sides[1] * sides[2])
+    wanted = math.acos(np.max(np.abs(cosine)))
+    assert found.min_transmission_angle == pytest.approx(wanted, rel=0.0, abs=2e-3 if wanted < 0.1 else 1e-6)
+    (check,) = found.check("transmission-angle")
+    assert check.status == ("pass" if wanted > math.radians(35.0) else "fail")
+    assert (found.min_transmission_angle == 0.0) == (wanted < 0.01)

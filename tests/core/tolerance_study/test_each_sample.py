@@ -66,7 +66,7 @@ STUDIES = {
     "crank": Study("ty460_slider_crank", {"stroke": 60, "rod": 150, "offset": 60}, set()),
     "reducer": Study("cycloidal_reducer", {"pin_radius": 30, "pin_circle_radius": 20}, {"GL201"}),
     "cam gear": Study("cam_gear", {"lever.length": 8}, {"GL401"}, {"limits__pressure_angle": 43.7}),
-    "cam linkage": Study("cam_linkage", {"links.coupler": 2}, {"GL401"}, {"limits__pressure_angle": 38.3}),
+    "cam linkage": Study("cam_linkage", {"links.coupler": 2}, {"GL401"}, {"limits__pressure_angle": 41.5}),
     "linked cams": Study("linked_cams", {"cams.y.base_radius": 5}, {"GL401"}, {"limits__pressure_angle": 20.0}),
     "geneva": Study("geneva_drive", {"center_distance": 8, "locking_radius": 20}, {"GL344"}),
     "drum": Study("barrel_cam", {"cam.radius": 2.0}, {"GL401"}, {"limits__pressure_angle": 26.5}),
