@@ -81,7 +81,7 @@ LIMITS = {
 }
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", LIMITS)
 def test_messages_of_what_fails_have_the_form_and_a_fix(name):
     data = worked(name) | LIMITS[name]

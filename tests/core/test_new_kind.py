@@ -97,7 +97,7 @@ def test_loads(run: Any) -> None:
     assert found["pin_A.peak"] > 0.0
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("words", "suffix"),
     [

@@ -49,7 +49,7 @@ def test_many_standstills_leave_the_curve_to_be_seen() -> None:
     assert max(len(axes.lines) for axes in figure.axes[2:]) < 6
 
 
-@pytest.mark.parametrize("name", ["lift_cam", "geneva_drive", "hypocycloid_slider"])
+@pytest.mark.parametrize("name", ["lift_cam", "geneva_drive", "hypocycloid_slider", "crank_rocker"])
 def test_every_panel_of_a_sheet_has_something_in_it(name: str) -> None:
     """Of kinds whose sheets no other quick test draws: a title or a label of its own, and a curve or a body."""
     panels = [axes for axes in sheet(name).figure.axes if axes.axison]

@@ -269,7 +269,7 @@ def test_two_gears_that_always_step_back_by_an_angle() -> None:
         two("back-step", RING, back_step={"angle": 60.0}).linkage  # noqa: B018
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("teeth", "crank", "dwell"),
     [

@@ -34,7 +34,7 @@ def test_apex_of_the_reference() -> None:
     assert prime == pytest.approx(expected["r_pitch_min"], rel=0.0, abs=1e-11)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("limit", [26.0, 28.0, 35.0])
 def test_both_rollers_keep_the_limit_and_no_smaller_cam_does(limit: float) -> None:
     design = sized(limit)

@@ -290,7 +290,7 @@ def test_gaps_that_stand_at_their_limit_are_judged_at_once(
     agree(made, unsure=0.001)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["dwell", "window", "tolerance", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
