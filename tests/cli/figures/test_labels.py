@@ -89,6 +89,12 @@ def test_words_keep_clear_on_every_sheet_of_every_design(path: Any) -> None:
         assert meetings(settled(draw())) == [], name
 
 
+def test_a_letter_that_is_hidden_counts_whole_under_a_long_word_too() -> None:
+    word, letter, beside = [0.0, 0.0, 120.0, 10.0], [20.0, 0.0, 28.0, 10.0], [20.0, 5.0, 28.0, 15.0]
+    for box, taken, share in ((word, letter, 1.0), (letter, word, 1.0), (word, beside, 0.5), (beside, word, 0.5)):
+        assert labels._on(np.array([box]), np.array([taken])) == pytest.approx([share], rel=1e-12)
+
+
 def test_words_on_words_move_and_others_stay() -> None:
     made = panels.page("two letters", 0.4)
     axes = made.add_subplot()

@@ -124,10 +124,12 @@ def _room(axes: Axes) -> tuple[float, float]:
 
 
 def _on(boxes: Reals, taken: Reals, room: tuple[float, float] = (0.0, 0.0)) -> Reals:
-    """Share of each box, with room about it, that others take, each of which counts by itself."""
+    """Share of each box, with room about it, that others take, each of which counts by itself; of what is smaller than
+    the box the share that it covers: a letter under a long word is as illegible as the word under a longer one."""
     low, high = boxes[:, None, :2] - room, boxes[:, None, 2:] + room
     both = np.maximum(np.minimum(high, taken[None, :, 2:]) - np.maximum(low, taken[None, :, :2]), 0.0)
-    return np.asarray(both.prod(axis=2).sum(axis=1) / np.maximum((high - low).prod(axis=2)[:, 0], 1.0))
+    size = np.minimum((high - low).prod(axis=2), (taken[:, 2:] - taken[:, :2]).prod(axis=1))
+    return np.asarray((both.prod(axis=2) / np.maximum(size, 1.0)).sum(axis=1))
 
 
 def _on_marks(boxes: Reals, marks: Reals) -> Reals:
