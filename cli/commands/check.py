@@ -94,14 +94,46 @@ def _in_processes(files: Sequence[str], options: Options, jobs: int) -> Iterator
 
     from gearlink.cli.parallel.workers import workers
 
+    parts = _parts(files, 4 * jobs)
+    found: dict[int, list[Finding]] = {}
     done = 0
     try:
-        with workers(min(jobs, len(files))) as pool:
-            for of_file in pool.map(findings, files, repeat(options)):
-                done += 1
-                yield of_file
+        with workers(min(jobs, len(parts))) as pool:
+            for part, of_part in zip(parts, pool.map(_of_some, _named(parts, files), repeat(options)), strict=True):
+                found.update(zip(part, of_part, strict=True))
+                while done in found:
+                    done += 1
+                    yield found[done - 1]
     except (BrokenExecutor, OSError):
-        yield from (findings(file, options) for file in files[done:])
+        yield from (found[k] if k in found else findings(files[k], options) for k in range(done, len(files)))
+
+
+def _parts(files: Sequence[str], count: int) -> list[list[int]]:
+    """Numbers of the files in so many parts or somewhat more, those of one kind next to each other: a process imports
+    the kinds of its own files alone, which takes a fifth of the time of a folder with all of them."""
+    most = -(-len(files) // count)
+    kinds: dict[bytes, list[int]] = {}
+    for k, file in enumerate(files):
+        kinds.setdefault(_kind_line(file), []).append(k)
+    return [of_kind[k : k + most] for of_kind in kinds.values() for k in range(0, len(of_kind), most)]
+
+
+def _kind_line(file: str) -> bytes:
+    """The line that names the kind, as far as it can be seen without reading YAML; nothing where it cannot."""
+    try:
+        with open(file, "rb") as stream:
+            return next((line.split(b"#")[0].strip() for line in stream if line.startswith(b"kind:")), b"")
+    except OSError:
+        return b""
+
+
+def _named(parts: Sequence[Sequence[int]], files: Sequence[str]) -> list[list[str]]:
+    return [[files[k] for k in part] for part in parts]
+
+
+def _of_some(files: Sequence[str], options: Options) -> list[list[Finding]]:
+    """The findings of each of some files."""
+    return [findings(file, options) for file in files]
 
 
 def findings(file: str, options: Options) -> list[Finding]:

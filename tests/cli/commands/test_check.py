@@ -279,3 +279,14 @@ def test_of_a_machine_it_is_the_key_of_the_member_or_the_relation() -> None:
 
 def test_help_has_an_example(gearlink: Any) -> None:
     assert "Example: gearlink check" in gearlink("check", "--help").out
+
+
+def test_parts_for_processes_hold_every_file_once_and_one_kind_each(tmp_path: Path) -> None:
+    """A process imports the kinds of its own files; many files of one kind are shared by all processes."""
+    kinds = ["gear-pair", "machine", "gear-pair", "study"] * 10
+    for k, kind in enumerate(kinds):
+        (tmp_path / f"{k:02d}.yaml").write_text(f"# text\nkind: {kind}   # text\n", encoding="utf-8")
+    files = [str(path) for path in sorted(tmp_path.iterdir())]
+    parts = check._parts([*files, str(tmp_path / "gone.yaml")], 8)
+    assert sorted(k for part in parts for k in part) == list(range(41))
+    assert all(len({[*kinds, ""][k] for k in part}) == 1 and len(part) <= 6 for part in parts)
