@@ -368,6 +368,8 @@ def _show_rest(report: Report, options: Options) -> None:
 
     console = console_for(options)
     for table in report.tables:
+        if table.data and not len(table.data[0]):
+            continue
         show_table(table, console, scale=scales(report), digits=options.digits)
     show_findings(report, console, passed=False)
 
@@ -379,14 +381,28 @@ def _coloured(options: Options) -> bool:
 def _lines(report: Report, options: Options) -> list[str]:
     """A line for each key result: title, value, unit and what was asked for; its name where the title is another.
 
-    In a narrow terminal long values run on, and names that do not fit are left out.
+    In a narrow terminal lists run on in further lines, and names that do not fit are left out.
     """
     scale = scales(report)
     values = [visible(drawn(quiet(q.value, scale.get(q.unit, 0.0)), q.unit, options.digits)) for q, *_ in report.key]
     columns = get_terminal_size((80, 24)).columns
     laid = [_laid(report.key, values, longest, columns >= _WIDE) for longest in _LONGEST]
     lines = next((lines for lines in laid if all(len(named) <= columns for _, named, _ in lines)), laid[-1])
-    return [next((form for form in forms if len(form) <= columns), forms[-1]) for forms in lines]
+    best = [next((form for form in forms if len(form) <= columns), forms[-1]) for forms in lines]
+    indent = " " * (2 + max(len(each.title) for each in report.key))
+    return [part for line in best for part in _folded(line, columns, indent)]
+
+
+def _folded(line: str, columns: int, indent: str) -> list[str]:
+    """A line, or a long list in lines below each other: texts one by one, numbers as many as there is space for."""
+    if len(line) <= columns or " " not in line[len(indent) :]:
+        return [line]
+    if "; " in line:
+        first, *others = line.split("; ")
+        return [f"{first};", *(f"{indent}{each};" for each in others[:-1]), f"{indent}{others[-1]}"]
+    from textwrap import wrap
+
+    return wrap(line, columns, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def _laid(key: Sequence[KeyResult], values: Sequence[str], longest: int, wide: bool) -> list[tuple[str, str, str]]:

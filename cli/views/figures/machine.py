@@ -195,6 +195,9 @@ def _called(member: str) -> str:
 # The line
 
 
+_SAMPLED = 1e-5  # of the range: rows do not meet a minimum more closely
+
+
 def _line(axes: Axes, design: Any) -> None:
     """A row for each member: its curve, its runs below; relations as arrows with their margins."""
     members, dial = list(design.spec.members), design.timing.dial
@@ -206,6 +209,7 @@ def _line(axes: Axes, design: Any) -> None:
         share = (values - low) / (high - low) if high > low else np.zeros_like(values)
         axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
         _bars(axes, design, name, bottom)
+        low, high = (0.0 if abs(end) < _SAMPLED * (high - low) else end for end in (low, high))
         labels.append(f"{_called(name)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
     for relation, margin in design.margins:
         _relation(axes, design, rows, relation, margin)
