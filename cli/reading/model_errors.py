@@ -141,6 +141,8 @@ def number_remedy(text: str, unit: str = "") -> str:
         return f"write {text.replace(',', '.')}, or {text.replace(',', '')} where the comma parts thousands"
     if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", text):
         return f"write a decimal point: {text.replace(',', '.')}"
+    if re.fullmatch(r"[-+]?[0-9.]+(:[-+]?[0-9.]+){2}", text):
+        return "one value at a time: several values of a key are a study, `gearlink new study` shows one"
     if re.fullmatch(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?", text):
         return "write decimals, not minutes and seconds"
     if re.fullmatch(r"[-+]?[0-9]{1,3}([_ '][0-9]{3})+(\.[0-9]+)?", text):

@@ -403,6 +403,7 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
         ("20°", "no unit goes here: write 20"),
         ("1.5e3rpm", "no unit goes here: write 1.5e3"),
         ("40:20", "write decimals, not minutes and seconds"),
+        ("36:42:2", "one value at a time: several values of a key are a study, `gearlink new study` shows one"),
         ("1_000", "write 1000"),
         ("1 000.5", "write 1000.5"),
         ("38\u00a0", "it holds U+00A0 (no-break space): write 38"),
