@@ -193,7 +193,7 @@ _NO_CAM = [
     (
         {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
         "cam.center",
-        "pressure angle 90 deg.*for 45 deg: move cam.center",
+        r"passes the relative pole near cam angle 208\.\d+ deg \(pressure angle 90 deg\)$",
     ),
     pytest.param(
         {"cam__center": None, "size": {"pressure_angle": 20.0}},
@@ -213,15 +213,18 @@ def test_the_motion_is_shown_though_the_cam_is_impossible(command: str, changes:
     (failed,) = [check for check in report.checks if check.name == "pressure-angle"]
     assert (failed.code, failed.status, failed.value) == ("GL401", "fail", None)
     assert re.search(words, failed.message)
+    assert key == "size.pressure_angle" or failed.advice.startswith("move cam.center, or ")
     assert {"handover_speed", "total_swing", "newton_agreement"} <= {q.name for q in report.quantities}
     assert not {"max_pressure_angle", "lift_off_speed"} & {q.name for q in report.quantities}
     assert [table.name for table in report.tables] == ["motion"]
     without = {key: value for key, value in changes.items() if not key.startswith(("cam", "size"))}
     alone = machine(**without, cam=None).report(command)
     assert report.quantities == alone.quantities
-    with pytest.raises(NoSolution, match=words) as refused:
+    with pytest.raises(NoSolution) as refused:
         design.report("cam")
+    assert re.search(words, refused.value.message)
     assert refused.value.key == key
+    assert refused.value.fix == failed.advice
 
 
 @pytest.mark.parametrize("command", ["gripper", "analyze", "cam"])
