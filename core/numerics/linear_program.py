@@ -52,13 +52,13 @@ def solution(
     from highspy import HighsModelStatus, HighsStatus, MatrixFormat, ObjSense
 
     row, column = np.nonzero(rows)
-    start, ways = np.searchsorted(row, np.arange(most.size + 1)), (int(MatrixFormat.kRowwise), int(ObjSense.kMinimize))
+    start, form = np.searchsorted(row, np.arange(most.size + 1)), MatrixFormat.kRowwise.value
     sizes, real = (*rows.shape[::-1], row.size), np.zeros(cost.size, dtype=np.int32)
     limits, matrix = (lower, upper, least_, most), (start.astype(np.int32), column.astype(np.int32), rows[row, column])
     solver = _solver()
     solver.setOptionValue("primal_feasibility_tolerance", tolerance)
     solver.setOptionValue("dual_feasibility_tolerance", tolerance)
-    solver.passModel(*sizes, *ways, 0.0, cost, *limits, *matrix, real)
+    solver.passModel(*sizes, form, ObjSense.kMinimize.value, 0.0, cost, *limits, *matrix, real)
     if solver.run() == HighsStatus.kError:  # of its threads there is one number in a process: who came first set it
         solver.setOptionValue("threads", 0)
         solver.run()
