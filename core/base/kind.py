@@ -143,12 +143,12 @@ class FileDesigns:
         """The design of a class, that of a command or the geometry of one; one of its own for a completed spec."""
         if spec is not self._spec:
             return cls(spec)
-        known: Made | None = self._made.get(cls)  # type: ignore[assignment]
-        if known is not None:
-            return known
-        design = self._made[cls] = cls(self._spec)
-        design.kin = self
-        return design
+        made: Any = self._made.get(cls)
+        if made is None:
+            made = self._made[cls] = cls(self._spec)
+            made.kin = self
+        found: Made = made
+        return found
 
     def changed(self, spec: Any) -> FileDesigns:
         """The designs of another file of the kind."""
