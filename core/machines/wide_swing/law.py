@@ -84,8 +84,6 @@ __all__ = [
     "spring_rate",
 ]
 
-_SETTLES = 1e-9
-"""A step of this share leaves its square, times the bend of the law: no bit."""
 _NEWTON_STEPS = 40
 _GRID = np.linspace(0.0, 0.5 * math.pi, 129)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
@@ -386,7 +384,7 @@ class ElasticLaw:
             step = excess / self.slowness(sine, cosine)
             # a step past an end of the half stroke stops there; the next one starts from the end
             angle[left] = at = np.clip(at - step, 0.0, 0.5 * math.pi)
-            left = left[~((np.abs(step) <= _SETTLES * at + _FAINTEST) | (np.abs(excess) <= floor))]
+            left = left[~((np.abs(step) <= 1e-13 * at + _FAINTEST) | (np.abs(excess) <= floor))]
             if not left.size:
                 return angle
         raise NoSolution(

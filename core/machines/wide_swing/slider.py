@@ -30,8 +30,6 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.slider_crank.position import slider as slider_place
 from gearlink.core.parts.linkages.slider_crank.sweep import slider
 
-_SETTLES = 1e-9
-"""A step of this share leaves its square, times the bend of the law: no bit."""
 _NEWTON_STEPS = 60
 _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
@@ -382,7 +380,7 @@ class SliderLaw:
             step = (self._time_of(at, clock) - k[left] * clock.total) / self._slowness(side * np.cos(at), np.sin(at))
             # a step past an end of the stroke stops there; the next one starts from the end
             v[left] = at = np.clip(at - step, 0.0, math.pi)
-            left = left[~(np.abs(step) <= _SETTLES * at + _FAINTEST)]
+            left = left[~(np.abs(step) <= 1e-13 * at + _FAINTEST)]
             if not left.size:
                 return v
         raise NoSolution(_TOO_SHARP, key="slider")
