@@ -12,6 +12,7 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
 from gearlink.cli.views.scenes import loops, of_motion, shown
+from gearlink.cli.views.scenes.scene import Body
 from gearlink.core.mechanism import vectors
 
 if TYPE_CHECKING:
@@ -120,7 +121,9 @@ def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
     scene = replace(  # without remarks of several words: it is small
         scene,
         marks=tuple(mark for mark in scene.marks if " " not in mark.text),
-        parts=tuple(_without_remark(part) for part in scene.parts),
+        parts=tuple(
+            replace(part, label="") if isinstance(part, Body) and " " in part.label else part for part in scene.parts
+        ),
     )
     panels.drawing(axes, f"At {_input(design, q)}")
     panels.few_ticks(axes.xaxis, 4)
