@@ -69,6 +69,7 @@ def _studio(path: Path) -> Iterator[str]:
 @contextmanager
 def _opened(window: Browser, path: Path) -> Iterator[Page]:
     with _studio(path) as address:
+        window.problems()  # of a page before it whose test could not end
         window.open(address)
         page = Page(window, path)
         window.wait("return document.querySelectorAll('[data-quantity], #problem pre').length", 60.0)

@@ -136,8 +136,8 @@ def _share_of_page(axes: Axes) -> float:
     grid = place.get_gridspec()
     ratios: Any = grid.get_width_ratios() or [1.0] * grid.ncols
     share = float(sum(ratios[place.colspan.start : place.colspan.stop]) / sum(ratios))
-    made: Any = axes.figure
-    return share * made.get_figwidth() / _A4[0]
+    width: float = axes.figure.get_figwidth()  # type: ignore[union-attr]
+    return share * width / _A4[0]
 
 
 def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
