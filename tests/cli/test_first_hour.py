@@ -77,7 +77,7 @@ def test_a_dwell_that_steps_back_says_so_and_the_tolerance_is_honoured(gearlink:
     assert ended.status == 0
     assert "warn GL315 back-step" in ended.out
     assert "half of the back-step of the output during the dwell: 6.77 deg" in ended.out
-    assert "dwell: {window: deg, tolerance: deg}" in ended.out
+    assert "give dwell.window and dwell.tolerance instead of dwell.angle" in ended.out
     ended = gearlink("synth", "dwell", path, "--set", "dwell_tolerance=1", "--quantity", "tolerance_dwell_angle")
     assert float(ended.out.split()[0]) == pytest.approx(35.87924612, abs=1e-8)
     found = gearlink("synth", "dwell", path, "--set", "dwell_tolerance=1", "--format", "json").out

@@ -47,7 +47,7 @@ def test_the_frame_of_the_theory_warns_and_does_not_fail() -> None:
     assert "fail" not in {check.status for check in press.report("loads").checks}
     (found, *axes) = _places(press)
     assert found[0] == "warn"
-    assert "runs against the bed; loads.bed_side -1, with gravity [9.81, 0]" in found[1].replace("fix: ", "")
+    assert "runs against the bed; set loads.bed_side to -1 and gravity to [9.81, 0]" in found[1].replace("fix: ", "")
     assert axes == []
     assert [check.status for check in press.check("gear-direction")] == ["pass"]
 
