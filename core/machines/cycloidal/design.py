@@ -357,8 +357,10 @@ class CycloidalReducer(RealSpeed, Design):
         k, (low, high) = self.shortening, _USUAL
         limit = low if k < low else high
         what, aside = "shortening coefficient e Z/R", f"usual {low:g} to {high:g}"
-        per_end = self.spec.eccentricity / k if k else 0.0
-        fix = f"set eccentricity to {within(low * per_end, high * per_end, 'mm')}" if k else "raise eccentricity"
+        fix = "raise eccentricity"
+        if k:
+            per = self.spec.eccentricity / k
+            fix = f"set eccentricity to {within(per * low, per * high, 'mm')}"
         status: Status = "pass" if low <= k <= high else "warn"
         return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 
