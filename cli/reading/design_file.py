@@ -159,7 +159,7 @@ def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:
     path = parse_path(error.key) or _ROOT
     lacks = isinstance(error, MissingSection) and error.key and not error.fix and "`new " not in error.message
     remedy = f"`gearlink new {loaded.data.get('kind')}` shows the keys of {error.key}, with units" if lacks else ""
-    return loaded.report(error.code, error.message, path, key=error.key, help=remedy or error.fix, of_several=not lacks)
+    return loaded.report(error.code, error.message, path, key=error.key, help=error.fix or remedy, of_several=not lacks)
 
 
 def validate(loaded: LoadedFile, model: type[Model]) -> Model:

@@ -92,7 +92,7 @@ def test_table_fits_a_terminal_of_eighty_columns(gearlink: Any) -> None:
     ("name", "words"),
     [
         ("modifed-sine", "did you mean 'modified-sine'"),
-        ("{quintic: 0.7}", "the nearest is 0.6"),
+        ("{quintic: 0.7}", "(nearest 0.6)"),
         ("{quintic: 0.5", "never closed"),
         ("{scca: [0.5, 0.5, 0.5, 0]}", "scca"),
         ("half-simple-harmonic", "half-cycloidal"),

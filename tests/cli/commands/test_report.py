@@ -163,5 +163,5 @@ def test_a_pdf_shows_no_animation(gearlink: Any, crank: Path, tmp_path: Path) ->
     """What was to be shown had been passed over."""
     ended = gearlink("report", crank, "--format", "pdf", "--show", "velocity", "--out", tmp_path / "out")
     assert ended.status == 2
-    assert "--show velocity is for the animation, which a pdf has not: take --format html" in ended.err
+    assert "--show velocity is for the animation, which a pdf does not have" in ended.err
     assert not (tmp_path / "out").exists()

@@ -199,4 +199,5 @@ def test_a_file_that_asks_for_a_synthesis_serves_every_command(gearlink: Any, tm
 def test_two_tasks_in_one_file_leave_the_choice_to_the_user(gearlink: Any) -> None:
     ended = gearlink("analyze", DESIGNS / "candy_feed.yaml", "--set", "back_step.angle=20")
     assert ended.status == 2
-    assert "`synth dwell` or `synth back-step` finds it: keep one of their sections" in ended.err
+    assert "`synth dwell` or `synth back-step` finds it\n" in ended.err
+    assert "help: keep one of their sections" in ended.err
