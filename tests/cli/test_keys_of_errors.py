@@ -26,7 +26,7 @@ _ROCKER = """\
     ("text", "key", "words"),
     [
         (_ALLOWED, "center_distance_allowance", "centre distance at a limit of its allowance: -0.0"),
-        (_ROCKER, "target.swing", "next to a standstill; specify 0.000248 deg or more"),
+        (_ROCKER, "target.swing", "too small to be computed; set swing to at least 0.000248 deg"),
     ],
 )
 def test_the_key_that_is_to_change(gearlink: Any, tmp_path: Path, text: str, key: str, words: str) -> None:

@@ -62,8 +62,8 @@ def test_what_is_no_folder_is_refused_before_anything_is_written(
 @pytest.mark.parametrize(
     ("place", "words"),
     [
-        ("", "the name is empty: give a file"),
-        ("crank.yaml", "crank.yaml is there already"),
+        ("", "the name is empty help: give a file"),
+        ("crank.yaml", "crank.yaml exists already"),
         (".", ". is a folder"),
         ("/dev/full", "/dev/full is no plain file"),
         ("crank.yaml/x", "crank.yaml is no folder"),

@@ -74,7 +74,7 @@ def test_a_safety_alone_says_what_it_rests_on(lever, gearlink, designs):
     ended = gearlink("gear", lever(load), "--quantity", "safety_bending")
     assert float(ended.out.split()[0]) > 0.0
     assert ended.err.strip() == (
-        "safety_bending: K_A 1.25, K_v 1, K_Fb 1, K_Fa 1 and the life factors are not computed: 1 unless given"
+        "safety_bending: K_A 1.25, K_v 1, K_Fb 1, K_Fa 1; K and life factors are those of the file, else 1"
     )
     assert gearlink("gear", lever(load), "--quantity", "safety_bending", "--quiet").err == ""
     assert gearlink("gear", lever(load), "--quantity", "root_chord").err == ""

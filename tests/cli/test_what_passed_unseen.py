@@ -60,7 +60,7 @@ _TWIN_ROCKER = """\
             "overlap of the input shaft and the output shaft: 1.9",
         ),
         (_RING, "GL206", "interference of the tip"),
-        (_TRAINS, "GL308", "mesh at 50 mm, train 1 holds A and E 40 mm apart"),
+        (_TRAINS, "GL308", "50 mm (by train 1 40 mm between A and E)"),
         (_TWIN_ROCKER, "GL507", "over the stroke: 0.0516"),
     ],
     ids=["idler", "large input", "shaft", "shafts", "ring", "trains", "zone"],

@@ -45,7 +45,7 @@ class MeshPlay:
     def _rise(self) -> float:
         """alpha' - alpha_wt."""
         distance, alpha = abs(self.pair.center_distance), self.pair.working_pressure_angle
-        return teeth.pressure_angle_rise(distance, self.off, alpha, what="centre distance at a limit of its allowance:")
+        return teeth.pressure_angle_rise(distance, self.off, alpha, what="centre distance at a limit of its allowance")
 
     @property
     def pressure_angle(self) -> float:
