@@ -262,7 +262,7 @@ def test_five_bar_refusals(gearlink, tmp_path, text, old, new, code, key):
 def test_opening_five_bar_names_the_worst_angle(gearlink, tmp_path):
     (error,) = wrong(gearlink, tmp_path, PATH.replace("coupler: 60", "coupler: 100"))
     assert "input angle 287.1 deg" in error["message"]
-    assert "35.3553 mm" in error["message"]
+    assert "35.36 mm" in error["message"]
 
 
 @pytest.mark.slow
