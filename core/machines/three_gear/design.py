@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,7 +11,7 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, up
-from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below
+from gearlink.core.base.report import Check, Remedy, Table, safely_above, safely_below, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.three_gear import dwell as dwells
@@ -27,7 +28,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_chec
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
-from gearlink.core.parts.linkages.fourbar.position import FourBar
+from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 from gearlink.core.parts.linkages.standstills import BackStep, Turning, turnings
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
@@ -42,6 +43,8 @@ if TYPE_CHECKING:
     from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
 
 
+_ROUNDED = 64.0
+"""Frames: rounding of a place, and of a standstill itself, is that of some lengths."""
 QUANTITIES = (
     "i3",
     "crank_teeth",
@@ -418,9 +421,28 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
         """Distance of A from the line of P13 and P35 in each standstill [mm]; None without one."""
         if not self.dwell_crank_angles:
             return None
-        from gearlink.core.machines.three_gear.mechanism import line_errors
+        (r1, r3, _), (r3_out, r5, _) = self.rolling
+        errors = []
+        for phi in self.dwell_crank_angles:
+            b = cmath.rect(self.crank_length, phi)
+            c = self.frame_length + cmath.rect(self.rocker_length, solve(self.linkage, phi).rocker_angle)
+            first, second = b + r1 / (r1 + r3) * (c - b), c + r3_out / (r3_out + r5) * (self.frame_length - c)
+            way = second - first
+            apart = abs((way.conjugate() * first).imag) / abs(way)
+            errors.append(without_noise(apart, _ROUNDED * self.frame_length))
+        return errors
 
-        return line_errors(self)
+    @cached_property
+    def rolling(self) -> list[tuple[float, float, float]]:
+        """Working radii [mm] of both meshes, a ring's negative and first, and the tangent of their pressure angle."""
+        if self.own_teeth:
+            crank, output = self.meshes.values()
+            (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
+            return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
+        train, gears = self.train, self.spec.gears
+        tangent = math.tan(math.radians(gears.pressure_angle))
+        r1, r3, r5 = (0.5 * gears.module * teeth for teeth in (train.crank, train.idler, train.output))
+        return [(r1, r3, tangent), (r3, r5, tangent)]
 
     def _forwards(self, phi: float) -> float:
         """Speed ratio in the sense of the mean motion."""
@@ -695,3 +717,8 @@ def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
         return GEAR_COLLISION.check("pass", f"gap between the tips of {other} and {ring}", gap, limit, "mm")
     fix = "put them side by side on a wide idler, in planes of their own"
     return GEAR_COLLISION.check("warn", f"{other} sweeps through {ring}", fix=fix)
+
+
+def _rolling_of(pair: Any) -> tuple[float, float, float]:
+    r1, r2 = pair.working_radius
+    return r1, r2, math.tan(pair.working_pressure_angle)

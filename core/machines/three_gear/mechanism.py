@@ -8,12 +8,10 @@ meets AD in P15, and W = AP15/DP15. In a standstill A, F = P13 and E = P35 lie i
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.report import without_noise
 from gearlink.core.mechanism.courses import turned
 from gearlink.core.mechanism.joints import Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
@@ -38,7 +36,7 @@ def motion(design: ThreeGearFourBar) -> Motion:
     Source
         thesis (4-21), (4-22)
     """
-    linkage, train, radii = design.linkage, design.train, rolling(design)
+    linkage, train, radii = design.linkage, design.train, design.rolling
     at_start = solve(linkage, 0.0)
     i2, i3 = -train.crank / train.idler, -train.idler / train.output
     section = design.spec.loads
@@ -70,27 +68,6 @@ def motion(design: ThreeGearFourBar) -> Motion:
     return Motion(make, Input("crank_angle"), outputs)
 
 
-def rolling(design: ThreeGearFourBar) -> list[tuple[float, float, float]]:
-    """Working radii [mm] of both meshes, a ring's negative and first, and the tangent of their pressure angle."""
-    if design.own_teeth:
-        crank, output = design.meshes.values()
-        (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
-        return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
-    train, gears = design.train, design.spec.gears
-    tangent = math.tan(math.radians(gears.pressure_angle))
-    r1, r3, r5 = (0.5 * gears.module * teeth for teeth in (train.crank, train.idler, train.output))
-    return [(r1, r3, tangent), (r3, r5, tangent)]
-
-
-def _rolling_of(pair: Any) -> tuple[float, float, float]:
-    r1, r2 = pair.working_radius
-    return r1, r2, math.tan(pair.working_pressure_angle)
-
-
-_SIZE = 64.0
-"""Frames: rounding of places, and of the standstills themselves, is that of some lengths."""
-
-
 class Poles(NamedTuple):
     """At crank angles: P13, P35, their joints B and C, and the place of P15 on AD, NaN at infinity [mm]."""
 
@@ -109,7 +86,7 @@ def poles(design: ThreeGearFourBar, phi: Reals) -> Poles:
     """
     links = design.moving.at(phi, 0).links
     b, c = links["coupler"].origin.value, links["rocker"].at("C").value
-    (r1, r3, _), (r3_out, r5, _) = rolling(design)
+    (r1, r3, _), (r3_out, r5, _) = design.rolling
     first = b + r1 / (r1 + r3) * (c - b)
     second = c + r3_out / (r3_out + r5) * (design.frame_length - c)
     way = second - first
@@ -134,14 +111,3 @@ def columns(design: ThreeGearFourBar, degrees: Reals) -> dict[str, tuple[Any, st
         "P15_y": (np.zeros_like(phi), "mm"),
         "speed_ratio": (speed, "1"),
     }
-
-
-def line_errors(design: ThreeGearFourBar) -> list[float]:
-    """Distance of A from the line of P13 and P35 in each standstill, which must be 0 [mm]."""
-    phi = np.array(design.dwell_crank_angles, dtype=np.float64)
-    if not phi.size:
-        return []
-    found = poles(design, phi)
-    way = found.second - found.first
-    apart = np.abs((np.conj(way) * found.first).imag) / np.abs(way)
-    return [without_noise(float(each), _SIZE * design.frame_length) for each in apart]

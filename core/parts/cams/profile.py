@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.base.errors import NoSolution
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import BLOCK, Points, Reals
 from gearlink.core.parts.cams.codes import LARGER
 
@@ -222,7 +223,7 @@ def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
     if across.size and not (across.min() > 0.0 or across.max() < 0.0):
         place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
         raise NoSolution(
-            f"the roller passes the relative pole near cam angle {place:.6g} deg (pressure angle 90 deg)",
+            f"pressure angle: 90 deg at cam angle {short(place)} deg, where the roller passes the relative pole",
             fix=f"{LARGER} or lengthen the rise",
         )
 
@@ -329,7 +330,7 @@ def _speed(cam_angle: ArrayLike, path: RollerPath, d1: Points) -> Reals:
     if still.any():
         place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
         raise NoSolution(
-            f"the pitch curve is at rest at cam angle {place:.6g} deg: the follower moves with the cam",
+            f"the pitch curve has a cusp at cam angle {short(place)} deg, where the follower moves with the cam",
             fix=f"{LARGER} or change the law",
         )
     return speed

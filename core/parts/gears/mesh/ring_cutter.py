@@ -244,6 +244,7 @@ class InternalInterference:
         Tip fouling is exact: 320 pairs followed through a whole revolution agreed in sign. Radial assembly covers every
         phase of the teeth: 80 pairs pushed in at 12 phases agreed.
     Example
+        >>> from gearlink.core.parts.gears.mesh.pair import GearPair
         >>> close = InternalInterference(GearPair(module=1.0, teeth=(43, -50), given_shift=(0.0, -0.06)))
         >>> round(close.tip_fouling_angle, 7), round(close.radial_assembly_angle, 5)
         (0.0004113, -0.02215)

@@ -501,7 +501,7 @@ def polish(linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, r
         a dead centre the noise of the step is eps/gamma. `start_is_safe` tells beforehand.
     Example
         >>> sweep = polish(FourBar(18.0, 50.0, 100.0, 121.4), 0.0, 1.26, 2.65)
-        >>> round(float(np.degrees(rocker_angle)), 6), int(iterations)
+        >>> round(float(np.degrees(sweep.rocker_angle)), 6), int(sweep.iterations)
         (151.60249, 4)
 
     Source
