@@ -45,7 +45,26 @@ _PLACE = re.compile(r"(?P<axis>[xy])_(?P<pin>[A-Z])")
 _COUPLER = re.compile(r"coupler_(?P<number>[123])_(?P<rest>\w+)")
 _FORCE = re.compile(r"(?P<pin>[A-Z]|[A-Z]_[a-z]+|planet|cylinder|guide|guide_[a-z]+?)_(?P<part>x|y)")
 _JOINT = re.compile(r"[A-HMNO]|[A-O]_(sum|return|idler|output|pinion)|planet|cylinder|guide(_[a-z]+)?")
+_RATE = re.compile(r"(?P<of>\w+)_(?P<what>velocity|speed|acceleration)_ratio")
+_POINT_RATE = re.compile(r"(?P<of>[A-Z])_(?P<axis>[xy])_(?P<what>velocity|acceleration)(?P<ratio>_ratio)?")
+_MEMBER = re.compile(r"(?P<of>\w+)\.(?P<what>position|velocity|acceleration)")
 _MESH = re.compile(r"(mesh_\w+?|rack_lower|rack_upper)(_radial)?")
+
+
+def _of_output(name: str) -> str:
+    """Words of a column of an output that the file names; empty where the name is none of these."""
+    if found := _POINT_RATE.fullmatch(name):
+        per = " per unit of the input" if found["ratio"] else ""
+        return f"{found['axis']} component of the {found['what']} of the point {found['of']}{per}"
+    if found := _RATE.fullmatch(name):
+        return f"{found['what']} of {found['of']} per unit of the input"
+    if found := _MEMBER.fullmatch(name):
+        return f"{found['what']} of the output of the member {found['of']}"
+    if name.startswith("guide") and name.endswith("_position"):
+        return "position of what slides in the guide"
+    if re.fullmatch(r"lever_(speed|acceleration)", name):
+        return f"angular {name.removeprefix('lever_')} of the lever"
+    return "amplitude of the disc in that mode, where the last disc has 1" if re.fullmatch(r"mode_\d+", name) else ""
 
 
 def column_words(name: str) -> str:
@@ -61,6 +80,8 @@ def column_words(name: str) -> str:
         return f"half-width of the 95 % interval of {name.removesuffix('_pm')}"
     if found := _PLACE.fullmatch(name):
         return f"{found['axis']} of the pin {found['pin']}"
+    if words := _of_output(name):
+        return words
     if found := _COUPLER.fullmatch(name):
         words = COLUMNS.get(f"coupler_{found['rest']}", "")
         return words.replace("coupler", f"coupler {('BC', 'CD', 'DE')[int(found['number']) - 1]} of a six-bar")
