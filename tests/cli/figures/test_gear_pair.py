@@ -145,7 +145,7 @@ def test_safeties_stand_with_what_they_rest_on():
     made, figure = sheet(DATA, "gear", **load)
     shown = words(figure)
     assert any("K_Hb 1" in text for text in shown)
-    assert " ".join(filter(None, shown)).count("not computed: 1 unless given") == len(("contact", "root"))
+    assert " ".join(filter(None, shown)).count("those of the file, else 1") == len(("contact", "root"))
     assert f"{made.quantity('safety_bending').value[0]:.6g}" in shown
     assert "thickness allowance, upper" not in shown
     assert "span measurement, nominal" in shown
