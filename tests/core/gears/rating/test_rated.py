@@ -355,7 +355,7 @@ def test_a_failing_safety_says_what_helps() -> None:
     (first, _) = rated().check("pitting")
     crowned = of("safety_pitting", rating={"face": {"modification": "crowning"}})[0]
     assert "gear 1: pitting safety S_H" in first.message
-    assert "K_Hb = 1.49 takes 18 % of the safety" in first.note[0]
+    assert "K_Hb 1.49 reduces the safety by 18 %" in first.note[0]
     assert first.fix.endswith(f"crowning, which gives a safety of {crowned:.3g}")
 
 
@@ -365,7 +365,7 @@ def test_a_remedy_names_nothing_that_the_file_has() -> None:
     assert found.status == "warn"
     assert "crowning" not in found.fix
     for each in rated(rating=narrow, face_width=120, load={"torque": 3000}).check("pitting"):
-        assert each.note[0].count("K_Hb =") == 1
+        assert each.note[0].count("reduces the safety by") == 1
 
 
 WRONG: list[tuple[dict[str, Any], str, str]] = [
