@@ -601,13 +601,26 @@ class Start:
 
     # Closing
 
-    @cached_property
+    @property
     def closed(self) -> tuple[Points, Reals]:
         """Origins [size] and directions in (-pi, pi] at input 0.
 
         Raises
             NoSolution - where the mechanism does not close, with key start
         """
+        if isinstance(self._closed, NoSolution):
+            raise self._closed
+        return self._closed
+
+    @cached_property
+    def _closed(self) -> tuple[Points, Reals] | NoSolution:
+        """The closed start, or the refusal, which has taken thousands of steps and is kept."""
+        try:
+            return self._close_all()
+        except NoSolution as refusal:
+            return refusal
+
+    def _close_all(self) -> tuple[Points, Reals]:
         system, y = self.system, self.rough.copy()
         found = {dyad.block: dyad for dyad in dyads(self.structure, system)}
         for block in system.blocks:
