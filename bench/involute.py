@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.parts.gears.tooth.functions_sweep import inverse_involute
+from gearlink.core.parts.gears.mesh.pair_sweep import inverse_involute
 from gearlink.core.parts.gears.tooth.involute import inverse_involute as scalar
 
 Array = NDArray[np.float64]

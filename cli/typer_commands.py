@@ -503,7 +503,7 @@ def _export(
     Example: gearlink export designs/ty460.yaml --part main_cam --as dxf --as svg
     """
     if cam_table:
-        from gearlink.cli.export.cam_table import run_cam_table
+        from gearlink.cli.export.command import run_cam_table
 
         raise typer.Exit(run_cam_table(spec, options, rows, tolerance))
     from gearlink.cli.export.command import run_export

@@ -47,7 +47,7 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
     try:
         width, height = _size(asked.size)
         if asked.format == "mp4":
-            from gearlink.cli.views.films.video import ffmpeg
+            from gearlink.cli.views.films.raster import ffmpeg
 
             ffmpeg()
         with patience(f"drawing {source}", quiet=options.quiet):
@@ -145,10 +145,10 @@ def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> N
     raster, count = Raster(stage), stage.count
     pictures = counted(range(count), "drawing", quiet=options.quiet)
     if asked.format == "mp4":
-        from gearlink.cli.views.films.video import write_mp4
+        from gearlink.cli.views.films.raster import write_mp4
 
         write_mp4(stream, raster, asked.fps, pictures)
     else:
-        from gearlink.cli.views.films.gif import write_gif
+        from gearlink.cli.views.films.raster import write_gif
 
         write_gif(stream, raster, count, asked.fps, pictures)

@@ -17,7 +17,7 @@ from oracles.loop_gains import closed_pin
 from oracles.three_gear_gains import Drive, gear_angles, signs
 
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.parts.gears.tooth.functions_sweep import involute
+from gearlink.core.parts.gears.mesh.pair_sweep import involute
 from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
 
 _STEPS = 12

@@ -1,23 +1,130 @@
-"""Pictures of a scene in pixels: what moves is drawn large with Pillow, reduced, and put on the backdrop."""
+"""Pictures of a scene in pixels, and loops of them as GIF or, by the ffmpeg that the machine has, as mp4.
+
+What moves is drawn large with Pillow, with whole bars, discs and dashes, reduced, and put on the backdrop. A GIF has
+one palette for all of its pictures, and times that add up to the length of the loop.
+"""
 
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import deque
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from importlib.util import find_spec
+from itertools import islice, pairwise
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 
-from gearlink.cli.views.films.brush import FINER, arrow, bar, dashes, disc, flat, font, thinned
+from gearlink.cli.files import CannotWrite, unfinished
+from gearlink.cli.parallel.processors import processors
 from gearlink.cli.views.films.stage import ChartScale, Stage
 from gearlink.cli.views.scenes.colors import BLACK, GREY, LIGHT, WHITE, WRONG
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, placed
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from PIL.Image import Image as Picture
+
+
+FINER = 2
+"""The large picture has so many pixels for one of the reduced."""
+
+
+def flat(points: Points) -> list[float]:
+    """x, y, x, y ... as Pillow takes them."""
+    flat: list[float] = np.column_stack([points.real, points.imag]).ravel().tolist()
+    return flat
+
+
+def bar(draw: ImageDraw.ImageDraw, start: complex, end: complex, width: float, color: str) -> None:
+    """A straight bar; Pillow's own wide lines round their corners to whole pixels and seem to bend."""
+    if start == end:
+        return
+    side = 0.5j * width * (end - start) / abs(end - start)
+    draw.polygon(flat(np.array([start + side, end + side, end - side, start - side])), fill=color)
+
+
+def arrow(draw: ImageDraw.ImageDraw, start: complex, end: complex, width: float, color: str) -> None:
+    """An arrow from point to point, its head shorter where the arrow is short."""
+    if start == end:
+        return
+    way = (end - start) / abs(end - start)
+    head = min(5.0 * width, 0.6 * abs(end - start))
+    bar(draw, start, end - 0.8 * head * way, width, color)
+    corners = end + head * way * np.array([0.0, -1.0 + 0.36j, -1.0 - 0.36j])
+    draw.polygon(flat(corners), fill=color)
+
+
+def disc(draw: ImageDraw.ImageDraw, at: complex, radius: float, fill: str, edge: str, width: int) -> None:
+    """A disc with an edge."""
+    box = [at.real - radius, at.imag - radius, at.real + radius, at.imag + radius]
+    draw.ellipse(box, fill=fill, outline=edge, width=width)
+
+
+def dashes(points: Points, length: float) -> list[Points]:
+    """The dashes of a polyline, each as long as the gap behind it."""
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
+    edges = np.arange(0.0, along[-1], length)
+    made = []
+    for start in edges[::2]:
+        at = np.linspace(start, min(start + length, along[-1]), 5)
+        made.append(np.interp(at, along, points.real) + 1j * np.interp(at, along, points.imag))
+    return made
+
+
+def thinned(points: Points, tolerance: float) -> Points:
+    """The points of a polyline that keep it within so much of what it was (Douglas and Peucker).
+
+    Example
+        >>> thinned(np.array([0, 1 + 0.01j, 2, 2 + 1j]), 0.1).tolist()
+        [0j, (2+0j), (2+1j)]
+    """
+    kept = np.zeros(len(points), dtype=bool)
+    kept[[0, -1]] = True
+    open_ends = [(0, len(points) - 1)]
+    while open_ends:
+        first, last = open_ends.pop()
+        if last - first < 2:
+            continue
+        chord, beside = points[last] - points[first], points[first + 1 : last] - points[first]
+        # A closed line has no chord between its ends: the farthest point splits it.
+        off = np.abs((beside * np.conj(chord)).imag) / abs(chord) if chord else np.abs(beside)
+        worst = int(off.argmax())
+        if off[worst] > tolerance:
+            middle = first + 1 + worst
+            kept[middle] = True
+            open_ends += [(first, middle), (middle, last)]
+    return points[kept]
+
+
+def font_file(name: str) -> str:
+    """A font that has the letters of a name, where one is installed; else the one that comes with matplotlib."""
+    from gearlink.cli.views.figures.write import families
+
+    *_, last = families(name)
+    if last != "sans-serif":
+        from matplotlib.font_manager import findfont
+
+        return str(findfont(last))
+    found = find_spec("matplotlib")  # where it is; to import it for that takes longer than ten pictures
+    assert found is not None, "this program needs it"
+    assert found.origin is not None, "it is a package with files"
+    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
+
+
+def font(size: float, name: str = "") -> Any:
+    """A font of so many pixels, with the letters of a name."""
+    return ImageFont.truetype(font_file(name), max(8, round(size)))
 
 
 _MINUS = re.compile(r"-(?=\d)")  # not the hyphen of a word
@@ -306,3 +413,136 @@ def _chart_words(draw: ImageDraw.ImageDraw, scale: ChartScale, size: float) -> N
     for curve in reversed(scale.chart.curves if len(scale.chart.curves) > 1 else ()):
         draw.text((right, top - 0.35 * size), curve.label, font=small, fill=curve.color, anchor="rs")
         right -= draw.textlength(curve.label, font=small) + 1.2 * size
+
+
+_COLORS = 64
+_WORTH_PROCESSES, _SHARE = 48, 6
+"""Pictures from which on several processes pay, and how many of them one draws at a time."""
+
+
+def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, counted: Iterable[int]) -> None:
+    """Write the pictures; `counted` counts them and may show how far the work is."""
+    palette = _with_white(raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
+    made = _frames(raster, palette, counted, count)
+    first = next(made)
+    first.save(stream, "GIF", save_all=True, append_images=made, duration=durations(count, fps), loop=0, optimize=False)
+
+
+def _with_white(picture: Picture) -> Picture:
+    """The picture with a palette in which white is white: paper has no tint.
+
+    Pillow takes for a colour what is nearest to it by the upper six bits of each part, not what is equal to it.
+    """
+    paper, colors = Image.new("RGB", (1, 1), "white"), list(picture.getpalette() or [])
+    while True:
+        at = paper.quantize(palette=picture, dither=Image.Dither.NONE).tobytes()[0]
+        if colors[3 * at : 3 * at + 3] == [255, 255, 255]:
+            return picture
+        colors[3 * at : 3 * at + 3] = [255, 255, 255]
+        picture.putpalette(colors)
+
+
+def _frames(raster: Raster, palette: Picture, counted: Iterable[int], count: int) -> Iterator[Picture]:
+    """The pictures in the colours of the palette, drawn in several processes where there are processors for them."""
+    jobs = processors() if sys.platform == "linux" else 1  # elsewhere a process does not begin with what this one has
+    if jobs < 2 or count < _WORTH_PROCESSES:
+        yield from (_quantized(raster, palette, i) for i in counted)
+        return
+    from gearlink.cli.parallel.workers import workers
+
+    global _drawn_from
+    _drawn_from = raster, palette  # forked processes have it without its being sent
+    blank = _quantized(raster, palette, 0)
+    try:
+        with workers(jobs) as pool:
+            for _, pixels in zip(counted, _in_order(pool, count, jobs), strict=True):
+                made = blank.copy()
+                made.frombytes(pixels)
+                yield made
+    finally:
+        _drawn_from = None
+
+
+_drawn_from: tuple[Raster, Picture] | None = None
+
+
+def _in_order(pool: Executor, count: int, jobs: int) -> Iterator[bytes]:
+    """Pixels of every picture; few of them wait to be written."""
+    shares = (range(start, min(start + _SHARE, count)) for start in range(0, count, _SHARE))
+    begun = deque(pool.submit(_pixels, share) for share in islice(shares, 2 * jobs))
+    while begun:
+        yield from begun.popleft().result()
+        begun.extend(pool.submit(_pixels, share) for share in islice(shares, 1))
+
+
+def _pixels(numbers: range) -> list[bytes]:
+    assert _drawn_from is not None, "set before this process was forked"
+    return [_quantized(*_drawn_from, i).tobytes() for i in numbers]
+
+
+def _quantized(raster: Raster, palette: Picture, i: int) -> Picture:
+    return raster.picture(i).quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def durations(count: int, fps: int) -> list[int]:
+    """Times of the pictures [ms] in the hundredths of a second that a GIF knows, without drifting from the rate.
+
+    Example
+        >>> durations(4, 30), durations(3, 25)
+        ([30, 40, 30, 30], [40, 40, 40])
+    """
+    ends = [round(100.0 * i / fps) for i in range(count + 1)]
+    return [10 * (end - start) for start, end in pairwise(ends)]
+
+
+_BITEXACT = ("-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "1")
+
+
+def ffmpeg() -> str:
+    """Where ffmpeg is.
+
+    Raises
+        CannotWrite - where the machine has none
+    """
+    found = shutil.which("ffmpeg")
+    if found is None:
+        raise CannotWrite("mp4 needs the program ffmpeg, which is not on the PATH: install it, or take --format gif")
+    return found
+
+
+def write_mp4(stream: IO[bytes], raster: Raster, fps: int, counted: Iterable[int]) -> None:
+    """Write the pictures as H.264.
+
+    Raises
+        CannotWrite - where there is no ffmpeg, or it fails
+    """
+    program, stage = ffmpeg(), raster.stage
+    with tempfile.TemporaryDirectory(prefix="gearlink-") as folder, unfinished(folder):
+        path = Path(folder) / "motion.mp4"
+        raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{stage.width}x{stage.height}", "-r", str(fps), "-i", "-")
+        coded = ("-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", *_BITEXACT)
+        command = [program, "-v", "error", "-y", *raw, "-an", *coded, str(path)]
+        with tempfile.TemporaryFile() as said:
+            running = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said)
+            _feed(running, raster, counted)
+            if running.wait() != 0 or not path.is_file():
+                said.seek(0)
+                words = said.read().decode(errors="replace").strip().splitlines() or ["no word of why"]
+                raise CannotWrite(f"ffmpeg failed: {words[-1][:300]}")
+        with path.open("rb") as made:
+            shutil.copyfileobj(made, stream)
+
+
+def _feed(running: subprocess.Popen[bytes], raster: Raster, counted: Iterable[int]) -> None:
+    assert running.stdin is not None, "opened as a pipe"
+    try:
+        for i in counted:
+            running.stdin.write(raster.picture(i).tobytes())
+    except BrokenPipeError:
+        pass  # ffmpeg has ended early; its status and last words say why
+    except BaseException:
+        running.kill()
+        raise
+    finally:
+        with suppress(BrokenPipeError):
+            running.stdin.close()

@@ -14,9 +14,8 @@ from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFoll
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.disc_cam.cams import FollowerCams
+    from gearlink.core.machines.disc_cam.cams import FollowerCams, Making
     from gearlink.core.machines.disc_cam.closing import Closing
-    from gearlink.core.machines.disc_cam.making import Making
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.parts.cams.flat_cam import FlatCam
@@ -123,7 +122,7 @@ class DiscCamDesign(OfFollower, Design):
     @cached_property
     def making(self) -> Making:
         """Cutter path, radii, errors and servo table."""
-        from gearlink.core.machines.disc_cam.making import Making
+        from gearlink.core.machines.disc_cam.cams import Making
 
         return Making(self.spec, self.cams)
 

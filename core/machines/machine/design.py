@@ -19,12 +19,11 @@ from gearlink.core.machines.machine.speeds import own_speeds, wanted_speed
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from gearlink.core.machines.machine.phases import Solution, Tie
     from gearlink.core.machines.machine.relations import Moment, Relation
     from gearlink.core.machines.machine.series import Members, OverMachine
     from gearlink.core.machines.machine.shaft import Chain
     from gearlink.core.machines.machine.spec import MachineSpec
-    from gearlink.core.machines.machine.timing import Timing
+    from gearlink.core.machines.machine.timing import Solution, Tie, Timing
     from gearlink.core.numerics.arrays import Reals
 
 _OF_MEMBER = {"phase": "deg", "phase_room": "deg"}
@@ -262,8 +261,8 @@ class Machine(OfMembers):
         return found
 
     def _tie(self, relation: Any) -> Tie:
-        from gearlink.core.machines.machine.phases import Tie
         from gearlink.core.machines.machine.relations import Within
+        from gearlink.core.machines.machine.timing import Tie
 
         if isinstance(relation, Within):
             inner, outer = (
@@ -284,7 +283,7 @@ class Machine(OfMembers):
     @cached_property
     def solution(self) -> Solution:
         """The free phases, and the minimum margin of the relations between events."""
-        from gearlink.core.machines.machine.phases import solve
+        from gearlink.core.machines.machine.timing import solve
 
         return solve(self.spec.free, self._ties, self.timing.dial)
 

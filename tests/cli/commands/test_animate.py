@@ -24,10 +24,9 @@ from sweeps import mostly_slow
 
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.options import Options
-from gearlink.cli.views.films import gif, raster
-from gearlink.cli.views.films.brush import FINER
+from gearlink.cli.views.films import raster
 from gearlink.cli.views.films.page import page, player_stage
-from gearlink.cli.views.films.raster import Raster, backdrop
+from gearlink.cli.views.films.raster import FINER, Raster, backdrop
 from gearlink.cli.views.films.stage import ChartScale, Stage
 from gearlink.cli.views.scenes.loops import build, moving_kinds, pictures_for
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene
@@ -342,9 +341,9 @@ def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_
 def test_pictures_of_several_processes_are_those_of_one(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(gif, "_WORTH_PROCESSES", 2)
+    monkeypatch.setattr(raster, "_WORTH_PROCESSES", 2)
     for jobs in (1, 2):
-        monkeypatch.setattr(gif, "processors", lambda jobs=jobs: jobs)
+        monkeypatch.setattr(raster, "processors", lambda jobs=jobs: jobs)
         command = ("animate", designs / "ty460.yaml", "--out", tmp_path / str(jobs), *QUICK)
         assert gearlink(*command).status == 0
     first, second = (tmp_path / folder / "TY-460-motion.gif" for folder in ("1", "2"))

@@ -20,7 +20,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.drawing.placing import places, settled
-from gearlink.cli.views.films.brush import thinned
+from gearlink.cli.views.films.raster import thinned
 
 OUTLINE = 3.0 * np.exp(2j * np.pi * np.arange(7) / 7) + 1j
 

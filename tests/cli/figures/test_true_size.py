@@ -15,8 +15,7 @@ import pytest
 from factory import design, worked
 
 from gearlink.cli.reading.diagnostics import DesignFileError
-from gearlink.cli.views.figures.sheets.polygons import draw, next_scale
-from gearlink.cli.views.figures.sheets.true_size import PAPERS, Scale, drawing
+from gearlink.cli.views.figures.sheets.true_size import PAPERS, Scale, drawing, next_scale, polygons
 
 MM = 72.0 / 25.4
 
@@ -73,7 +72,7 @@ def test_paper_that_is_too_small_names_one_that_is_not(tmp_path: Path) -> None:
 
 def test_polygons_are_true_to_their_scale(tmp_path: Path) -> None:
     made = design("ty460_gears", command="press")
-    figure = draw(made)
+    figure = polygons(made)
     scale = float(re.findall(r"= ([\d.]+) mm/s", str(figure.get_suptitle()))[0])
     box, lines = read(figure, tmp_path / "polygons.pdf")
     assert box / MM == pytest.approx([210.0, 297.0], abs=1e-3)

@@ -18,7 +18,7 @@ import pytest
 import yaml
 from machines import FEED, GRIPPER, cam, machine, of, wrapped
 
-from gearlink.core.machines.machine.phases import Tie, solve
+from gearlink.core.machines.machine.timing import Tie, solve
 
 
 def least(ties: Sequence[Tie], phases: Mapping[str, Any], dial: float) -> Any:

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.tooth import functions_sweep
+from gearlink.core.parts.gears.mesh import pair_sweep
 from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute, involute_rise, rise_of_involute
 
 ANGLES = [(1e-8, 1e-4), (1e-4, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.14), (1.14, 1.55)]
@@ -52,7 +52,7 @@ def test_involute_against_many_digits(low, high):
     rng = random.Random(1)
     angles = [rng.uniform(low, high) for _ in range(600)]
     assert max(ulps(involute(a), exact(a)) for a in angles) <= 2.0
-    values = functions_sweep.involute(np.array(angles))
+    values = pair_sweep.involute(np.array(angles))
     assert max(ulps(float(v), exact(a)) for a, v in zip(angles, values, strict=True)) <= 2.2
 
 
@@ -63,7 +63,7 @@ def test_inverse_against_many_digits(low, high):
     values = [10.0 ** rng.uniform(low, high) for _ in range(40)]
     truth = [exact_inverse(v) for v in values]
     assert max(ulps(inverse_involute(v), t) for v, t in zip(values, truth, strict=True)) <= 2.0
-    sweep = functions_sweep.inverse_involute(np.array(values))
+    sweep = pair_sweep.inverse_involute(np.array(values))
     assert max(ulps(float(a), t) for a, t in zip(sweep, truth, strict=True)) <= 2.0
 
 
@@ -71,7 +71,7 @@ def test_published_value():
     assert involute(math.radians(20.0)) == pytest.approx(0.014904, abs=5e-7)  # the gear tables' inv 20 deg
 
 
-@pytest.mark.parametrize("invert", [inverse_involute, functions_sweep.inverse_involute])
+@pytest.mark.parametrize("invert", [inverse_involute, pair_sweep.inverse_involute])
 def test_zero_and_the_ends_of_the_range(invert):
     assert float(invert(0.0)) == 0.0
     # the cube of such an angle has no digits left to repair the rational start, good to 3e-9, of the sweep
@@ -85,22 +85,22 @@ def test_zero_and_the_ends_of_the_range(invert):
 
 def test_arrays_keep_shape_and_need_no_company():
     values = np.geomspace(1e-12, 50.0, 20_000).reshape(100, 200)
-    angles = functions_sweep.inverse_involute(values)
+    angles = pair_sweep.inverse_involute(values)
     assert angles.shape == values.shape
-    assert angles[37, 11] == functions_sweep.inverse_involute(values[37, 11])
-    assert functions_sweep.inverse_involute(values.T[::3])[5, 7] == angles.T[::3][5, 7]
-    assert functions_sweep.involute(angles).shape == values.shape
-    assert functions_sweep.inverse_involute(np.empty((0, 3))).shape == (0, 3)
-    assert functions_sweep.involute([]).shape == (0,)
+    assert angles[37, 11] == pair_sweep.inverse_involute(values[37, 11])
+    assert pair_sweep.inverse_involute(values.T[::3])[5, 7] == angles.T[::3][5, 7]
+    assert pair_sweep.involute(angles).shape == values.shape
+    assert pair_sweep.inverse_involute(np.empty((0, 3))).shape == (0, 3)
+    assert pair_sweep.involute([]).shape == (0,)
 
 
 def test_sweep_and_scalar_agree():
     values = np.geomspace(1e-12, 100.0, 3000)
     scalar = np.array([inverse_involute(float(v)) for v in values])
-    assert np.max(np.abs(functions_sweep.inverse_involute(values) - scalar) / np.spacing(scalar)) <= 3.0
+    assert np.max(np.abs(pair_sweep.inverse_involute(values) - scalar) / np.spacing(scalar)) <= 3.0
     angles = np.linspace(-1.55, 1.55, 3001)
     scalar = np.array([involute(float(a)) for a in angles])
-    assert np.all(np.abs(functions_sweep.involute(angles) - scalar) <= 3.0 * np.spacing(np.abs(scalar)))
+    assert np.all(np.abs(pair_sweep.involute(angles) - scalar) <= 3.0 * np.spacing(np.abs(scalar)))
 
 
 @examples(200)
@@ -140,7 +140,7 @@ def test_inverse_refuses(bad):
     with pytest.raises(NoSolution, match="limit >= 0"):
         inverse_involute(bad)
     with pytest.raises(NoSolution, match="limit >= 0"):
-        functions_sweep.inverse_involute([0.1, bad, 0.2])
+        pair_sweep.inverse_involute([0.1, bad, 0.2])
 
 
 @pytest.mark.parametrize("bad", [math.pi / 2, -1.6, 3.0, math.nan])
@@ -148,4 +148,4 @@ def test_involute_refuses(bad):
     with pytest.raises(NoSolution, match="within -90 and 90 deg"):
         involute(bad)
     with pytest.raises(NoSolution, match="within -90 and 90 deg"):
-        functions_sweep.involute([0.1, bad])
+        pair_sweep.involute([0.1, bad])
