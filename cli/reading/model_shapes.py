@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from gearlink.core.base.spec import Deferred, Entries
+from gearlink.core.base.spec import Deferred, Entries, OfFollower
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import KeyPath
@@ -103,9 +103,25 @@ def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]
 
 def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The unit of a number; empty where it has none, or one that another key names."""
-    units = {each.name for _, found in shapes_at(model, path, data)[0] for each in found if isinstance(each, _Unit)}
+    said = [each for _, found in shapes_at(model, path, data)[0] for each in found]
+    units = {each.name for each in said if isinstance(each, _Unit)}
     unit = units.pop() if len(units) == 1 else ""
+    turning = next((each.turning for each in said if isinstance(each, OfFollower)), None)
+    if turning is not None:
+        unit = _of_follower(path, data, unit, turning)
     return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
+
+
+def _of_follower(path: KeyPath, data: Any, sliding: str, turning: str) -> str:
+    """The unit that goes with the follower of the nearest section around a path; empty where that is only a link."""
+    found, node = None, data
+    for step in path:
+        if isinstance(node, dict) and "follower" in node:
+            found = node["follower"]
+        node = _child(node, step)
+    if isinstance(found, dict):
+        return turning if str(found.get("type")).startswith("oscillating") else sliding
+    return sliding if found is None else ""
 
 
 def list_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[int, str, str]:

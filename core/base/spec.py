@@ -42,6 +42,17 @@ class Entries:
         self.example = example
 
 
+class OfFollower:
+    """Annotates a number of a cam whose unit is another one where the follower turns.
+
+    Parameters
+        turning : str - the unit with an oscillating follower, "deg"
+    """
+
+    def __init__(self, turning: str) -> None:
+        self.turning = turning
+
+
 MOST_NAME = 200
 """Characters of a design's name at most: it heads pictures and pages, and names files."""
 

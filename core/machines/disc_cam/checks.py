@@ -147,7 +147,8 @@ def lift_off(design: DiscCamDesign) -> Iterator[Check]:
     fix = ""
     if status != "pass":
         more = safely_above(closing.preload_for(_RESERVE * closing.speed))
-        fix = f"raise spring.preload to {more} N (10 % speed margin)"
+        unit = "N m" if spec.oscillates else "N"
+        fix = f"raise spring.preload to {more} {unit} (10 % speed margin)"
     at = f"cam angle {short(math.degrees(found.place))} deg"
     most = _RESERVE * spec.speed
     yield LIFT_OFF.check(

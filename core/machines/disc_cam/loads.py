@@ -211,7 +211,10 @@ class FollowerCamLoads(_Loads):
     @property
     def closing_remedy(self) -> str:
         """What presses the follower harder."""
-        return "raise spring.preload" if self.spec.spring is not None else "give spring: {preload: N, rate: N/mm}"
+        if self.spec.spring is not None:
+            return "raise spring.preload"
+        rate, force = ("N m/rad", "N m") if self.spec.oscillates else ("N/mm", "N")
+        return f"give spring: {{preload: {force}, rate: {rate}}}"
 
     spring_preload: float | None = placed("closing.preload")
     lift_off_speed: float | None = placed("closing.lift_off_speed")

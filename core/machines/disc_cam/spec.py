@@ -15,6 +15,7 @@ from gearlink.core.base.spec import (
     Entries,
     Length,
     LoadLimits,
+    OfFollower,
     SignedLength,
     Spec,
     TolerancedSpec,
@@ -125,13 +126,13 @@ class ReturnRoller(Spec):
 class Spring(Spec):
     """The spring that holds the follower on the cam."""
 
-    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"}), OfFollower("N m")] | None = Field(
         None, description="force at lift 0 (oscillating: N m)"
     )
-    rate: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N/mm"})] = Field(
+    rate: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N/mm"}), OfFollower("N m/rad")] = Field(
         0.0, description="rate (oscillating: N m/rad)"
     )
-    least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+    least_force: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"}), OfFollower("N m")] | None = Field(
         None, description="minimum force that is to stay (oscillating: N m), instead of preload"
     )
 

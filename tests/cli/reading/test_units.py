@@ -85,6 +85,31 @@ def test_units_are_those_of_the_keys() -> None:
     assert found == (pytest.approx(114.59155902616465, rel=1e-15), 60.0, 0.03, 120.0, 200.0)
 
 
+CAM = (
+    "motion: [{to: 90, lift: LIFT}, {to: 180}, {to: 270, lift: 0}, {to: 360}]\nfollower: {type: TYPE}\n"
+    "cam: {prime_radius: 60}\nspring: {preload: FORCE}"
+)
+
+
+def cam(follower: str, lift: str, force: str) -> Any:
+    text = CAM.replace("LIFT", lift).replace("TYPE", follower).replace("FORCE", force)
+    return spec(text, "disc-cam")
+
+
+def test_units_of_a_cam_go_with_its_follower() -> None:
+    rocks = "oscillating-roller, roller_radius: 12, arm: 90, center_distance: 120"
+    made = cam(rocks, "0.25 rad", "3000 N mm")
+    assert made.motion[0].lift == pytest.approx(14.32394487827058, rel=1e-15)
+    assert made.spring.preload == 3.0
+    slides = cam("translating-roller, roller_radius: 12", "1 in", "2 kN")
+    assert (slides.motion[0].lift, slides.spring.preload) == (25.4, 2000.0)
+    with pytest.raises(DesignFileError) as refused:
+        cam(rocks, "18 mm", "5 N")
+    assert [found.message for found in refused.value.diagnostics] == [
+        "mm is a length, motion[0].lift is in deg", "N is a force, spring.preload is in N m"
+    ]  # fmt: skip
+
+
 def test_loads_and_set_take_units() -> None:
     loaded = parse(HEAD + b"stroke: 310\nrod: 520\nloads: {speed: 2 Hz, links: {slider: {mass: 10 lb}}}", "x.yaml",
                    overrides=["stroke=0.31 m"])  # fmt: skip

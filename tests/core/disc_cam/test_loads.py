@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import factory
@@ -63,6 +64,15 @@ def test_the_follower_leaves_its_cam_at_the_speed_of_lift_off() -> None:
     below, above = (loads(speed=share * speed).raw("contact_force_min") for share in (0.999, 1.001))
     assert above < 0.0 < below
     assert loads(speed=speed).raw("contact_force_min") == pytest.approx(0.0, abs=1e-8)
+
+
+def test_the_preload_of_the_fix_is_in_the_unit_of_the_follower() -> None:
+    rocks = {"type": "oscillating-roller", "roller_radius": 10, "arm": 90, "center_distance": 120, "inertia": 0.2}
+    for follower, spring, unit in ((SLIDE["follower"], {"preload": 1}, "N"), (rocks, {"preload": 1}, "N m")):
+        design = factory.design({**SLIDE, "follower": follower, "spring": spring, "cam": {"prime_radius": 60}})
+        (check,) = [each for each in design.report("cam").checks if each.code == "GL406"]
+        assert check.status == "fail"
+        assert re.fullmatch(rf"raise spring.preload to [\d.]+ {unit} \(10 % speed margin\)", check.fix)
 
 
 def test_the_least_preload_keeps_the_least_force() -> None:
