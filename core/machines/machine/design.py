@@ -474,7 +474,7 @@ class Machine(OfMembers):
 
     def check_timing_relation(self) -> Iterator[Check]:
         """GL530: each relation."""
-        from gearlink.core.machines.machine.relations import Value, Within
+        from gearlink.core.machines.machine.relations import Value, Within, common_member
 
         for relation, margin in self.margins:
             of_value = isinstance(relation, Value)
@@ -492,6 +492,8 @@ class Machine(OfMembers):
             elif limiting:
                 note = f"no phases do better: these limit each other: {', '.join(limiting)}"
                 fix = "relax one of the requirements that limit each other"
+            if own := common_member(relation):
+                fix, note = f"change the motion of {own}", "both events are of one member: no phase changes the margin"
             yield codes.TIMING.check(status, what, margin, limit, unit, fix=fix, note=note)
 
     def _unit_of_value(self, relation: Any) -> str:

@@ -110,6 +110,21 @@ class Value:
 Relation: TypeAlias = "Before | Within | Value"
 
 
+def common_member(relation: Relation) -> str:
+    """The member of both runs or events of a relation, "" where two members or the machine angle have a part in it.
+
+    Example
+        >>> common_member(parse("feed.rise_end before feed.return_start by 9"))
+        'feed'
+        >>> common_member(parse("feed.rise_end before 90"))
+        ''
+    """
+    if isinstance(relation, Value):
+        return ""
+    one, two = relation.one, relation.two
+    return one.member if isinstance(one, Named) and isinstance(two, Named) and one.member == two.member else ""
+
+
 @cache
 def parse(text: str) -> Relation:
     """A line of `require`.

@@ -102,6 +102,15 @@ def test_the_machine_takes_what_was_found() -> None:
     assert max(math.degrees(each.least_margin or 0.0) for each in grid) <= 18.0 + 1e-9
 
 
+def test_a_relation_within_one_member_asks_for_another_motion_of_it() -> None:
+    members = {"feed": of(cam(FEED), phase=20), "gripper": of(cam(GRIPPER), phase="free")}
+    found = machine(members, require=["feed.rise_end before feed.return_start by 200", "gripper.rise_end before 10"])
+    own, other = found.check("timing-relation")
+    assert (own.status, own.fix) == ("fail", "change the motion of feed")
+    assert own.note == ("both events are of one member: no phase changes the margin",)
+    assert other.status == "pass"
+
+
 def test_where_no_phases_will_do_the_relations_that_limit_each_other_are_named() -> None:
     members = {"feed": of(cam(FEED)), "gripper": of(cam(GRIPPER), phase="free")}
     found = machine(
