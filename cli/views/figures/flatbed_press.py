@@ -53,9 +53,9 @@ if TYPE_CHECKING:
 
 
 LEVEL = -1j
-"""Turns the bed chain's frame so that the bed moves level, printing to the right: AD points down, F stands left."""
+"""Turns the bed drive's frame so that the bed moves level, printing to the right: AD points down, F stands left."""
 UPRIGHT = 1j
-"""Turns the cylinder chain's frame so that N stands above G; its cylinder, geared to N, then runs with the bed."""
+"""Turns the cylinder drive's frame so that N stands above G; its cylinder, geared to N, then runs with the bed."""
 _BED, _RACK = "#CFE8F7", "#F6E3C0"
 _CAM_COLORS = (BLUE, RED)
 
@@ -389,7 +389,7 @@ def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
 
 def bed_positions(axes: Axes, design: FlatbedPress) -> None:
     """A-B-C-D-E-F in twelve positions; the speeds of the bed in lanes below the slide line."""
-    panels.drawing(axes, f"Bed chain in {POSITIONS} positions, 30° apart, to scale")
+    panels.drawing(axes, f"Bed drive in {POSITIONS} positions, 30° apart, to scale")
     at, linkage = _at_positions(design, design.bed), design.bed.linkage
     a, b, _, d, _, f = (joint[:-1] for joint in at.bed_joints)
     for center, radius in ((a, linkage.crank), (d, linkage.rocker), (d, design.bed.slider_crank_length)):
@@ -403,7 +403,7 @@ def bed_positions(axes: Axes, design: FlatbedPress) -> None:
 
 def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
     """G-H-M-N in twelve positions, with the velocity of M."""
-    panels.drawing(axes, "Cylinder chain")
+    panels.drawing(axes, "Cylinder drive")
     chain = design.cylinder
     at = _at_positions(design, chain)
     g, _, m, n = (joint[:-1] for joint in at.cylinder_links)

@@ -74,7 +74,7 @@ def test_the_synchronous_zone_is_shaded_in_both_curves(press: Sheet) -> None:
 
 
 def test_twelve_positions_of_the_bed_chain_keep_their_links(press: Sheet) -> None:
-    chains = [line for line in panel(press.figure, "Bed chain").get_lines() if line.get_linewidth() == 0.6]
+    chains = [line for line in panel(press.figure, "Bed drive").get_lines() if line.get_linewidth() == 0.6]
     assert len(chains) == 12
     made = press.design
     for chain in chains:
@@ -84,7 +84,7 @@ def test_twelve_positions_of_the_bed_chain_keep_their_links(press: Sheet) -> Non
 
 
 def test_bed_arrows_are_its_speeds_to_one_scale(press: Sheet) -> None:
-    axes = panel(press.figure, "Bed chain")
+    axes = panel(press.figure, "Bed drive")
     (quiver,) = [each for each in axes.collections if hasattr(each, "U")]
     table = press.design.table("positions")
     speed = np.asarray(table.data[table.columns.index("bed_velocity")])
@@ -99,7 +99,7 @@ def test_bed_arrows_are_its_speeds_to_one_scale(press: Sheet) -> None:
 
 
 def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
-    axes = panel(press.figure, "Cylinder chain")
+    axes = panel(press.figure, "Cylinder drive")
     (quiver,) = [each for each in axes.collections if hasattr(each, "U")]
     table = press.design.table("positions")
     surface = np.asarray(table.data[table.columns.index("cylinder_velocity")])
@@ -110,7 +110,7 @@ def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
     np.testing.assert_allclose(np.real(np.conj(arm) * (quiver.U + 1j * quiver.V)), 0.0, rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize(("title", "value"), [("Bed chain", "46.532°"), ("Cylinder chain", "35.724°")])
+@pytest.mark.parametrize(("title", "value"), [("Bed drive", "46.532°"), ("Cylinder drive", "35.724°")])
 def test_least_transmission_angle_is_drawn_and_named(press: Sheet, title: str, value: str) -> None:
     axes = panel(press.figure, title)
     (name,) = [label for label in labels(axes) if label.startswith("minimum transmission angle")]
