@@ -546,7 +546,7 @@ def _poor_transmission(axes: Axes, design: FlatbedPress) -> None:
     for chain in ("bed", "cylinder"):
         least, place = (math.degrees(design.raw(f"min_transmission_angle_{chain}{end}")) for end in ("", "_at"))
         if least < limit:
-            failing.at(axes, place, f"{chain} chain: transmission angle {least:.4g}° at {place:.4g}°")
+            failing.at(axes, place, f"{chain} drive: transmission angle {least:.4g}° at {place:.4g}°")
 
 
 def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
