@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -156,6 +156,16 @@ def named_terms(name: str) -> list[Concept]:
     asked = folded(name)
     found = _by_name().get(asked) or _by_name().get(asked.removesuffix("s"), [])
     return sorted(found, key=lambda term: folded(term.name) != asked)
+
+
+def kinds_named(name: str, kinds: Collection[str]) -> list[str]:
+    """Of some kinds of designs those of the terms that a name stands for.
+
+    Example
+        >>> kinds_named("plate-cam", ["gear-pair", "disc-cam"])
+        ['disc-cam']
+    """
+    return list(dict.fromkeys(kind for term in named_terms(name) for kind in term.kinds if kind in kinds))
 
 
 @cache

@@ -27,7 +27,11 @@ def kind_named(name: str) -> Kind | None:
         return FILES[name]
     from difflib import get_close_matches
 
-    near = get_close_matches(name.lower().replace("_", "-"), FILES, n=3, cutoff=0.4)
+    from gearlink.cli.glossary import kinds_named
+
+    spelled = name.lower().replace("_", "-").replace(" ", "-")
+    near = [] if get_close_matches(spelled, FILES, n=1, cutoff=0.8) else kinds_named(name, FILES)
+    near = near or get_close_matches(spelled, FILES, n=3, cutoff=0.4)
     known = f"the kinds are {', '.join(FILES)}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known
     show_errors([Diagnostic("GL109", f"no kind {named(name)}", "<command line>", key=name, help=remedy)], Options())

@@ -138,8 +138,14 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
         raise DesignFileError([*loaded.problems, wrong])
     from difflib import get_close_matches
 
-    near = get_close_matches(_spelled(kind), kinds, n=1) if len(kind) <= _LONGEST_KIND else []
-    remedy = f"did you mean {near[0]}? {known}" if near else known
+    from gearlink.cli.glossary import kinds_named
+
+    near = []
+    if len(kind) <= _LONGEST_KIND:
+        spelled = _spelled(kind)
+        near = get_close_matches(spelled, kinds, n=1, cutoff=0.8) or kinds_named(kind, kinds)
+        near = near or get_close_matches(spelled, kinds, n=1)
+    remedy = f"did you mean {' or '.join(near)}? {known}" if near else known
     shown = repr(kind if len(kind) <= _LONGEST_KIND else kind[: _LONGEST_KIND - 3] + "...")
     raise DesignFileError([*loaded.problems, loaded.report("GL109", f"no kind {shown}", ("kind",), help=remedy)])
 

@@ -242,5 +242,13 @@ def test_unknown_kind_names_the_nearest(gearlink: Any) -> None:
     assert ended.out == ""
 
 
+@pytest.mark.parametrize(("name", "kind"), [("plate-cam", "disc-cam"), ("Geneva drive", "geneva-drive")])
+def test_a_kind_is_found_by_its_name_in_the_field(gearlink: Any, tmp_path: Any, name: str, kind: str) -> None:
+    assert f"help: nearest: {kind}" in gearlink("new", name).err
+    file = tmp_path / "x.yaml"
+    file.write_text(f"kind: {name}\n")
+    assert f"help: did you mean {kind}? the kinds are" in gearlink("check", file).err
+
+
 def test_help_has_an_example(gearlink: Any) -> None:
     assert "Example: gearlink schema" in gearlink("schema", "--help").out
