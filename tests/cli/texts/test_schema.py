@@ -247,7 +247,7 @@ def test_a_kind_is_found_by_its_name_in_the_field(gearlink: Any, tmp_path: Any, 
     assert f"help: nearest: {kind}" in gearlink("new", name).err
     file = tmp_path / "x.yaml"
     file.write_text(f"kind: {name}\n")
-    assert f"help: did you mean {kind}? the kinds are" in gearlink("check", file).err
+    assert f"help: did you mean {kind}? the kinds are" in gearlink("check", file).out
 
 
 def test_help_has_an_example(gearlink: Any) -> None:
