@@ -86,10 +86,18 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
 
 
 def _its_keys(model: type[BaseModel], path: KeyPath) -> str:
-    """The keys of a section, those that it needs first; nothing where a path holds none."""
-    inner = fields_at(model, path, None)
-    keys = sorted(inner, key=lambda key: not inner[key].is_required())
-    return f"its keys are {', '.join(keys[:_MOST_KEYS])}{', ...' if len(keys) > _MOST_KEYS else ''}" if keys else ""
+    """The keys of a section or of the entries of a list, those that it needs first; nothing where a path holds none."""
+
+    def listed(at: KeyPath) -> str:
+        inner = fields_at(model, at, None)
+        keys = sorted(inner, key=lambda key: not inner[key].is_required())
+        return f"{', '.join(keys[:_MOST_KEYS])}{', ...' if len(keys) > _MOST_KEYS else ''}"
+
+    section, entries = listed(path), listed((*path, 0))
+    said = [f"the keys of an entry are {entries}"] if entries else []
+    if section:
+        said.append(f"those of a section are {section}" if said else f"its keys are {section}")
+    return "; ".join(said)
 
 
 def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]:

@@ -62,7 +62,9 @@ class OfFollowerKeys(Spec):
     """The keys of every cam that turns evenly and moves one follower."""
 
     speed: Speed | None = Field(None, description="speed of the cam")
-    motion: FollowerMotion = Field(description="lift over the turn: segments with laws, or a table")
+    motion: FollowerMotion = Field(
+        description="lift over the turn (mm; oscillating follower: deg): segments with laws, or a table"
+    )
     initial_lift: Lift = Field(0.0, description="lift at cam angle 0")
 
     @model_validator(mode="after")
