@@ -681,8 +681,12 @@ class ToleranceStudy(Design):
 
     def table_requirements(self, _samples: int | None = None) -> Table:
         """Yield of each check and of each line of require."""
-        rows = [(name, one.value, one.low, one.high) for name, one in self.result.passes.items()]
-        return _table("requirements", ("name", "yield", "low", "high"), rows)
+        checks = self.problem.base.codes
+        rows = [
+            (name, one.value, one.low, one.high, next(iter(checks.get(name, ())), ""))
+            for name, one in self.result.passes.items()
+        ]
+        return _table("requirements", ("name", "yield", "low", "high", "check"), rows)
 
     def table_not_sampled(self, _samples: int | None = None) -> Table:
         """Checks without a row among the requirements, and why."""

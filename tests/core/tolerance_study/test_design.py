@@ -69,6 +69,8 @@ def test_yield_of_the_swing(candy: Any) -> None:
     found = {row["name"]: row for row in rows(candy.table_requirements())}["dwell_swing <= 10.17 deg"]
     assert found["yield"] == pytest.approx(0.97575, abs=2e-3)
     assert found["low"] <= 0.97575 <= found["high"]
+    assert found["check"] == ""
+    assert {row["name"]: row["check"] for row in rows(candy.table_requirements())}["GL301"] == "gear-collision"
 
 
 def test_corners_hold_the_worst_swing() -> None:
