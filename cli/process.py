@@ -1,4 +1,4 @@
-"""How a process of the command ends, and how often it collects garbage."""
+"""How a process of the command ends, how often it collects garbage, and how many processors it may use."""
 
 import gc
 import os
@@ -83,3 +83,9 @@ class WhileMuchIsComputed:
 
     def __exit__(self, *_: object) -> None:
         gc.set_threshold(*self._before)
+
+
+def processors() -> int:
+    """Those that the system lets it run on, where it says so; else those of the machine."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1

@@ -19,7 +19,7 @@ from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.options import Options
 from gearlink.cli.views.films.raster import Raster
 from gearlink.cli.views.films.stage import Stage
-from gearlink.cli.views.scenes.loops import build
+from gearlink.cli.views.scenes.linkages import build
 from gearlink.cli.views.scenes.scene import Scene
 
 ROOT = Path(__file__).resolve().parents[1]

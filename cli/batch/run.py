@@ -30,8 +30,8 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, read_plain_file, safe_stem, stem_of, write_atomically
 from gearlink.cli.options import Format
-from gearlink.cli.parallel.processors import processors
 from gearlink.cli.parallel.workers import calm, workers
+from gearlink.cli.process import processors
 from gearlink.cli.program import program
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.design_file import read_at_most

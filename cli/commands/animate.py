@@ -15,7 +15,7 @@ from gearlink.cli.options import Options
 from gearlink.cli.progress import counted, patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
-from gearlink.cli.views.scenes.loops import build, moves, moving_kinds, pictures_for
+from gearlink.cli.views.scenes.linkages import build, moves, moving_kinds, pictures_for
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

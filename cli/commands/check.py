@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
-from gearlink.cli.parallel.processors import processors
 from gearlink.cli.printable import json_text
+from gearlink.cli.process import processors
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path

@@ -186,13 +186,13 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
+    from gearlink.cli.views.figures import tolerance
     from gearlink.cli.views.figures.sheets import (
         cam_sheets,
         force_sheet,
         magnified,
         motion_sheet,
         timing_sheet,
-        tornado,
         vector_sheet,
         workshop,
     )
@@ -208,8 +208,8 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         found["dwell"] = lambda: magnified.dwell(design)
     if magnified.has_zone(design):
         found["zone"] = lambda: magnified.zone(design)
-    if tornado.study_of(design) is not None:
-        found["tornado"] = lambda: tornado.draw(design)
+    if tolerance.study_of(design) is not None:
+        found["tornado"] = lambda: tolerance.draw_tornado(design)
     if "timing" in KINDS[design.kind].sheets:
         found["timing"] = lambda: timing_sheet.draw(design)
     for name, place in KINDS[design.kind].sheets.items():

@@ -34,10 +34,9 @@ from gearlink.cli.exploring.store import (
 )
 from gearlink.cli.files import CannotWrite, require_folder, safe_stem, write_atomically
 from gearlink.cli.options import Format
-from gearlink.cli.parallel.processors import processors
 from gearlink.cli.parallel.workers import calm, workers
 from gearlink.cli.printable import visible
-from gearlink.cli.process import WhileMuchIsComputed
+from gearlink.cli.process import WhileMuchIsComputed, processors
 from gearlink.cli.progress import patience, progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic

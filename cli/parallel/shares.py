@@ -11,8 +11,7 @@ from contextlib import contextmanager
 from time import monotonic
 from typing import Any
 
-from gearlink.cli.parallel.processors import processors
-from gearlink.cli.process import WhileMuchIsComputed
+from gearlink.cli.process import WhileMuchIsComputed, processors
 from gearlink.cli.progress import progress
 
 # How far shares of a work are, counted by the processes that compute them

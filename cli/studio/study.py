@@ -134,9 +134,9 @@ class Study:
         """How many pictures show its teeth turning the right way, as far as a page takes them."""
         import numpy as np
 
-        from gearlink.cli.views.scenes import loops
+        from gearlink.cli.views.scenes import linkages
 
-        return min(_MOST_PICTURES, loops.pictures_for(self.scene(np.arange(96) / 96), FPS))
+        return min(_MOST_PICTURES, linkages.pictures_for(self.scene(np.arange(96) / 96), FPS))
 
     def film(self, most: int, look: Look, checks: Sequence[Check] = ()) -> tuple[dict[str, Any], Reach]:
         """What the player draws, and what its picture shows: `look.reach` as long as that suits it.

@@ -102,7 +102,7 @@ def scene_of(design: str, fraction: float) -> Scene:
     """The scene of a design file at a fraction of its loop."""
     from gearlink.cli.evaluate import open_design, read_spec, whole_design
     from gearlink.cli.options import Options
-    from gearlink.cli.views.scenes.loops import build
+    from gearlink.cli.views.scenes.linkages import build
 
     source = str(ROOT / design)
     loaded, kind = open_design(source, Options())

@@ -13,11 +13,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlink.cli.views.figures.cams import disc_cam
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.cams import disc_cam
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, DWELL, GREEN, GREY, RED, pale
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    DWELL,
+    GREEN,
+    GREY,
+    RED,
     TURN,
     Body,
     Chain,
@@ -35,6 +40,7 @@ from gearlink.cli.views.scenes.scene import (
     circle,
     letters,
     loop,
+    pale,
     track,
     wheel,
 )

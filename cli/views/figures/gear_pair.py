@@ -27,7 +27,7 @@ from gearlink.cli.views.figures.gears.mesh import (
     zone_legend,
     zone_size,
 )
-from gearlink.cli.views.scenes.rack import rack_body, rack_scene
+from gearlink.cli.views.scenes.gears import rack_body, rack_scene
 from gearlink.cli.views.scenes.scene import Body, Scene, placed
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.rack.geometry import RackGeometry

@@ -12,9 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, GREEN, ORANGE, PURPLE, pale
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
     TURN,
     Body,
     Chain,
@@ -28,6 +32,7 @@ from gearlink.cli.views.scenes.scene import (
     Scene,
     letters,
     loop,
+    pale,
     standing,
     track,
 )

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, ORANGE
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.views.scenes.scene import TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
+from gearlink.cli.views.scenes.scene import BLACK, BLUE, ORANGE, TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
 from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn
 

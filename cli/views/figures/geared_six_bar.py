@@ -13,9 +13,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLUE, GREEN, ORANGE, PURPLE, RED
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    RED,
     TURN,
     Chain,
     Chart,

@@ -13,9 +13,14 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style
 from gearlink.cli.views.scenes import of_motion
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, DWELL, GREEN, ORANGE, PURPLE
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    DWELL,
+    GREEN,
+    ORANGE,
+    PURPLE,
     TURN,
     Chain,
     Chart,

@@ -12,9 +12,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, GREEN, GREY, ORANGE, PHASE_TINTS, PURPLE, RED, SKY
-from gearlink.cli.views.scenes.loops import builder
+from gearlink.cli.views.scenes.linkages import builder
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PHASE_TINTS,
+    PURPLE,
+    RED,
+    SKY,
     Arrow,
     Body,
     Chain,

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints
 from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    ORANGE,
     TURN,
     Band,
     Body,
@@ -27,6 +28,7 @@ from gearlink.cli.views.scenes.scene import (
     Reals,
     Scene,
     loop,
+    pale,
     track,
 )
 from gearlink.core.base.errors import NoSolution

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.scenes.loops import builder
+from gearlink.cli.views.scenes.linkages import builder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

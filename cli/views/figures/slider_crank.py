@@ -11,9 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, pale
 from gearlink.cli.views.scenes.linkages import crank_readout, over_crank
 from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
     TURN,
     Body,
     Chain,
@@ -29,6 +32,7 @@ from gearlink.cli.views.scenes.scene import (
     fixed_circle,
     letters,
     loop,
+    pale,
 )
 from gearlink.core.machines.slider_crank.mechanism import DEPTH
 from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep

@@ -10,8 +10,21 @@ import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
 from gearlink.cli.views.scenes import of_motion
-from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, pale
-from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Part, Points, Reals, Scene, circle
+from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    TURN,
+    Body,
+    Chain,
+    Part,
+    Points,
+    Reals,
+    Scene,
+    circle,
+    pale,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

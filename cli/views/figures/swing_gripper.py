@@ -11,10 +11,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from gearlink.cli.views.figures.cams import disc_cam
 from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.cams import disc_cam
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, GREY, ORANGE, PHASE_TINTS, RED, pale
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    PHASE_TINTS,
+    RED,
     TURN,
     Band,
     Body,
@@ -32,6 +37,7 @@ from gearlink.cli.views.scenes.scene import (
     circle,
     letters,
     loop,
+    pale,
     track,
     wheel,
 )

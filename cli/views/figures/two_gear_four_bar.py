@@ -13,10 +13,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import linkage, panels, scene_axes, style, time_axes
-from gearlink.cli.views.scenes.colors import BLUE, ORANGE, STEP
 from gearlink.cli.views.scenes.gears import gear
 from gearlink.cli.views.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.views.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
+from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    ORANGE,
+    STEP,
+    TURN,
+    Band,
+    Curve,
+    Readout,
+    Reals,
+    Scene,
+    bands,
+    fixed_circle,
+)
 from gearlink.core.machines.planet_linkages.mechanism import OUTPUT
 from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
 from gearlink.core.parts.gears.outline.mesh_geometry import driven_turn, ring_turn

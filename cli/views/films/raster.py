@@ -25,10 +25,22 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from gearlink.cli.files import CannotWrite, unfinished
-from gearlink.cli.parallel.processors import processors
+from gearlink.cli.process import processors
 from gearlink.cli.views.films.stage import ChartScale, Stage
-from gearlink.cli.views.scenes.colors import BLACK, GREY, LIGHT, WHITE, WRONG
-from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, placed
+from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    GREY,
+    LIGHT,
+    WHITE,
+    WRONG,
+    Arrow,
+    Body,
+    Chain,
+    Line,
+    Part,
+    Points,
+    placed,
+)
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

@@ -38,12 +38,12 @@ def film_data(design: Design, pictures: int = 0, show: str = "", checks: Sequenc
     import numpy as np
 
     from gearlink.cli.views.films.page import player_data
-    from gearlink.cli.views.scenes import loops, shown
+    from gearlink.cli.views.scenes import linkages, shown
 
-    if design.kind not in loops.moving_kinds():
+    if design.kind not in linkages.moving_kinds():
         return None
     try:
-        count = pictures or min(_MOST, loops.pictures_for(loops.build(design, np.arange(96) / 96), _FPS))
+        count = pictures or min(_MOST, linkages.pictures_for(linkages.build(design, np.arange(96) / 96), _FPS))
         scene = shown.build(design, np.arange(count) / count, shown.wishes(show), checks)
     except NoSolution:
         return None

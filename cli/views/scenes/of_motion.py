@@ -7,8 +7,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.scenes.colors import BLUE, GREEN, GREY, ORANGE, PURPLE, pale
-from gearlink.cli.views.scenes.scene import Body, Chain, Chart, Curve, Mark, Part, Points, Readout, Reals, Scene, circle
+from gearlink.cli.views.scenes.scene import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    Body,
+    Chain,
+    Chart,
+    Curve,
+    Mark,
+    Part,
+    Points,
+    Readout,
+    Reals,
+    Scene,
+    circle,
+    pale,
+)
 from gearlink.core.mechanism.joints import Contact, Guide, Mesh, Pin, Rack
 from gearlink.core.mechanism.links import FRAME
 

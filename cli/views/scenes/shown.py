@@ -17,10 +17,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gearlink.cli.views.scenes import loops, of_motion
-from gearlink.cli.views.scenes.colors import BLACK, GREEN, GREY, PURPLE, RED, WRONG
+from gearlink.cli.views.scenes import linkages, of_motion
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    GREEN,
+    GREY,
+    PURPLE,
+    RED,
     TURN,
+    WRONG,
     Arrow,
     Body,
     Chain,
@@ -262,7 +267,7 @@ def build(design: Any, fraction: Reals, wanted: Sequence[Wish] = (), checks: Seq
         WrongShow - where the design has not what is asked for
     """
     if not wanted:
-        own = loops.builder(design.kind)
+        own = linkages.builder(design.kind)
         return _with_faults(own(design, fraction), design, fraction, own, checks)
     maker, frame = _base(design)
     return _with_faults(_shown(design, fraction, maker, frame, wanted), design, fraction, maker, checks)
@@ -274,13 +279,13 @@ def maker_of(design: Any, wanted: Sequence[Wish] = ()) -> Maker:
     Raises
         WrongShow - where there is no motion
     """
-    return _base(design)[0] if wanted else loops.builder(design.kind)
+    return _base(design)[0] if wanted else linkages.builder(design.kind)
 
 
 def _base(design: Any) -> tuple[Maker, Frame]:
     if not has_motion(design):
         raise WrongShow(f"--show: a {design.kind} has no motion of its own; show the files of its members")
-    own = loops.builder(design.kind)
+    own = linkages.builder(design.kind)
     frame = frame_of(design, own)
     if frame is not None:
         return own, frame

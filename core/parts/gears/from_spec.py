@@ -17,9 +17,9 @@ from gearlink.core.parts.gears.tooth.tools import PinionCutter, RackTool, usual_
 
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.spec import GearPairSpec
-    from gearlink.core.parts.gears.keys.material import MaterialSpec
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
+    from gearlink.core.parts.gears.keys.types import MaterialSpec
     from gearlink.core.parts.gears.rack.mesh import RackData, RackMesh
     from gearlink.core.parts.gears.rating.conditions import Conditions
 

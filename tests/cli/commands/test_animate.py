@@ -28,7 +28,7 @@ from gearlink.cli.views.films import raster
 from gearlink.cli.views.films.page import page, player_stage
 from gearlink.cli.views.films.raster import FINER, Raster, backdrop
 from gearlink.cli.views.films.stage import ChartScale, Stage
-from gearlink.cli.views.scenes.loops import build, moving_kinds, pictures_for
+from gearlink.cli.views.scenes.linkages import build, moving_kinds, pictures_for
 from gearlink.cli.views.scenes.scene import TURN, Body, Chain, Scene
 from tests.oracles.three_gear_output import output_motion
 

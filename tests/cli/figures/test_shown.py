@@ -15,12 +15,13 @@ import pytest
 import yaml
 from factory import design, each_kind
 
+from gearlink.cli.views.figures import tolerance
 from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
-from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, motion_sheet, tornado, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, motion_sheet, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.films.stage import Stage
-from gearlink.cli.views.scenes import loops, of_motion, shown
+from gearlink.cli.views.scenes import linkages, of_motion, shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line
 from gearlink.core.base.kind import FileDesigns
 from gearlink.core.base.kinds import KINDS
@@ -30,7 +31,7 @@ _STEP = 1e-4
 MOVING = [
     path
     for path in sorted((Path(__file__).resolve().parents[3] / "designs").glob("*.yaml"))
-    if (kind := str(yaml.safe_load(path.read_text(encoding="utf-8"))["kind"])) in loops.moving_kinds()
+    if (kind := str(yaml.safe_load(path.read_text(encoding="utf-8"))["kind"])) in linkages.moving_kinds()
     and KINDS[kind].motion
 ]
 
@@ -125,7 +126,7 @@ def test_ghosts_are_earlier_positions() -> None:
     made = design("crank_rocker")
     scene = shown.build(made, np.array([0.5]), shown.wishes("ghosts"))
     pale = [part for part in scene.parts if isinstance(part, Chain) and not part.marked]
-    earlier = loops.build(made, 0.5 - np.array([4, 3, 2, 1]) / 24.0)
+    earlier = linkages.build(made, 0.5 - np.array([4, 3, 2, 1]) / 24.0)
     chain = next(part for part in earlier.parts if isinstance(part, Chain) and part.marked)
     shown_at = [complex(part.joints[1][0]) for part in pale if np.abs(part.joints[0][0] - chain.joints[0][0]) < 1e-9]
     assert set(np.round(chain.joints[1], 9).tolist()) <= set(np.round(shown_at, 9).tolist())
@@ -220,7 +221,7 @@ def test_a_passing_design_has_nothing_red() -> None:
 def test_the_diagram_of_the_motion_serves_a_scene_that_stands_elsewhere() -> None:
     """Without input gears nothing says where the chain of the cylinder stands against that of the bed."""
     made = design("ty460", input_gears=None)
-    assert shown.frame_of(made, loops.builder(made.kind)) is None
+    assert shown.frame_of(made, linkages.builder(made.kind)) is None
     scene = shown.build(made, np.arange(3) / 3.0, shown.wishes("velocity:B"))
     (arrow,) = arrows(scene)
     q = of_motion.inputs(made.moving.input, np.arange(3) / 3.0)
@@ -351,9 +352,9 @@ def test_a_cam_is_coloured_by_its_pressure_angle() -> None:
 
 def test_bars_of_a_tornado_are_designs_with_one_size_at_its_limit() -> None:
     made = design("slider_crank_tolerances")
-    study = tornado.study_of(made)
+    study = tolerance.study_of(made)
     assert study is not None
-    found, nominal = tornado.effects(study, ["stroke"])
+    found, nominal = tolerance.effects(study, ["stroke"])
     assert nominal["stroke"] == pytest.approx(made.quantity("stroke").value, rel=1e-12)
     for key, low, high in found["stroke"]:
         off = {"crank": 0.02, "rod": 0.03, "offset": 0.05}[key]
@@ -393,7 +394,7 @@ def test_vectors_of_a_press_without_loads_stand_on_its_own_drawing(name: str) ->
     """Its file does not say where gear 1 and the cylinder are; the arrows begin at the joints that are drawn."""
     made, fraction = design(name), np.array([0.11, 0.47, 0.83])
     scene = shown.build(made, fraction, shown.wishes("velocity"))
-    drawn = {mark.text: mark.point for mark in loops.build(made, fraction).marks}
+    drawn = {mark.text: mark.point for mark in linkages.build(made, fraction).marks}
     begun = {part.name.rpartition(" ")[2]: part.start for part in arrows(scene)}
     for pin in "BCEFHM":
         assert begun[pin] == pytest.approx(drawn[pin], rel=0.0, abs=1e-6)

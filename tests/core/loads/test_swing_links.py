@@ -447,7 +447,7 @@ def test_cams_stand_in_the_frames_of_their_tables(base: str, changes: dict[str, 
 
 @pytest.mark.parametrize("way", ["outward", "homeward"])
 def test_directions_left_out_are_those_of_the_film(way: str) -> None:
-    from gearlink.cli.views.figures.wide_swing_cam.motion import Cycle, _crank_rocker, _slider
+    from gearlink.cli.views.figures.wide_swing_cam import Cycle, _crank_rocker, _slider
 
     design = factory.design("wide_swing_oscillating_cam", command="loads", drive__stroke=way, loads={})
     phi = np.array([0.2, 1.1, 2.3])

@@ -152,7 +152,7 @@ def test_film_turns_the_cam_under_the_roller() -> None:
     The nearest of points h apart stands up to t = h/2 beside the touch, and so t^2/(2 r_p) rho/(rho - r_p) farther
     from the roller's centre, rho that of the pitch curve.
     """
-    from gearlink.cli.views.figures.wide_swing_cam.motion import Cycle, build
+    from gearlink.cli.views.figures.wide_swing_cam import Cycle, build
     from gearlink.cli.views.scenes.scene import Body
 
     made = design("wide_swing_slider_cam")

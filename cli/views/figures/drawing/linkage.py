@@ -58,7 +58,7 @@ def sheet(
 
 def scene_of(design: Any) -> Any:
     """The builder of a design's scene; None where the kind has none, or draws what clashes itself."""
-    from gearlink.cli.views.scenes.loops import builder, moves
+    from gearlink.cli.views.scenes.linkages import builder, moves
 
     return builder(design.kind) if moves(design.kind) and design.kind != "three-gear-four-bar" else None
 

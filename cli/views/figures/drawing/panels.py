@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import east_asian_width
 
 from gearlink.cli.views.figures.drawing import failing, style
-from gearlink.cli.views.scenes.colors import PHASE_TINTS
+from gearlink.cli.views.scenes.scene import PHASE_TINTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.options import DPI
-from gearlink.cli.views.scenes import colors
+from gearlink.cli.views.scenes import scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
     from numpy.typing import NDArray
 
-BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
-PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
+BLUE, ORANGE, GREEN, RED = scene.BLUE, scene.ORANGE, scene.GREEN, scene.RED
+PURPLE, SKY, BLACK, GREY, LIGHT = scene.PURPLE, scene.SKY, scene.BLACK, scene.GREY, scene.LIGHT
 MARGIN = 8.0 / 25.4
 """White edge of a page [in], which printers need."""
 _PARTS = (1, 2, 5, 10, 15, 30, 60, 180, 360)
@@ -32,7 +32,7 @@ DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
 LONG: Any = (0, (6, 1.8))
 """Long dashes, of the second of two curves that are not limits."""
-WRONG = colors.WRONG
+WRONG = scene.WRONG
 """What fails: no curve has this colour."""
 CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
 """A dash-dotted line, as of axes and pitch circles."""

@@ -19,10 +19,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.scenes.colors import BLUE, ORANGE
 from gearlink.cli.views.scenes.gears import gear as gear_body
 from gearlink.cli.views.scenes.gears import holes_for
-from gearlink.cli.views.scenes.scene import TURN, Body, Mark, Points, Readout, Reals, Scene, track
+from gearlink.cli.views.scenes.scene import BLUE, ORANGE, TURN, Body, Mark, Points, Readout, Reals, Scene, track
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.parts.gears.checks import gear_quantity
@@ -42,7 +41,7 @@ _MOST_PITCHES = 36
 def build(design: GearPairDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
     if design.rack is not None:
-        from gearlink.cli.views.scenes.rack import rack_scene
+        from gearlink.cli.views.scenes.gears import rack_scene
 
         return rack_scene(design.rack, design.rack_teeth, design.rack_back, fraction)
     return pair_scene(design.gear_pair, ("1", "2"), fraction)

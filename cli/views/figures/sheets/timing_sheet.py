@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import panels, style
-from gearlink.cli.views.scenes.colors import PHASE_TINTS
+from gearlink.cli.views.scenes.scene import PHASE_TINTS
 from gearlink.core.base.kind import load
 from gearlink.core.base.kinds import KINDS
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, scene_axes, style
-from gearlink.cli.views.scenes import loops, of_motion, shown
+from gearlink.cli.views.scenes import linkages, of_motion, shown
 from gearlink.cli.views.scenes.scene import Body
 from gearlink.core.mechanism import vectors
 
@@ -133,7 +133,7 @@ def _mechanism(axes: Axes, design: Any, q: float, wanted: str) -> None:
 
 def frame_of(design: Any) -> shown.Frame:
     """Where the drawing stands: in the kind's own scene, or in that of the motion."""
-    found = shown.frame_of(design, loops.builder(design.kind))
+    found = shown.frame_of(design, linkages.builder(design.kind))
     return found or shown.Frame(lambda each: of_motion.inputs(design.moving.input, each), design.moving)
 
 

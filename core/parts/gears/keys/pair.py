@@ -11,7 +11,7 @@ from gearlink.core.parts.gears.keys.types import ToothKeys, TwoShifts
 
 
 def _usual_material() -> Any:
-    from gearlink.core.parts.gears.keys.material import MaterialSpec
+    from gearlink.core.parts.gears.keys.types import MaterialSpec
 
     return MaterialSpec.model_construct()
 
@@ -54,7 +54,7 @@ class PairKeys(ToothKeys):
     rating: Annotated[Any, Deferred("parts.gears.keys.rating:RatingSpec")] | None = Field(
         None, description="rating by ISO 6336 with all factors computed: life, material, grade, oil"
     )
-    material: Annotated[Any, Deferred("parts.gears.keys.material:MaterialSpec")] = Field(
+    material: Annotated[Any, Deferred("parts.gears.keys.types:MaterialSpec")] = Field(
         default_factory=_usual_material, description="the materials; each key one number, or one for each gear"
     )
 

@@ -9,8 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Entries, Spec
 from gearlink.core.base.wording import unlike
-from gearlink.core.parts.gears.keys.material import Stress
-from gearlink.core.parts.gears.keys.types import AccuracyGrade
+from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
 from gearlink.core.parts.gears.rating.conditions import Conditions, Modification, Point, Shaft, System
 from gearlink.core.parts.gears.rating.materials import CLASSES, MATERIALS, STEELS, GearSteel, Quality, gear_steel
 

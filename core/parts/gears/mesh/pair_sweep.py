@@ -1,6 +1,6 @@
 """Many gear pairs at once, external or with a ring: `GearPair` over arrays of its parameters, and interferences.
 
-Every formula is that of the class of one pair, with the functions of `gearlink.core.parts.gears.tooth.functions` for
+Every formula is that of the class of one pair, with the functions of `gearlink.core.parts.gears.tooth.teeth` for
 arrays. What one pair refuses is NaN here, and so is what it lacks.
 """
 
@@ -25,8 +25,8 @@ from gearlink.core.parts.gears.mesh.pitch_pair import PitchPair
 from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference, ShapedRing
 from gearlink.core.parts.gears.mesh.tip_corner import TipCorner, near_of, places_towards
 from gearlink.core.parts.gears.tooth import teeth
-from gearlink.core.parts.gears.tooth.functions import GearFunctions
 from gearlink.core.parts.gears.tooth.root_fillet import REACH, RackCutRoot
+from gearlink.core.parts.gears.tooth.teeth import GearFunctions
 from gearlink.core.parts.gears.tooth.tools import RackTool, standard_tool
 
 

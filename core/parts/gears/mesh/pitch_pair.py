@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.tooth import teeth
-from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
+from gearlink.core.parts.gears.tooth.teeth import SCALARS, GearFunctions
 
 Pair = tuple[float, float]
 

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.roots import maximum
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.tooth.functions import GearFunctions
+from gearlink.core.parts.gears.tooth.teeth import GearFunctions
 
 _STEPS = 12
 """Steps in which the gap is looked at first, shorter towards the flank."""

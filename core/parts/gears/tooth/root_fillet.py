@@ -18,8 +18,7 @@ from typing import Any, ClassVar
 
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
-from gearlink.core.parts.gears.tooth.teeth import transverse
+from gearlink.core.parts.gears.tooth.teeth import SCALARS, GearFunctions, transverse
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 REACH = 5.0

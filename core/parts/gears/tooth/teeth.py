@@ -1,13 +1,28 @@
-"""Teeth of one involute gear: undercut, pressure angle at a radius, span measurement, rim of a ring."""
+"""Teeth of one involute gear, and the functions of their formulas: undercut, pressure angle, span, rim of a ring."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.wording import unlike
-from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
+from gearlink.core.numerics.elementary import Elementary, One, Two
+from gearlink.core.parts.gears.tooth.involute import involute, involute_rise, rise_of_involute
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class GearFunctions(Elementary):
+    """Functions of numbers, or of arrays element by element; involutes as in `core.parts.gears.tooth.involute`."""
+
+    involute: One = involute
+    involute_rise: Two = involute_rise
+    rise_of_involute: Two = rise_of_involute
+
+
+SCALARS = GearFunctions()
+
 
 RIM_MODULES = 2.0
 """A ring's rim lies so many modules outside its root circle, where the file names none."""

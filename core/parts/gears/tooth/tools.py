@@ -9,7 +9,7 @@ from functools import lru_cache
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.parts.gears.tooth.functions import SCALARS, GearFunctions
+from gearlink.core.parts.gears.tooth.teeth import SCALARS, GearFunctions
 
 _USUAL_ROUNDING = 0.38
 

@@ -8,7 +8,6 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.spec import Length, Spec
-from gearlink.core.parts.gears.keys.material import MaterialSpec, Poisson, Stress
 from gearlink.core.parts.gears.keys.sections import (
     Allowance,
     AllowanceSpec,
@@ -16,7 +15,18 @@ from gearlink.core.parts.gears.keys.sections import (
     Series,
     ToolSpec,
 )
-from gearlink.core.parts.gears.keys.types import Alteration, FaceWidth, Factor, Hand, Rim, Shift, SpanTeeth
+from gearlink.core.parts.gears.keys.types import (
+    Alteration,
+    FaceWidth,
+    Factor,
+    Hand,
+    MaterialSpec,
+    Poisson,
+    Rim,
+    Shift,
+    SpanTeeth,
+    Stress,
+)
 
 _MANY = Field(min_length=2, max_length=4)
 _Allowances = Annotated[list[Allowance], _MANY]

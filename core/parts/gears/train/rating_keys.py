@@ -6,7 +6,6 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from gearlink.core.parts.gears.keys.material import Stress
 from gearlink.core.parts.gears.keys.rating import (
     Bore,
     Contacts,
@@ -17,7 +16,7 @@ from gearlink.core.parts.gears.keys.rating import (
     Roughness,
     RoughnessSpec,
 )
-from gearlink.core.parts.gears.keys.types import AccuracyGrade
+from gearlink.core.parts.gears.keys.types import AccuracyGrade, Stress
 from gearlink.core.parts.gears.train.key_sections import entries
 
 _MANY = Field(min_length=2, max_length=4)

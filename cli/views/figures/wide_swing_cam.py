@@ -1,4 +1,4 @@
-"""A wide-swing mechanism: its scene, and the figure of its law of motion, cams, pressure angle and balancing."""
+"""A wide-swing mechanism: its scene, and its figures with law of motion, cams, pressure angle and balancing."""
 
 from __future__ import annotations
 
@@ -10,19 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import panels, scene_axes, style
-from gearlink.cli.views.figures.wide_swing_cam.parts import (
-    cam_panel,
-    cams_of,
-    has_slots,
-    kind_words,
-    pressure_panel,
-    stroke_axis,
-    zone_words,
-)
-from gearlink.cli.views.scenes.colors import BLACK, BLUE, GREEN, GREY, ORANGE, RED, pale
+from gearlink.cli.views.figures.drawing import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.views.scenes.linkages import Joints
 from gearlink.cli.views.scenes.scene import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    RED,
     TURN,
     Body,
     Chain,
@@ -36,17 +32,242 @@ from gearlink.cli.views.scenes.scene import (
     Scene,
     block,
     loop,
+    pale,
     track,
     wheel,
 )
+from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.machines.wide_swing.cycle import ClosedCam, WholeCycle
     from gearlink.core.machines.wide_swing.design import WideSwingDesign
     from gearlink.core.machines.wide_swing.strokes import AnyCam
+
+
+_DASHED: Any = (0, (5, 3))
+_DOTTED: Any = (0, (1, 2))
+ZONE = "#F7D9A8"
+
+
+def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
+    """The cams to be drawn: title, cam, and -1 where the mirror image serves the return stroke."""
+    working = "Cam of the working stroke"
+    if design.spec.drive is not None:
+        return [("Oscillating cam", design.cam, 1.0)]
+    if design.spec.slider is not None:
+        return [("Cam of both strokes, turning back in the return", design.cam, 1.0)]
+    if design.return_cam is None:
+        return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
+    if design.spec.layout != "twin-rocker":
+        return [(working, design.cam, 1.0), ("Cam of the return stroke", design.return_cam, -1.0)]
+    return [
+        ("Internal profile, working stroke", design.cam, 1.0),
+        ("External profile, return stroke", design.return_cam, 1.0),
+    ]
+
+
+def kind_words(design: WideSwingDesign) -> str:
+    """Which of the mechanisms it is, and its swing, for the title."""
+    layout = design.spec.layout if design.spec.drive is None else "oscillating cam"
+    return f"{layout}, {design.spec.swing:g}° swing"
+
+
+def has_slots(design: WideSwingDesign) -> bool:
+    """Whether every cam can be drawn: no loop, and a roller that leaves a profile."""
+    try:
+        for _, cam, _ in cams_of(design):
+            design.slot_of(cam)
+    except NoSolution:
+        return False
+    return True
+
+
+def zone_words(axes: Axes, cam: AnyCam) -> None:
+    """How much of the stroke the change of sides takes, in the corner of a drawing."""
+    words = f"changes flank within ±{100.0 * cam.transition_zone:.3g} % of the stroke"
+    axes.text(0.5, 0.02, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=7.5, zorder=8)
+
+
+def cam_panel(axes: Axes, design: WideSwingDesign, title: str, cam: AnyCam, mirror: float) -> None:
+    """A cam at rest, to scale: contour, pitch curve, transition zone, shaft, and the rocker carried round it."""
+    panels.drawing(axes, title)
+    _body(axes, design, cam, mirror)
+    _pitch(axes, cam, mirror)
+    _rockers(axes, cam, mirror)
+    shaft = design.section.shaft_radius
+    if shaft > 0.0:
+        style.circle(axes, 0j, shaft, color=style.BLACK, linewidth=1.2, hatch="////", zorder=4)
+    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10, zorder=6, label="cam axis")
+
+
+def _mirrored(z: Any, mirror: float) -> tuple[Any, Any]:
+    return z.real, mirror * z.imag
+
+
+def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.strokes import contour, dwell_arc, is_external
+
+    run_up, bottom, run_out = contour(cam, design.slot_of(cam))
+    edge = np.concatenate((run_up, bottom, run_out))
+    rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
+    x, y = _mirrored(np.concatenate((edge, rest)), mirror)
+    if is_external(cam):
+        style.area(axes, x + 1j * y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+    else:
+        _ring(axes, x, y, 1.12 * float(np.abs(edge).max()) + cam.roller_radius)
+    axes.plot(*_mirrored(rest, mirror), color=style.BLUE, linewidth=0.8, zorder=2)
+    for part, label in ((run_up, "profile"), (run_out, None)):
+        axes.plot(*_mirrored(part, mirror), color=style.BLUE, linewidth=1.8, zorder=3, label=label)
+    axes.plot(
+        *_mirrored(bottom, mirror),
+        color=style.ORANGE,
+        linewidth=3.4,
+        solid_capstyle="butt",
+        zorder=3,
+        label="slot, in which the roller changes flank",
+    )
+
+
+def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
+    """Arcs and free sector of a closed contour, in the frame of the cam's own stroke."""
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.strokes import is_external
+
+    closed = design.cycle.back if cam is design.return_cam or mirror < 0.0 else design.cycle.main
+    rest = np.concatenate([points for _, points in closed.outline()[3:]])
+    return rest if is_external(cam) else -rest.conj()
+
+
+def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
+    """The body outside an internal contour, as far as a circle."""
+    import numpy as np
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    turn = np.linspace(0.0, 2.0 * math.pi, 361)
+    inside = np.stack((x, y), axis=1)
+    around = radius * np.stack((np.cos(turn), np.sin(turn)), axis=1)
+    if _area(x, y) > 0.0:
+        inside = inside[::-1]
+    paths = [Path(around, closed=True), Path(inside, closed=True)]
+    style.cornered(
+        axes, PathPatch(Path.make_compound_path(*paths), facecolor=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+    )
+    axes.plot(around[:, 0], around[:, 1], color=style.BLUE, linewidth=0.8, zorder=2)
+
+
+def _area(x: Any, y: Any) -> float:
+    import numpy as np
+
+    return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
+    import numpy as np
+
+    pitch = cam.points(np.linspace(0.0, 1.0, 601)).pitch
+    axes.plot(
+        *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
+    )
+    from gearlink.core.machines.wide_swing.strokes import middle_of
+
+    middle = middle_of(cam)
+    zone = min(cam.transition_zone, middle, 1.0 - middle)
+    part = cam.points(np.linspace(middle - zone, middle + zone, 101)).pitch
+    axes.plot(*_mirrored(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
+
+
+def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
+    """The rocker at start, mid-swing and end as the cam sees it."""
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.strokes import middle_of, rocker_pivots
+
+    points = cam.points(np.array([0.0, middle_of(cam), 1.0]))
+    pivots = rocker_pivots(cam, points)
+    looks = (("start", style.GREEN), ("mid-swing", style.BLACK), ("end", style.PURPLE))
+    for roller, pivot, (name, color) in zip(points.pitch, pivots, looks, strict=True):
+        arm = [complex(z.real, mirror * z.imag) for z in (pivot, roller)]
+        axes.plot(
+            [z.real for z in arm], [z.imag for z in arm], color=color, linewidth=2.0, zorder=5, label=f"rocker, {name}"
+        )
+        axes.plot([arm[0].real], [arm[0].imag], "^", color=color, markersize=6, zorder=6)
+        style.circle(axes, arm[1], cam.roller_radius, color=color, linewidth=1.1, zorder=6)
+    style.circle(axes, 0j, cam.center_distance, color=style.GREY, linewidth=0.7, linestyle=_DOTTED, zorder=1)
+
+
+def stroke_axis(axes: Axes, design: WideSwingDesign, ylabel: str) -> None:
+    """Curves over a stroke, and its time where both strokes take the same."""
+    style.curves(axes, "fraction of the stroke k", ylabel)
+    axes.set_xlim(0.0, 1.0)
+    panels.small_ticks(axes)
+    if design.motion.return_angle == design.motion.cycle_angle:
+        time_axes.in_ms(axes, 1e3 * design.motion.working_time)
+
+
+def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
+    """Pressure angle of each cam over the stroke with the limit; the transition zone is shaded."""
+    import numpy as np
+
+    stroke_axis(axes, design, "pressure angle [deg]")
+    k = np.linspace(0.0, 1.0, 401)
+    for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
+        label = f"{words}, ≤ {math.degrees(cam.max_pressure_angle):.4g}°" if design.has_zone(cam) else words
+        angle = np.degrees(cam.points(k).pressure_angle)
+        axes.plot(k, angle, color=color, linewidth=1.6, label=label)
+        touching = np.array([any(low <= at <= high for low, high in cam.contact) for at in k.tolist()])
+        over = np.abs(angle) > design.spec.limits.pressure_angle
+        failing.past(axes, k, angle, over & touching, f"{words}, above the limit")
+    _zone(axes, design)
+    limit = design.spec.limits.pressure_angle
+    for sign in (1.0, -1.0):
+        name = f"limit ±{limit:g}°" if sign > 0.0 else None
+        axes.axhline(sign * limit, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=name)
+    panels.legend_under_heading(axes, "Pressure angle")
+
+
+def _zone(axes: Axes, design: WideSwingDesign) -> None:
+    from gearlink.core.machines.wide_swing.strokes import middle_of
+
+    zone, middle = min(0.5, max(cam.transition_zone for cam in design.cams.values())), middle_of(design.cam)
+    axes.axvspan(middle - zone, middle + zone, color=ZONE, linewidth=0, zorder=0)
+
+
+def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
+    """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
+    import numpy as np
+
+    from gearlink.cli.views.figures.drawing.ticks import powers_of_ten
+    from gearlink.core.machines.wide_swing.strokes import is_external
+
+    stroke_axis(axes, design, "radius [mm]")
+    axes.set_yscale("log")
+    powers_of_ten(axes.yaxis)
+    k = np.linspace(0.0, 1.0, 1001)[1:-1]
+    k, greatest = k[k != 0.5], 0.0
+    for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
+        radius, least = cam.points(k).curvature_radius * (1.0 if is_external(cam) else -1.0), ""
+        if design.has_zone(cam):
+            least = f", ≥ {cam.min_curvature_radius:.4g} mm"
+            radius = np.where([any(low <= at <= high for low, high in cam.contact) for at in k], radius, np.nan)
+        greatest = max(greatest, float(np.abs(radius).max(where=np.isfinite(radius), initial=0.0)))
+        axes.plot(k, np.where(radius > 0.0, radius, np.nan), color=color, linewidth=1.6, label=words + least)
+        failing.past(axes, k, radius, (radius > 0.0) & (radius <= cam.roller_radius), f"{words}, undercut")
+        if (radius < 0.0).any():
+            hollow = np.where(radius < 0.0, -radius, np.nan)
+            axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=_DOTTED, label=f"{words}, concave")
+    _zone(axes, design)
+    roller = design.section.roller_radius
+    axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=f"roller radius {roller:g} mm")
+    axes.set_ylim(0.3 * roller, min(100.0 * design.section.center_distance, 3.0 * max(greatest, 10.0 * roller)))
+    panels.legend_under_heading(axes, "Curvature radius of the pitch curve")
 
 
 @dataclass(frozen=True)
@@ -301,12 +522,15 @@ def _chart(cycle: Cycle, drive: str) -> Chart:
     return Chart(f"{drive} angle from the start of the stroke [deg]", "rocker from mid-swing [deg]", x, now, (curve,))
 
 
-_DASHED: Any = (0, (5, 3))
-_DOTTED: Any = (0, (1, 2))
 _NAMES = (("displacement", "a"), ("velocity", "b"), ("acceleration", "c"))
 
 
 def draw(command: str, design: WideSwingDesign) -> Figure:
+    """The figure of a command on a wide-swing mechanism."""
+    return draw_cams(command, design) if command == "cam" else draw_motion(command, design)
+
+
+def draw_motion(command: str, design: WideSwingDesign) -> Figure:
     """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed; torques."""
     cams, moves = design.spec.cam is not None and has_slots(design), design.spec.cam is None
     title = f"{design.spec.name}: {command} ({kind_words(design)})"
@@ -487,3 +711,169 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
         design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing"
     )
     panels.legend_under_heading(axes, "Slider", 2)
+
+
+_SHADES = (style.BLUE, style.LIGHT, style.GREEN, style.LIGHT)
+_PARTS: dict[str, tuple[str, float]] = {
+    "arc": (style.GREY, 1.4),
+    "free": (style.PURPLE, 1.4),
+    "slot": (style.ORANGE, 3),
+}
+_WORDS = {"profile": "guides", "slot": "slot", "arc": "rest", "free": "free, the other cam guides"}
+_SLOT_VIEW = 3.2
+"""Half the width of the enlarged view about mid-swing, in roller radii."""
+
+
+def draw_cams(command: str, design: WideSwingDesign) -> Figure:
+    """The cams and an enlarged view of each slot, pressure angle and curvature.
+
+    Raises
+        NoSolution - for a profile that does not exist
+    """
+    whole = design.spec.cycle is not None
+    title = f"{design.spec.name}: {command} ({kind_words(design)})"
+    made = panels.page(title, 1.6 if whole else 1.0)
+    drawn = cams_of(design)
+    rows = made.add_gridspec(3, 1, height_ratios=[2.3, 0.9, 4.2]) if whole else None
+    if rows is not None:
+        contours_panel(made, rows[0], design)
+        cycle_panel(made.add_subplot(rows[1]), design)
+    heights = [1.75, 1.2, 0.2, 1.05]
+    place = made.add_gridspec(1, 1)[0] if rows is None else rows[2]
+    grid = place.subgridspec(4, 1, height_ratios=heights)
+    large, close, below = (grid[i].subgridspec(1, n) for i, n in ((0, len(drawn)), (1, len(drawn)), (3, 2)))
+    for i, (title, cam, mirror) in enumerate(drawn):
+        axes = made.add_subplot(large[0, i])
+        cam_panel(axes, design, title, cam, mirror)
+        zone_words(axes, cam)
+        _slot_panel(made.add_subplot(close[0, i]), design, cam, mirror)
+    legend_row(made.add_subplot(grid[2]), axes)
+    pressure_panel(made.add_subplot(below[0, 0]), design)
+    curvature_panel(made.add_subplot(below[0, 1]), design)
+    return made
+
+
+def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> None:
+    """The slot that the roller needs at mid-swing, enlarged."""
+    import numpy as np
+
+    from gearlink.core.machines.wide_swing.strokes import middle_of
+
+    start, end = design.slot_of(cam)
+    cam_panel(axes, design, "Slot at mid-swing", cam, mirror)
+    words = f"contact until k = {start:.4f}\nand from k = {end:.4f}"
+    axes.text(0.97, 0.05, words, transform=axes.transAxes, ha="right", va="bottom", fontsize=7.5, zorder=8)
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
+    half: Any = _SLOT_VIEW * cam.roller_radius
+    axes.set_aspect("equal", adjustable="box")
+    axes.set_xlim(middle.real - 1.6 * half, middle.real + 1.6 * half)
+    axes.set_ylim(mirror * middle.imag - half, mirror * middle.imag + half)
+
+
+# The whole cycle
+
+
+def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
+    """The closed contours to scale: of a twin-rocker on one body, of a twin-cam side by side."""
+    cycle = design.cycle
+    if not cycle.external_working:
+        columns = place.subgridspec(1, 2, width_ratios=[1.5, 1.0])
+        axes = made.add_subplot(columns[0, 0])
+        panels.drawing(axes, "Both profiles on one body")
+        for cam, frame, color in ((cycle.main, cycle.of_main, style.BLUE), (cycle.back, cycle.of_back, style.GREEN)):
+            _contour(axes, cam, frame, color)
+        _between(axes, cycle)
+        _finish(axes, design)
+        _legend(made.add_subplot(columns[0, 1]), axes)
+        return
+    columns = place.subgridspec(2, 2, height_ratios=[1.0, 0.08])
+    for i, (title, cam, frame) in enumerate(
+        (
+            ("Cam of the working stroke", cycle.main, cycle.of_main),
+            ("Cam of the return stroke", cycle.back, cycle.of_back),
+        )
+    ):
+        axes = made.add_subplot(columns[0, i])
+        panels.drawing(axes, title)
+        _contour(axes, cam, frame, (style.BLUE, style.GREEN)[i])
+        style.area(axes, _whole(cam, frame), color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+        _finish(axes, design)
+        _legend(made.add_subplot(columns[1, i]), axes, 2)
+
+
+def _whole(cam: ClosedCam, frame: Any) -> Any:
+    import numpy as np
+
+    return frame(np.concatenate([points for _, points in cam.outline()]))
+
+
+def _xy(points: Any) -> tuple[Any, Any]:
+    return points.real, points.imag
+
+
+def _contour(axes: Axes, cam: ClosedCam, frame: Any, color: str) -> None:
+    """A contour in its sectors, each in its own colour, the joints marked, and the path of the roller's centre."""
+    import numpy as np
+
+    named = "internal" if cam.cam.sense < 0 else "external"
+    for i, (name, points) in enumerate(cam.outline()):
+        shade, width = _PARTS.get(name, (color, 2.4))
+        label = f"{named}: {_WORDS[name]}" if name == "profile" else _WORDS[name]
+        first = i not in (2, 5)
+        axes.plot(*_xy(frame(points)), color=shade, linewidth=width, zorder=4, label=label if first else None)
+    joints = frame(cam.contour(np.array(cam.starts[:4])))
+    axes.plot(*_xy(joints), "o", color=style.BLACK, markersize=3.5, zorder=6, label="joint")
+    path = frame(cam.pitch(np.linspace(0.0, 2.0 * math.pi, 1441)))
+    axes.plot(*_xy(path), color=style.GREY, linewidth=0.7, linestyle=(0, (5, 3)), zorder=3, label="roller centre")
+
+
+def _between(axes: Axes, cycle: WholeCycle) -> None:
+    """The body of both profiles: metal inside the external and outside the internal one, as far as a rim."""
+    import numpy as np
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    inside, hollow = _whole(cycle.back, cycle.of_back), _whole(cycle.main, cycle.of_main)
+    rim = 1.08 * float(np.abs(hollow).max())
+    style.area(axes, inside, color=style.GREEN, alpha=0.12, linewidth=0, zorder=1)
+    turn = rim * np.exp(2j * math.pi * np.linspace(0.0, 1.0, 361))
+    paths = [Path(np.stack(_xy(z), axis=1), closed=True) for z in (turn, hollow)]
+    look = {"facecolor": style.BLUE, "alpha": 0.10, "linewidth": 0, "zorder": 1}
+    style.cornered(axes, PathPatch(Path.make_compound_path(*paths), **look))
+    axes.plot(*_xy(turn), color=style.BLUE, linewidth=0.8, zorder=2)
+
+
+def _finish(axes: Axes, design: WideSwingDesign) -> None:
+    shaft = design.section.shaft_radius
+    if shaft > 0.0:
+        style.circle(axes, 0j, shaft, color=style.BLACK, linewidth=1.2, hatch="////", zorder=4)
+    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=10, zorder=6, label="cam axis")
+
+
+def _legend(axes: Axes, drawing: Axes, columns: int = 1) -> None:
+    axes.set_axis_off()
+    found = dict(zip(*reversed(drawing.get_legend_handles_labels()), strict=True))
+    axes.legend(found.values(), found.keys(), loc="center left", ncols=columns, frameon=False, fontsize=8)
+
+
+def cycle_panel(axes: Axes, design: WideSwingDesign) -> None:
+    """The rocker's angle over a revolution of the cam, the strokes and rests shaded and named."""
+    import numpy as np
+
+    cycle = design.cycle
+    style.curves(axes, "cam angle from the start of the working stroke [deg]", "rocker from mid-swing [deg]")
+    panels.small_ticks(axes)
+    table = cycle.table(720)
+    x, y = np.append(table["cam_angle"], 360.0), np.append(table["rocker_angle"], table["rocker_angle"][0])
+    axes.plot(x, y, color=style.BLUE, linewidth=1.8, label="rocker")
+    starts = np.degrees(np.cumsum((0.0, *cycle.angles)))
+    half = 0.5 * design.spec.swing
+    for i, words in enumerate(("working stroke", "far dwell", "return stroke", "near dwell")):
+        axes.axvspan(starts[i], starts[i + 1], color=_SHADES[i], alpha=0.14, linewidth=0, zorder=0)
+        if starts[i + 1] > starts[i]:
+            text = f"{words}\n{starts[i + 1] - starts[i]:g}°"
+            axes.text(0.5 * (starts[i] + starts[i + 1]), 1.08 * half, text, ha="center", va="bottom", fontsize=8)
+    axes.set_xlim(0.0, 360.0)
+    axes.set_ylim(-1.15 * half, 1.55 * half)
+    time_axes.in_ms(axes, 6e4 / (360.0 * design.spec.speed))
+    panels.heading(axes, "Cycle")
