@@ -2,8 +2,6 @@
 
 It comes after a second and is taken back at the end. A thread draws it past the streams of Python, so that a process
 that is forked meanwhile finds none of their locks taken.
-
-A word on a terminal where something takes longer than a second.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A file's outcomes do not depend on the others: nothing that one design does can end the batch or change another.
 
-Files of a batch: per design and command a JSON report, its tables as CSV, and the plot where one is asked for.
+Per design and command it writes a JSON report, its tables as CSV, and the plot where one is wanted.
 """
 
 from __future__ import annotations

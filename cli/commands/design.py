@@ -2,7 +2,7 @@
 
 What is computed is printed before it is drawn: no picture that cannot be made takes the numbers with it.
 
-`--profile`: what a command computed and how long each took, reported on standard error.
+`--profile` reports on standard error what a command computed and how long each took.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""`gearlink explain`: what a term of the field, a code, quantity, check, key, kind of design or law of motion means.
+"""`gearlink explain`: what a term, code, quantity, check, key, column, kind of design or law of motion means.
 
-What columns of tables and constants mean, and the formulas of quantities: the words of `words.json`.
+Columns of tables, constants and formulas of quantities have the words of `words.json`.
 
 A column that bears the name of a quantity is that quantity, place by place. Formulas are in the symbols of
 `gearlink.core.base.nomenclature`; where a name serves several kinds of design, each has its part. Inputs have none.

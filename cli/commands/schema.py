@@ -1,7 +1,4 @@
-"""`gearlink schema`: the JSON Schema of one kind of design file, or of all.
-
-A kind of design by name, or the nearest names on standard error.
-"""
+"""`gearlink schema`: the JSON Schema of one kind of design file, or of all, and names near an unknown one."""
 
 from __future__ import annotations
 

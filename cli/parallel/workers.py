@@ -1,6 +1,6 @@
 """Processes to compute in, as an ordinary Executor: they end with this process, whatever ends it.
 
-Ctrl-C where what is finished is worth keeping: the first asks for the end, a second one ends the process.
+Where what is finished is worth keeping, the first Ctrl-C asks for the end and a second one ends the process.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""The design files that folders, patterns and names on a command line stand for.
-
-Which files a result was made of: every reader of a design's files tells them here.
-"""
+"""The design files that folders, patterns and names on a command line stand for, and the files of a result."""
 
 from __future__ import annotations
 

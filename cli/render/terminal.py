@@ -1,8 +1,7 @@
-"""Reports on the terminal: values to seven digits, tables thinned and folded so that they fit the width.
+"""Reports and key results on the terminal: values to seven digits, tables thinned and folded to fit the width.
 
-The key results of a command on the terminal: what was asked for beside what was reached, and failed checks.
-
-Written without rich where all checks pass: its import takes longer than most designs.
+Key results are what was wanted with what was reached, and failed checks. They are written without rich where all checks
+pass: its import takes longer than most designs.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""What each code means and how to repair the design.
-
-The key of a design file that a check's finding is about.
-"""
+"""What each code means, how to repair the design, and the key that a check's finding is about."""
 
 from __future__ import annotations
 

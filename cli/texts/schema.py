@@ -1,10 +1,7 @@
-"""The keys of the design files as JSON Schema draft-07, the dialect that editors read.
+"""The keys of the design files as JSON Schema draft-07, the dialect that editors read; path, unit, range, default.
 
-What is known of every kind of file, kept in two files: reading all models and design classes takes a second.
-
+What is known of every kind of file is kept in two files, for reading all models and design classes takes a second.
 `make docs` writes them; a test compares them with models and classes.
-
-Every key that a kind of design file may have: path, unit, range, default and meaning, read from its schema.
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@
 
 Units are those of the design files; inside the engine an angle is in radians. Names follow ISO 21771 (gears) and
 VDI 2142/2143 (laws of motion, cams).
-
-The words of parts and machines: symbol, unit, meaning and source of their quantities.
 """
 
 from __future__ import annotations

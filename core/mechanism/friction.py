@@ -1,11 +1,9 @@
-"""Friction in pins, guides and meshes, as a fixed point on the reactions.
+"""Friction in pins, guides and meshes, as a fixed point on the reactions; joint forces and what they rub.
 
 Pins: a couple mu r |F| against the relative turning; guides: mu |N| against the motion; meshes: a couple
 (1 - eta) |F_t| r on the driven gear against its rolling, that is its turning against the link that carries the axes,
 which takes the opposite: so the driven gear gives eta of the power that the driving one puts in, in the carrier's
 frame. Which gear is driven follows from the signs of tooth force and rolling, row by row.
-
-The sizes that friction has: joint forces and what they rub, one making the other.
 """
 
 from __future__ import annotations

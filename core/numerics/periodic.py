@@ -1,6 +1,6 @@
-"""Integrals of even, periodic, analytic functions: the equal-weight rule and the cosine series that goes with it.
+"""Integrals of even, periodic, analytic functions by the equal-weight rule; values of rising functions.
 
-Where a rising function of an interval has given values, nearly: what Newton's steps begin from.
+The cosine series goes with the rule. Where a rising function has a given value is found nearly, for Newton's steps.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Figures of a flatbed cylinder press: its motion in twelve positions, its cams, its input gears and slider-crank.
+"""Scene and figures of a flatbed cylinder press: motion in twelve positions, cams, input gears and slider-crank.
 
-The flatbed press: one revolution of the input, a sheet. Chains and cams are to scale, as in its diagram.
+The scene is one revolution of the input, a sheet. Chains and cams are to scale, as in its diagram.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Sheets of a geared five-bar: links, gears and path to scale; the function that it generates; what closes it.
+"""Scene and sheets of a geared five-bar: links, gears and path to scale; its function; what closes it.
 
-The geared five-bar: a path over its whole period; a function over its range, there and back.
+The scene of a path is its whole period, that of a function its range, there and back.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Sheets of a geared rocker: the mechanism at both ends of the output's swing, and the swing over a revolution.
-
-The geared rocker: one revolution of the crank.
-"""
+"""Scene and sheets of a geared rocker, over one revolution of the crank: both ends of the output's swing, the swing."""
 
 from __future__ import annotations
 

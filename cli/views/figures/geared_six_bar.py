@@ -1,6 +1,6 @@
-"""Sheets of a geared six-bar: links and gears to scale, the output's angle, speed and acceleration, what closes it.
+"""Scene and sheets of a geared six-bar: links and gears to scale, the output's angle, speed and acceleration.
 
-The geared six-bar: its period, or its range there and back.
+The scene is its period, or its range there and back; a sheet says what closes it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Sheet of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and near its dwell.
+"""Scene and sheet of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and its dwell.
 
-The dwell on an arc of a hypocycloid: one revolution of the carrier.
+The scene is one revolution of the carrier.
 """
 
 from __future__ import annotations

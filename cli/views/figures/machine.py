@@ -1,6 +1,6 @@
-"""Pictures of a machine: its timing as a line and as a circle, the torques on the main shaft, and its register.
+"""Scene and pictures of a machine: timing as a line and as a circle, torques on the main shaft, register.
 
-The scene of a machine: all members side by side on one machine angle, each as large as its place allows.
+The scene has all members side by side on one machine angle, each as large as its panel allows.
 """
 
 from __future__ import annotations

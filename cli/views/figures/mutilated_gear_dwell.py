@@ -1,6 +1,6 @@
-"""Sheets of a dwell by a mutilated gear: wheel and four-bar to scale, motion over a cycle; the mesh for `gear`.
+"""Scene and sheets of a dwell by a mutilated gear: wheel and four-bar to scale, motion over a cycle; mesh for `gear`.
 
-The mutilated gear: as many cycles as bring the driven gear, and the four-bar on it, home.
+The scene has as many cycles as bring the driven gear, and the four-bar on it, home.
 """
 
 from __future__ import annotations

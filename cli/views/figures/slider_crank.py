@@ -1,6 +1,6 @@
-"""Sheet of a slider-crank: dead centres and a position between; travel, velocity, transmission angle over a turn.
+"""Scene and sheet of a slider-crank: dead centres and a position between; travel, velocity, transmission angle.
 
-The offset slider-crank: one turn of the crank, counter-clockwise from its level place; the slider runs below.
+The scene is one revolution of the crank, counter-clockwise from its level position; the slider runs below.
 """
 
 from __future__ import annotations

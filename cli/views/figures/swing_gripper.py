@@ -1,6 +1,6 @@
-"""Figures of a swing gripper: law, torques and mechanism; its cams with their rollers, pressure angle, curvature.
+"""Scene and figures of a swing gripper: law, torques, mechanism; cams with rollers, pressure angle, curvature.
 
-The swing gripper: one revolution of the cylinder shaft, a sheet.
+The scene is one revolution of the cylinder shaft, a sheet.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a revolution.
-
-The two-gear four-bar: one revolution of the crank.
-"""
+"""Scene and sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a revolution."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The mechanism of a crank-rocker: crank, coupler, rocker.
-
-What the errors of a crank-rocker move.
-"""
+"""The mechanism of a crank-rocker: crank, coupler, rocker, and what their errors move."""
 
 from __future__ import annotations
 

@@ -1,8 +1,6 @@
-"""A measured cam: how well the series fits, the motion of its follower, and the laws that it seems to be made of.
+"""A measured cam: the fit of its series, the motion of its follower, and the dwells and strokes that it is made of.
 
 With that motion it is a disc cam: figure, film, loads, tolerances and export are those of one.
-
-From a measured profile to the motion of the follower, and to the dwells and strokes that it is made of.
 """
 
 from __future__ import annotations

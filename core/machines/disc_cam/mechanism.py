@@ -1,7 +1,4 @@
-"""The mechanism of a disc cam: cam, follower, and the contacts between them.
-
-What the errors of a disc cam move.
-"""
+"""The mechanism of a disc cam: cam, follower, the contacts between them, and what their errors move."""
 
 from __future__ import annotations
 

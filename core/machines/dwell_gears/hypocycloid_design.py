@@ -1,7 +1,5 @@
 """A dwell on an arc of a hypocycloid as a design: planet in a ring gear, rod, slider.
 
-Slider that dwells while a point on a planet's pitch circle runs along an arc of its hypocycloid.
-
 A planet of pitch radius r rolls in a ring of n r; a point of its pitch circle draws a hypocycloid of n arcs. Frame:
 ring centre at 0, the slide line the x axis, the middle of one arc on it at carrier angle t = 0:
 

@@ -1,7 +1,5 @@
 """A long dwell by a mutilated gear as a design, with the four-bar that its driven gear turns.
 
-Long dwell by a mutilated gear: a wheel with groups of teeth turns a full gear now and then.
-
 Between reduction and driven gear the wheel carries g groups of n teeth on a pitch circle that has room for Z_M teeth.
 While a group passes, the driven gear (Z_F teeth) turns as in mesh with a full wheel; then it stands. The model knows
 pitch circles only: tip cuts of the first and the last tooth and the locking arcs are not in it.

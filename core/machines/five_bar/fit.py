@@ -1,8 +1,6 @@
-"""A geared five-bar whose coupler point runs through given points, by least squares.
+"""A geared five-bar whose coupler point runs through given points, at any or at given input angles: least squares.
 
-Starts of the search for a geared five-bar: scattered about a given one, closing, their coupler points settled.
-
-A geared five-bar whose coupler point is at given points at given input angles, by least squares.
+A search starts from five-bars that are scattered about a given one, close, and have their coupler points settled.
 """
 
 from __future__ import annotations

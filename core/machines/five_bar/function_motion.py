@@ -1,12 +1,10 @@
-"""The function-generating geared five-bar: a planet on the coupler rolls on a sun that is fixed to the frame.
+"""The function-generating geared five-bar, a planet on the coupler and a fixed sun, and its structural error.
 
 The figure that the source gives for it is lost, so this is a reading: gear 5 fixed to the frame at A, planet 2 fixed to
 the coupler BC at B, so that the coupler turns in a fixed ratio to the input; link 4 follows by the dyad CD, DE.
 
     t2 = t20 + m phi,   m = 1 + z5/z2 (sun), 1 - z5/z2 (ring gear)
     C = a e^(i phi) + b e^(i t2),   D on circles about C (radius c) and E = (d, 0) (radius e)
-
-How far a geared five-bar is from a function that it shall generate: the structural error.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
-"""Checks of a flatbed press: chains, zone and cams; each is a function of the design.
+"""Checks of a flatbed press: chains, zone, cams, bodies that meet outside of the print, pinion and both racks.
 
-Bodies of a flatbed press that meet outside of the print: cranks and the other gear's axis, cylinder and forme.
-
-Gears 3 and 4 of a press, its pinion and both racks: geometry and checks.
+Each is a function of the design.
 """
 
 from __future__ import annotations

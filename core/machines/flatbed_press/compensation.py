@@ -4,7 +4,7 @@ The lift of the follower is a function of the cam angle theta, in mm and radians
 difference of bed and cylinder travel; before and after the zone the printing is done and the lift is free, so
 that it can be joined smoothly. Derivatives by the cam angle come from the chain rule.
 
-Why a follower cannot make its lift, and which key would let it: the nearest cause first.
+Where it cannot make its lift, the nearest cause is said first, and the key that would let it.
 """
 
 from __future__ import annotations

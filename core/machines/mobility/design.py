@@ -1,7 +1,4 @@
-"""Gear trains on a linkage as a design: degrees of freedom, and why a train does not fit.
-
-Degrees of freedom of a linkage that carries gear trains, and the rule by which a train is put on it.
-"""
+"""Gear trains on a linkage as a design: degrees of freedom, the rule of a train, and why a train does not fit."""
 
 from __future__ import annotations
 

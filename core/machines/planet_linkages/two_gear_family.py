@@ -1,9 +1,6 @@
 """Two-gear four-bars of given gears, coupler and rocker in one unknown, the frame: momentary dwell, back-step, window.
 
-From the frame of the momentary dwell on the output steps back, the further the nearer its frame is to the change point;
-see `two_gear_frames` for both.
-
-Frames with which the output of a two-gear four-bar stands still: the range, the momentary dwell, what is refused.
+From the frame of the momentary dwell on the output steps back, the further the nearer its frame is to the change point.
 
 The output stands still where the line CD passes through the pitch point P of the gears on AB. With u = PC along that
 line, positive towards D, the triangle BCP and the triangle of A, P and D give

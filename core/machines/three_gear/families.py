@@ -12,9 +12,8 @@ of equal ripple rise along each of them; the speed swing W_max - W_min too. With
 output steps back with a frame shorter than d*. `met_between` and `rooms` are the lengths of one link, the others as
 they are, with which the output stays within a band over a window.
 
-Stretches of a revolution in which the output runs at a nearly even speed.
-
-They are windows of the crank angle whose ends stand on one level of the speed ratio W, an extreme of W between them.
+A task may be a window in which the output runs at a nearly even speed: a window of the crank angle whose ends stand on
+one level of the speed ratio W, an extreme of W between them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The mechanism of a three-gear four-bar: crank with gear 1, coupler, rocker, idler on C, output gear on D.
+"""The mechanism of a three-gear four-bar: crank, coupler, rocker, idler on C, output gear on D; its instant centres.
 
-Instant centres of a three-gear four-bar: P13, P35 where its gears roll, P15 on the line of the shafts.
+P13 and P35 are where its gears roll, P15 is on the line of the shafts:
 
 P13 = B + r_1/(r_1 + r_3) (C - B),  P35 = C + r_3/(r_3 + r_5) (D - C), a ring's radius negative; the line through both
 meets AD in P15, and W = AP15/DP15. In a standstill A, F = P13 and E = P35 lie in line.

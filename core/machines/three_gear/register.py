@@ -1,6 +1,6 @@
-"""The register budget of a three-gear four-bar: what the errors of its parts cost at the output while it dwells.
+"""Errors of the parts of a three-gear four-bar: its register budget in the dwell, and its samples for `tolerance`.
 
-Samples of a three-gear four-bar for the command tolerance: links, centre distances and pins as manufactured.
+Links, centre distances and pins are taken as manufactured.
 """
 
 from __future__ import annotations

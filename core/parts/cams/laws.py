@@ -1,11 +1,9 @@
-"""Motion laws of cams: from rest to rest, and from rest to a constant speed.
-
-First half of the SCCA laws: sine, constant and cosine acceleration, then constant velocity.
-
-The first half of a symmetric motion law, and its mirror image.
+"""Motion laws of cams: from rest to rest, and from rest to a constant speed; the SCCA family among them.
 
 A symmetric law is known from its first half: a `Piece` gives the integral of the rise, the rise and its first
 derivatives up to the piece's end. The same code serves a float and a float64 array.
+
+The first half of a law of the SCCA family is sine, constant and cosine acceleration, then constant velocity.
 """
 
 from __future__ import annotations

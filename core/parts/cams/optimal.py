@@ -4,7 +4,7 @@ s'' is a polynomial of degree n on [0, 1] that vanishes at both ends. A programm
 many places has fewer limits than the true one, so its dual bounds every law of the class from below; the law itself
 is proved afterwards, everywhere.
 
-Motion laws of minimum inertia torque, |s' s''|: found step by step, and bounded by the kinetic energy.
+Laws of minimum inertia torque, |s' s''|, are found step by step, and bounded by the kinetic energy.
 
 The product is not convex in the coefficients of s'': each step solves the programme of the product's linear part
 within a trust region, and what is found is smallest of its neighbours alone.

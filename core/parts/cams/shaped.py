@@ -1,6 +1,6 @@
-"""Motion laws that a file shapes by numbers: given end values, polydyne, optimal, and what vibration they leave.
+"""Motion laws that a file shapes by numbers: end values, polydyne, optimal, through points; what vibration they leave.
 
-Motion laws through the points of a table: the quintic spline that is at rest, or at speed, where the phase ends.
+Points of a table are joined by the quintic spline that is at rest, or at speed, where the phase ends.
 """
 
 from __future__ import annotations

@@ -1,6 +1,4 @@
-"""Smallest cams for a pressure-angle limit: the cam centre that the rollers of rocking arms allow.
-
-Minimum cams that keep a pressure angle and a curvature radius, for a given motion of the follower: closed forms.
+"""Smallest cams for limits of pressure angle and curvature radius: cam centres of rocking arms, and closed forms.
 
 Angles in rad, lengths in mm; eps is the sense of the cam, ' is by the cam angle.
 """

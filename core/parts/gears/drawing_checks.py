@@ -1,6 +1,6 @@
-"""Checks of a gear pair that need more than its teeth: helical contact, interferences of rings, root fillets.
+"""Checks of a gear pair that need more than its teeth: helical contact, interferences of rings, root fillets, drawing.
 
-Checks of a gear pair where its gears mesh as deeply, and as slightly, as the drawing of the housing lets them.
+Limits of the centre distance on the housing's drawing let gears mesh more or less deeply; both ends are checked.
 """
 
 from __future__ import annotations

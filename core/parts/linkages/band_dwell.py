@@ -1,6 +1,6 @@
-"""The longest dwell of any output within a band: it stays within +- tol of a place that is free to choose.
+"""The longest dwell of any output within a band, which stays within +- tol of a position that is free to choose.
 
-Linkages in one unknown length whose output steps back with each of them: back-step, longest dwell, flattest window.
+Linkages that step back with every value of one unknown length have a back-step, a longest dwell and a flattest window.
 
 Without a momentary dwell in the range the back-step has a minimum value above 0 there. A wider band is filled by the
 back-step of a linkage to either side of that place, as everywhere; a narrower one by none, and the output dwells about

@@ -1,8 +1,7 @@
-"""What the output of a geared linkage feeds: a chain, a roller's web or a belt on its shaft.
+"""What the output of a geared linkage feeds: a chain, a roller's web or a belt; the speed of a sheet at the front lay.
 
-The speed with which a sheet arrives at the front lay: windows of the crank angle before the arrival.
-
-The gentlest has both ends on one level of the speed ratio W, a minimum of W between them.
+The speed is taken in windows of the crank angle before the arrival. The gentlest has both ends on one level of the
+speed ratio W, a minimum of W between them.
 """
 
 from __future__ import annotations

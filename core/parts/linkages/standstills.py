@@ -1,6 +1,6 @@
 """Extremes and standstills of a motion over one revolution of the crank, from its speed and its acceleration ratio.
 
-Maximum and minimum speed and acceleration ratio of an output with their places, as several kinds of drive have.
+Quantities are the maximum and minimum speed and acceleration ratio of an output with their places.
 """
 
 from __future__ import annotations

@@ -1,12 +1,10 @@
-"""Bodies in the plane of the gears, and the minimum gap of every two that could meet.
+"""Bodies in the plane of the gears, and the minimum gap of every two that could meet; links near axes of the frame.
 
 All gears of a train lie in one plane, and the shafts of the frame pass through it unless they end before it (are
 overhung). Two bodies cannot meet that share an axis, are one rigid body, or are gears in mesh. Links and the pins
 between them lie in planes beside that of the gears; design files give them no width.
 
-How near links come to an axis of the frame: arms that turn about a pivot in closed form, other lines by their ends.
-
-Links are lines of no width, since design files give them none.
+Links are lines of no width. Arms that turn about a pivot are taken in closed form, other lines by their ends.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The base design of a study: the designs that differ from it by some keys, and the quantities they have.
 
-Designs computed each by its own class: the form that every kind has, and the judge of the array form.
+Each design may be computed by its own class, a form that every kind has and that checks the array form.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""What a study seeks: objectives with their resolution, and conditions on quantities.
-
-Lists and their entries in the expressions of a study: which entry is whose, and what is no entry at all.
-"""
+"""What a study seeks: objectives with their resolution, conditions on quantities, and entries of lists in both."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""The checks of `loads`, in the order of their codes.
-
-The checks of the vibration of the output.
-"""
+"""The checks of `loads` and of the vibration of the output, in the order of their codes."""
 
 from __future__ import annotations
 

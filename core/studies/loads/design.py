@@ -1,7 +1,4 @@
-"""The loads of a design file: the machine's own part gives links, connections and masses, this the results.
-
-Input turns after which a machine with gears out of balance repeats.
-"""
+"""The loads of a design file: the machine's own part gives links, connections and masses, this the results."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Load of a pin over the period, and of a mesh.
-
-Changes of sign over a period: where torque or teeth change sides.
-"""
+"""Load of a pin over the period, and of a mesh, and where torque or teeth change sides."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """How a machine runs: at a constant speed, with a flywheel at a constant drive torque, or with a motor.
 
-The periodic run with a motor whose torque falls linearly with its speed, M = k (w_0 - w).
+The torque of a motor falls linearly with its speed, M = k (w_0 - w):
 
 dE/dphi = k (w_0 - w) - tau(phi),  E = (J(phi) + J_F) w^2/2
 

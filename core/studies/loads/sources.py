@@ -1,6 +1,6 @@
-"""What acts on a machine from outside, from the section `loads` of its file: forces, torques, resistances, springs.
+"""What acts on a machine from outside, from the section `loads`: forces, torques, resistances, springs.
 
-Values over the input angle as a design file gives them: a number, a table, or zones; periodic over a revolution.
+A value over the input angle is a number, a table, or zones; it is periodic over a revolution.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""Vibration of what is driven through a spring: residual after a motion, periodic response, harmonics.
+"""Vibration of what is driven through a spring: residual in the dwells, periodic response, harmonics; of one design.
 
 z'' + 2 zeta w_n z' + w_n^2 z = -x''  with x imposed and z the deflection. With lam = -zeta w_n + i w_d it is
 z = -Im Z/w_d, Z(t) = int x''(s) e^(lam (t - s)) ds; where x rests |Z|/w_d is the amplitude that is left.
-
-The vibration of one design: its output on a spring, in its dwells and over the period.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The register budget of a machine: sources, stretch, the two torque signs, tables and checks.
+"""The register budget of any machine that has a motion: sources, stretch, the two torque signs, tables and checks.
 
-The register of any machine that has a motion: what the errors of its parts cost at its first output.
+It says what the errors of the parts cost at the first output.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Samples in replications, each scrambled anew: estimates with an interval that covers.
 
-Replications as shares of a command's work: computed here, or by whatever the command line names.
+Replications are shares of a command's work, computed here or by whatever the command line names.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""The tolerance study of a design file as a design: yields, spreads, contributions.
+"""The tolerance study of a design file as a design: yields, spreads, contributions, and the grade of each part.
 
-Which source contributes what: slopes at the nominal design, and Sobol' indices over the whole scatter.
-
-Which grade each part needs: the cheapest choice of IT grades that reaches a yield.
+Contributions are slopes at the nominal design, and Sobol' indices over the whole scatter. Grades are the cheapest
+choice of IT grades that reaches a yield.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Designs as manufactured: computed, judged, and summed up replication by replication.
 
-Replications as shares of a study's work: each depends on the study's text and its own number alone.
+Replications are shares of a study's work: each depends on the study's text and its own number alone.
 """
 
 from __future__ import annotations

@@ -1,10 +1,8 @@
-"""Gears in mesh: both gears to scale with their true teeth, the mesh zone magnified, and a table of values.
+"""Gears in mesh: scene, both gears to scale with their true teeth, the mesh zone magnified, and a table of values.
 
-The path of contact in a mesh zone: line of action, A, C and E, contact points, and the frame about them.
-
-The table beside a mesh: words, symbols, units and values of both gears.
-
-A gear pair: so many pitches that the teeth, and where it goes the holes, come to meet themselves.
+The mesh zone has the line of action with A, C and E, contact points, and the frame about them; the table has words,
+symbols, units and values of both gears. The scene of a pair turns by so many pitches that the teeth, and where it goes
+the holes, come to meet themselves.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Signs are those of ISO 21771: a ring has negative teeth, and with them its radii, the centre distance, and the gear
 ratio are negative; every formula then holds for both kinds. Shift, heights and tool multiply the normal module.
 
-What a gear pair must satisfy to exist, and the messages where it does not.
+What a pair must satisfy to exist is checked, with a message where it does not.
 """
 
 from __future__ import annotations

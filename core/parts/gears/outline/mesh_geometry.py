@@ -1,10 +1,8 @@
-"""Where the teeth of a gear pair stand in mesh: line of action, path of contact, places of both gears.
+"""Where the teeth of a gear pair stand in mesh, also while the axes move: line of action, path of contact, both gears.
 
 Frame: the axis of gear 1 is the origin, that of gear 2 lies on the x axis at the centre distance; points are complex
 numbers x + i y. Gear 1 drives counter-clockwise, so that its upper flanks push, and a pair of flanks touches at the
 pitch point.
-
-How the teeth of gears in mesh stand to each other while their axes move.
 """
 
 from __future__ import annotations

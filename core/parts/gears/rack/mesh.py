@@ -1,6 +1,8 @@
-"""A gear on a rack: the mesh has the reference circle of the gear and the tool's own pressure angle.
+"""A gear on a rack, the limit of a pair whose wheel has ever more teeth: path of contact, root section, rating.
 
-The corner of a gear's tip in the root rounding of its rack, outside the path of contact.
+The mesh has the reference circle of the gear and the tool's own pressure angle.
+
+The corner of the gear's tip may meet the root rounding of the rack outside the path of contact.
 
 In the frame of the rack, x from the middle of a space towards the flank in contact, D below the datum line, the gear
 turned by psi from where its corner stands deepest:
@@ -9,8 +11,6 @@ turned by psi from where its corner stands deepest:
 
 w is half the width of the space at its flanks, E the end of contact, psi_E = alpha_t - alpha_a. The gear's own fillet
 needs no such look: the rack's tips lie inside the tool that cut it wherever contact ends on the flank.
-
-A gear on a rack as the limit of a pair whose wheel has ever more teeth: path of contact, root section, rating.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What the rating by ISO 6336 takes besides teeth, load and elasticity: the section `rating` of a file.
+"""The section `rating` of a file: what ISO 6336 takes besides teeth, load and elasticity; limit stress over the cycles.
 
-The limit stress over the load cycles: a line that falls from the static knee to the long life, and its damage.
+The limit stress falls in a line from the static knee to the long life; the damage is found from it.
 """
 
 from __future__ import annotations

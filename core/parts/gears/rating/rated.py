@@ -1,6 +1,6 @@
 """A pair rated by ISO 6336 with all factors computed: limit stresses, safeties, life and damage.
 
-Load factors by ISO 6336-1: stiffness, dynamic factor (method B), face load factor (method C), transverse one.
+Load factors are those of ISO 6336-1: stiffness, dynamic factor (method B), face load factor (method C), transverse one.
 """
 
 from __future__ import annotations

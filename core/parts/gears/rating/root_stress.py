@@ -1,6 +1,4 @@
-"""Root stresses of both gears of a pair by ISO 6336-3, method B.
-
-Tooth root strength by ISO 6336-3, method B, on the virtual spur gear; the tangent of the fillet is exact.
+"""Root stresses of both gears of a pair by ISO 6336-3, method B, on the virtual spur gear.
 
 The section of an external tooth stands where a tangent of 30 deg touches the fillet, that of a ring at 60 deg. The
 standard's auxiliary angle theta is the direction of the tool's normal there, so it is found as a bracketed root.

@@ -4,7 +4,11 @@ The load acts at the outer point of single contact, normal to the flank, as cos^
 traction linear over the far side of the rim balances it. Within 4 %: a rim of 3 modules instead of 5 changes the
 stress by 3.5 %, root circles of 2.5 pitches instead of 1 by 1 %.
 
-Stress on the edge of a plane elastic body that is its own mirror image, by a boundary integral.
+The body is one tooth of the virtual spur gear of module 1 in the normal section, its centre at the origin, the middle
+of the tooth on the y axis, tip up; a ring is mirrored so that its rim lies below the tooth as well. Neighbouring teeth
+are left out: the root circle goes on to 1.5 pitches beside the middle.
+
+The stress on the edge of this plane elastic body, which is its own mirror image, is found by a boundary integral.
 
 First fundamental problem of plane elasticity, the equation of Sherman and Lauricella over the closed contour L,
 counter-clockwise, with th = arg(tau - t):
@@ -15,12 +19,6 @@ counter-clockwise, with th = arg(tau - t):
 The body is mirrored at the y axis: its right half gives two real systems of half size, for loads that mirror and for
 those that mirror with the other sign. A turn of the whole body, omega = i z, bears no stress: the second system is
 freed of it.
-
-The contour of one tooth with its rim, for the stress on its generated fillet.
-
-The virtual spur gear of module 1 in the normal section, its centre at the origin, the middle of the tooth on the y
-axis, tip up; a ring is mirrored so that its rim lies below the tooth as well. Neighbouring teeth are left out: the root
-circle goes on to 1.5 pitches beside the middle.
 """
 
 from __future__ import annotations

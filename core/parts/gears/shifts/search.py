@@ -1,6 +1,6 @@
-"""Integer search: which whole teeth make a ratio at a centre distance, with a sum of shifts that gears bear.
+"""Integer search: whole teeth for a ratio at a centre distance with a bearable sum of shifts, and pairs for a load.
 
-Which pairs carry a load for a life: the minimum face width by the rating, and the smallest centre distance.
+A pair that carries a load for a life has the minimum face width by the rating; the smallest centre distance is found.
 """
 
 from __future__ import annotations

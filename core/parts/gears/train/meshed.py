@@ -1,11 +1,9 @@
-"""Designs whose gears mesh one after the other: the quantities, checks and drawings of their meshes.
+"""Designs whose gears mesh one after the other: quantities, checks and drawings of their meshes, external or internal.
 
 A design with one mesh gives its quantities by their plain names, one with several puts the name of the mesh before
 them, `crank_idler.span_measurement`.
 
-What every mesh inside a machine gives: quantities, checks, and the ways to change a file where one fails.
-
-Quantities and checks of one mesh of gears, external or internal.
+Where a check fails, every mesh says which keys of the file help.
 """
 
 from __future__ import annotations

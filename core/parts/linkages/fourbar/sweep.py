@@ -4,7 +4,7 @@ Frame, names and closed form are those of `core.parts.linkages.fourbar.position`
 `core.parts.linkages.fourbar.loop`, multiplied by 1 + t^2, is linear in t^2: the sweep needs no sine or cosine, and
 no arc tangent until an angle is asked for.
 
-The four-bar's vector loop by Newton-Raphson, the second way, which checks the closed form.
+The vector loop by Newton-Raphson is the second way, which checks the closed form.
 
     r = a e(phi) + b e(theta_b) - d - c e(theta_c) = 0,    e(x) = exp(i x)
 

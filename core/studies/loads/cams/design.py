@@ -1,7 +1,4 @@
-"""What `loads` shows besides of a machine with cams: contact forces, pressures, rollers, the torque of the cams.
-
-The table `contact` of rollers on cams.
-"""
+"""What `loads` adds for a machine with cams: contact forces, pressures, rollers, torque, table `contact`."""
 
 from __future__ import annotations
 
