@@ -57,8 +57,18 @@ def _given(design: DiscCamDesign) -> set[str]:
 def shaft_clearance(design: DiscCamDesign) -> Iterator[Check]:
     """GL302: the profile against its shaft."""
 
+    spec = design.spec
+    key, radius = ("base_radius", design.base_radius) if spec.is_flat else ("prime_radius", design.prime_radius or 0.0)
+
     def farther(by: float) -> str:
-        return f"enlarge the base circle by {safely_above(by)} mm"
+        larger = safely_above(radius + by)
+        if spec.cam.size is None:
+            return f"set cam.{key} to {larger}"
+        center, given = design.center_distance, getattr(spec.follower, "center_distance", None)
+        pivot = (
+            "" if given is not None or center is None else f", with follower.center_distance: {safely_above(center)}"
+        )
+        return f"replace cam.size by cam.{key}: {larger}{pivot}"
 
     yield from hub_checks(SHAFT_CLEARANCE, design.profiles, design.spec.cam.shaft_radius, farther)
 

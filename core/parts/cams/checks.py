@@ -128,7 +128,8 @@ def hub_checks(
     """
     for cam in cams if shaft > 0.0 else ():
         room = without_noise(cam.min_radius - shaft, shaft)
-        status: Status = "fail" if room <= 0.0 else "warn" if cam.min_radius < HUB * shaft else "pass"
+        thin = without_noise(cam.min_radius - HUB * shaft, shaft) < 0.0
+        status: Status = "fail" if room <= 0.0 else "warn" if thin else "pass"
         fix = farther(HUB * shaft - cam.min_radius) if status != "pass" else ""
         if status == "warn":
             fix = f"take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm"

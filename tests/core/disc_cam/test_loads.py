@@ -75,6 +75,32 @@ def test_the_preload_of_the_fix_is_in_the_unit_of_the_follower() -> None:
         assert re.fullmatch(rf"raise spring.preload to [\d.]+ {unit} \(10 % speed margin\)", check.fix)
 
 
+@pytest.mark.parametrize("follower", ["translating-roller", "translating-flat", "oscillating-roller"])
+@pytest.mark.parametrize("sized", [True, False])
+def test_a_cam_within_its_shaft_is_told_the_radius_with_which_it_is_not(follower: str, sized: bool) -> None:
+    flat = "flat" in follower
+    keys: dict[str, Any] = {"type": follower} | ({} if flat else {"roller_radius": 10})
+    if follower.startswith("oscillating"):
+        keys |= {"arm": 90} if sized else {"arm": 90, "center_distance": 105}
+    radius, size = ("base_radius", "curvature_radius") if flat else ("prime_radius", "pressure_angle")
+    small: dict[str, Any] = {"size": {size: 20 if flat else 40}} if sized else {radius: 28}
+    data: dict[str, Any] = {
+        "kind": "disc-cam",
+        "motion": [{"to": 180, "lift": 5}, {"to": 360, "lift": 0}],
+        "follower": keys,
+    }
+    (check,) = factory.design(data | {"cam": small | {"shaft_radius": 30}}, command="cam").check("shaft-clearance")
+    words = f"replace cam.size by cam.{radius}:" if sized else f"set cam.{radius} to"
+    told = re.fullmatch(rf"{words} ([\d.]+)(?:, with follower.center_distance: ([\d.]+))?", check.fix)
+    assert check.status == "fail"
+    assert told is not None
+    if told[2]:
+        keys = keys | {"center_distance": float(told[2])}
+    larger = {radius: float(told[1]), "shaft_radius": 30}
+    (again,) = factory.design(data | {"follower": keys, "cam": larger}, command="cam").check("shaft-clearance")
+    assert again.status == "pass"
+
+
 def test_the_least_preload_keeps_the_least_force() -> None:
     design = loads(spring={"rate": 15, "least_force": 40})
     along = design.contact_force("main", PHI) * np.cos(design.design.cams.main.pressure_angle(PHI))
