@@ -74,7 +74,17 @@ def show_findings(report: Report, console: Console, *, passed: bool = True) -> N
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
-        console.print(Text(f"checks: {verdict}", style=_STYLE[next(s for s, n in counts.items() if n)]))
+        style = _STYLE[next(s for s, n in counts.items() if n)]
+        console.print(Text(f"{_checks_of(report)}: {verdict}", style=style))
+
+
+def _checks_of(report: Report) -> str:
+    """What the verdict counts: with tolerances checks of the design as drawn, and of a yield that has a target."""
+    if report.command != "tolerance":
+        return "checks"
+    if any(check.name == "target-yield" for check in report.checks):
+        return "checks of the nominal design and of the yield"
+    return "checks of the nominal design (no tolerance.target_yield)"
 
 
 def console_for(options: Options) -> Console:
@@ -359,7 +369,7 @@ def show_key_results(report: Report, options: Options) -> None:
     if report.tables or not passed:
         _show_rest(report, options)
     elif report.checks:
-        verdict = f"checks: {len(report.checks)} pass"
+        verdict = f"{_checks_of(report)}: {len(report.checks)} pass"
         print(f"{_GREEN}{verdict}{_PLAIN}" if coloured else verdict)
 
 

@@ -56,6 +56,13 @@ def test_a_missed_target_fails(gearlink: Any, spec: Path) -> None:
     assert "--samples" in check["fix"]
 
 
+def test_the_verdict_says_whether_the_yield_is_part_of_it(gearlink: Any, spec: Path) -> None:
+    line = ["tolerance", spec, "--samples", "64", "--set"]
+    without = gearlink(*line, "tolerance.target_yield=null").out
+    assert "checks of the nominal design (no tolerance.target_yield): " in without
+    assert "checks of the nominal design and of the yield: " in gearlink(*line, "tolerance.target_yield=0.5").out
+
+
 def test_a_quoted_key_is_one_step_of_a_path(gearlink: Any, spec: Path) -> None:
     key = 'tolerance.sources."links.crank".plus_minus'
     line = ["tolerance", str(spec), "--samples", "512", "--format", "json"]
