@@ -190,11 +190,10 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     from gearlink.cli.views.figures.sheets import (
         cam_sheets,
         force_sheet,
-        magnified,
         motion_sheet,
         timing_sheet,
+        true_size,
         vector_sheet,
-        workshop,
     )
 
     found: Makers = {}
@@ -204,10 +203,10 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
         found["vectors"] = lambda: vector_sheet.draw(design, at, show)
     if "forces" in KINDS[design.kind].all_sheets and force_sheet.draws(design):
         found["forces"] = lambda: force_sheet.draw(design)
-    if "dwell" in KINDS[design.kind].all_sheets and magnified.dwell_of(design) is not None:
-        found["dwell"] = lambda: magnified.dwell(design)
-    if magnified.has_zone(design):
-        found["zone"] = lambda: magnified.zone(design)
+    if "dwell" in KINDS[design.kind].all_sheets and motion_sheet.dwell_of(design) is not None:
+        found["dwell"] = lambda: motion_sheet.dwell(design)
+    if motion_sheet.has_zone(design):
+        found["zone"] = lambda: motion_sheet.zone(design)
     if tolerance.study_of(design) is not None:
         found["tornado"] = lambda: tolerance.draw_tornado(design)
     if "timing" in KINDS[design.kind].sheets:
@@ -218,7 +217,7 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     cams = cam_sheets.discs(design)
     if cams:
         found["pressure"] = lambda: cam_sheets.pressure(design)
-        found["contact"] = lambda: magnified.contact(design)
+        found["contact"] = lambda: motion_sheet.contact(design)
     if scale is not None:
         from gearlink.cli.views.figures.sheets import true_size
 
@@ -226,5 +225,5 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
             found[f"drawing-{i + 1}"] = lambda i=i: true_size.drawing(design, i, scale)  # type: ignore[misc]
         return found
     for i in range(len(cams)):
-        found[f"drawing-{i + 1}"] = lambda i=i: workshop.drawing(design, i)  # type: ignore[misc]
+        found[f"drawing-{i + 1}"] = lambda i=i: true_size.workshop_drawing(design, i)  # type: ignore[misc]
     return found

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, width
-from gearlink.cli.verification import digits
+from gearlink.cli.verification import page
 from gearlink.cli.verification.cases import Case
 from gearlink.cli.verification.computing import Outcome
 from gearlink.core.base.errors import named
@@ -142,7 +142,7 @@ def _case(case: Case, outcomes: Sequence[Outcome], column: int) -> str:
     met = sum(each.met for each in outcomes)
     worst = max(outcomes, key=lambda each: each.share)
     count = f"{met} of {len(outcomes)}"
-    line = f"  {case.id:<{column}}  {count:>8}  {digits.share(worst):>5} of the limit"
+    line = f"  {case.id:<{column}}  {count:>8}  {page.share(worst):>5} of the limit"
     named = f"{line}: {worst.number.name}"
     return named if len(named) <= width() else line
 
@@ -152,7 +152,7 @@ def _numbers(outcomes: Sequence[Outcome]) -> Iterator[str]:
     rows = [
         (
             each.number.name + (f" [{each.unit}]" if each.unit not in ("", "1") else ""),
-            (each.number.published, digits.computed(each), digits.difference(each), digits.limit(each)),
+            (each.number.published, page.computed_digits(each), page.difference(each), page.limit(each)),
             "" if each.met else "  OFF",
         )
         for each in outcomes

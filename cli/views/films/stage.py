@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from gearlink.cli.views.scenes import lettering
+from gearlink.cli.views.scenes import shown
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Chart, Line, Part, Points, Readout, Reals, Scene
 
 _FAULTS = 3
@@ -149,9 +149,9 @@ class Stage:
             if body.repeats == 0 and body.pitch:
                 return body.pitch
             holes = max(0.3 * body.pitch, 1.5 * self.text_size / self.scale)
-            return holes if body.pitch else lettering.on_disc(body)
+            return holes if body.pitch else shown.on_disc(body)
 
-        found = lettering.shifts(self.scene, 1.05 * self.text_size / self.scale, reach)
+        found = shown.shifts(self.scene, 1.05 * self.text_size / self.scale, reach)
         letters, labels = ([self.scale * shift.conjugate() for shift in each] for each in found)
         return letters, labels
 

@@ -13,7 +13,7 @@ from factory import design, worked
 
 from gearlink.cli.commands.sheet import sheets_of
 from gearlink.cli.views.figures.drawing import time_axes
-from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, vector_sheet, workshop
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size, vector_sheet
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),
@@ -259,15 +259,15 @@ def test_a_workshop_drawing_is_true_to_its_standard_scale(name: str, keys: Any) 
     """Read back in mm of paper: all within the frame, the outline as large as the cam times its scale."""
     made = design(name, **keys)
     (cam, *_) = cam_sheets.discs(made)
-    page, scale = workshop.fitted(cam)
-    figure = workshop.drawing(made, 0)
+    page, scale = true_size.fitted(cam)
+    figure = true_size.workshop_drawing(made, 0)
     assert figure.get_size_inches() * 25.4 == pytest.approx((page.width, page.height), rel=1e-12, abs=0.0)
     lines = {line.get_gid(): line.get_xydata() for line in figure.axes[0].lines if line.get_gid()}
     profile = lines["profile"] @ [1.0, 1j]
     _, own = cam.points(np.linspace(0.0, 2.0 * math.pi, 7201))
     assert np.ptp(profile.real) == pytest.approx(scale * np.ptp(own.real), rel=1e-12)
     assert 20.0 <= profile.real.min() <= profile.real.max() <= page.width - 10.0
-    assert scale in workshop.SCALES
+    assert scale in true_size.SCALES
     words = {text.get_text() for text in figure.axes[0].texts}
     assert {f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}", page.name, "1 / 2"} <= words
     assert {f"{value:.3f}" for value in cam_sheets.pitch_radii(cam).tolist()} <= words

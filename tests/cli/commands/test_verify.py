@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli import completing
-from gearlink.cli.verification import cases, digits, page
+from gearlink.cli.verification import cases, page
 from gearlink.cli.verification.cases import Case, Source
 from gearlink.cli.verification.computing import KERNELS, computed
 
@@ -194,7 +194,7 @@ def _near(a: str, b: str) -> bool:
 def test_computed_numbers_have_a_digit_more_than_published_ones() -> None:
     case = next(case for case in CASES if case.id == "khurmi-12.7-internal")
     (outcome,) = computed([case])
-    assert (digits.computed(outcome), digits.difference(outcome), digits.limit(outcome)) == (
+    assert (page.computed_digits(outcome), page.difference(outcome), page.limit(outcome)) == (
         "28.035",
         "-0.0047",
         "0.005",

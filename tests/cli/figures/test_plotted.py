@@ -15,7 +15,7 @@ from sweeps import mostly_slow
 from gearlink.cli.views.figures import motion_laws
 from gearlink.cli.views.figures.drawing import style
 from gearlink.cli.views.figures.flatbed_press import cylinder_positions
-from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, workshop
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size
 from gearlink.cli.views.figures.write import failures
 from gearlink.core.machines.wide_swing.design import torque_peaks
 
@@ -183,7 +183,7 @@ def test_an_undercut_cam_is_drawn_not_for_manufacture() -> None:
     words_of_stamp = failures(check for name in made.outline("cam").checks for check in made.check(name))
     assert "GL402 cam-undercut" in words_of_stamp
     assert "GL402 cam-undercut 2.217 (limit <= 1)" in words_of_stamp
-    texts = words(workshop.drawing(made, 0))
+    texts = words(true_size.workshop_drawing(made, 0))
     assert not any(text.startswith(f"R {cam_sheets.discs(made)[0].max_radius:.5g}") for text in texts)
     assert any("undercut" in text for text in texts)
 

@@ -18,7 +18,7 @@ from factory import design, each_kind
 from gearlink.cli.views.figures import tolerance
 from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
-from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, magnified, motion_sheet, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, motion_sheet, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.films.stage import Stage
 from gearlink.cli.views.scenes import linkages, of_motion, shown
@@ -290,10 +290,10 @@ def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
     """A step of 0.05 deg at each end; the quantities of the design come from roots."""
     for name in ("standing_feed", "two_gear_standing"):
         made = design(name)
-        found = magnified.dwell_of(made)
+        found = motion_sheet.dwell_of(made)
         assert found is not None
         assert np.degrees(found.width) == pytest.approx(made.quantity("tolerance_dwell_angle").value, abs=0.11)
-        figure = magnified.dwell(made)
+        figure = motion_sheet.dwell(made)
         (line,) = (line for axes in figure.axes for line in axes.lines if line.get_gid() == "dwell")
         x, y = line.get_data()
         inside = (x >= np.degrees(found.start)) & (x <= np.degrees(found.start + found.width))
@@ -302,7 +302,7 @@ def test_the_magnified_dwell_is_the_longest_within_the_tolerance() -> None:
 
 def test_a_dwell_without_a_tolerance_has_one_of_two_digits() -> None:
     """The half range of 60 deg of samples was 0.2998 deg."""
-    found = magnified.dwell_of(design("geneva_drive"))
+    found = motion_sheet.dwell_of(design("geneva_drive"))
     assert found is not None
     assert np.degrees(found.tolerance) == pytest.approx(0.3, rel=1e-12, abs=0.0)
 
@@ -315,11 +315,11 @@ def test_an_even_speed_has_its_value_once() -> None:
 def test_a_dwell_after_a_revolution_of_the_input_begins_where_its_axis_says() -> None:
     """Its heading had named the angle within a revolution, beside an axis of six."""
     made = design("mutilated_gear_press")
-    found = magnified.dwell_of(made)
+    found = motion_sheet.dwell_of(made)
     assert found is not None
     begins = float(np.degrees(found.start))
     assert begins > 360.0
-    upper, _ = magnified.dwell(made).axes
+    upper, _ = motion_sheet.dwell(made).axes
     assert upper.get_title(loc="left").endswith(f"from {begins:.5g}°")
     low, high = upper.get_xlim()
     assert low < begins < high
@@ -329,17 +329,17 @@ def test_the_zone_shows_what_the_cams_make_up_for() -> None:
     made = design("ty460")
     start, end = np.degrees(made.sync_start), np.degrees(made.sync_end)
     x = np.linspace(start, end, 1001)
-    way, speed = magnified.zone_errors(made, x, cams=False)
+    way, speed = motion_sheet.zone_errors(made, x, cams=False)
     assert np.abs(way).max() > 1.0
     slope = np.gradient(way, np.radians(x))[1:-1] * made.input_speed  # within a step's square of the third derivative
     assert slope == pytest.approx(speed[1:-1], abs=1e-2)
-    for with_cams, alone in zip(magnified.zone_errors(made, x), (way, speed), strict=True):
+    for with_cams, alone in zip(motion_sheet.zone_errors(made, x), (way, speed), strict=True):
         assert np.abs(with_cams).max() < 1e-9 * np.abs(alone).max()
 
 
 def test_a_cam_is_coloured_by_its_pressure_angle() -> None:
     made = design("ty460", limits__pressure_angle=12.0)
-    figure = magnified.contact(made)
+    figure = motion_sheet.contact(made)
     for axes, cam in zip(figure.axes, cam_sheets.discs(made), strict=False):
         lines, red = axes.collections
         theta = np.linspace(0.0, 2.0 * np.pi, 1441)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.cli.views.figures.drawing import labels, panels, style
-from gearlink.cli.views.scenes.lettering import on_disc, shifts
 from gearlink.cli.views.scenes.scene import Arrow, Body, Chain, Line, Part, Points, Scene, placed
+from gearlink.cli.views.scenes.shown import on_disc, shifts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
