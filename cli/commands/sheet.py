@@ -186,23 +186,16 @@ def sheets_of(design: Any, scale: Scale | None = None, at: Sequence[float] = (),
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    from gearlink.cli.views.figures import tolerance
-    from gearlink.cli.views.figures.sheets import (
-        cam_sheets,
-        force_sheet,
-        motion_sheet,
-        timing_sheet,
-        true_size,
-        vector_sheet,
-    )
+    from gearlink.cli.views.figures import loads, tolerance
+    from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, timing_sheet, true_size, vector_sheet
 
     found: Makers = {}
     if motion_sheet.courses(design):
         found["motion"] = lambda: motion_sheet.draw(design)
     if "vectors" in KINDS[design.kind].all_sheets and vector_sheet.draws(design):
         found["vectors"] = lambda: vector_sheet.draw(design, at, show)
-    if "forces" in KINDS[design.kind].all_sheets and force_sheet.draws(design):
-        found["forces"] = lambda: force_sheet.draw(design)
+    if "forces" in KINDS[design.kind].all_sheets and loads.draws(design):
+        found["forces"] = lambda: loads.draw_forces(design)
     if "dwell" in KINDS[design.kind].all_sheets and motion_sheet.dwell_of(design) is not None:
         found["dwell"] = lambda: motion_sheet.dwell(design)
     if motion_sheet.has_zone(design):

@@ -72,12 +72,12 @@ class Kind(NamedTuple):
         of_motion = {
             "motion": f"{sheets}.motion_sheet:of_motion",
             "vectors": f"{sheets}.vector_sheet:draw",
-            "dwell": f"{sheets}.magnified:dwell",
+            "dwell": f"{sheets}.motion_sheet:dwell",
         }
         if not self.motion:
             of_motion = {}
         if "loads" in self.commands and self.motion:
-            of_motion["forces"] = f"{sheets}.force_sheet:draw"
+            of_motion["forces"] = "cli.views.figures.loads:draw_forces"
         return {name: place for name, place in {**of_motion, **self.sheets}.items() if place}
 
     def spec_model(self) -> Any:

@@ -15,10 +15,11 @@ import pytest
 import yaml
 from factory import design, each_kind
 
+from gearlink.cli.views.figures import loads as loads_sheets
 from gearlink.cli.views.figures import tolerance
 from gearlink.cli.views.figures.drawing import labels
 from gearlink.cli.views.figures.drawing.placing import settled
-from gearlink.cli.views.figures.sheets import cam_sheets, force_sheet, motion_sheet, vector_sheet
+from gearlink.cli.views.figures.sheets import cam_sheets, motion_sheet, vector_sheet
 from gearlink.cli.views.films.page import player_data
 from gearlink.cli.views.films.stage import Stage
 from gearlink.cli.views.scenes import linkages, of_motion, shown
@@ -269,7 +270,7 @@ def test_a_drawing_of_a_cam_that_fails_is_forbidden(gearlink: Any, designs: Path
 
 def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     loads = design("loaded_feed", command="loads")
-    figure = force_sheet.draw(design("loaded_feed"))
+    figure = loads_sheets.draw_forces(design("loaded_feed"))
     drawn = {line.get_gid(): line.get_ydata() for axes in figure.axes for line in axes.lines if line.get_gid()}
     joints, teeth = loads.table("joints", samples=360), loads.table("teeth", samples=360)
     for name in ("A", "B", "C", "D"):
@@ -279,7 +280,7 @@ def test_the_sheet_of_forces_has_the_numbers_of_the_tables() -> None:
     assert drawn["torque"][:-1] == pytest.approx(
         np.asarray(loads.table("torque", samples=360)["input_torque"]), rel=1e-9
     )
-    place = force_sheet.largest_torque(loads)
+    place = loads_sheets.largest_torque(loads)
     assert np.abs(drawn["torque"]).max() <= abs(float(loads.machine.torque(np.array([place]))[0])) * (1.0 + 1e-9)
     arrows_ = [line for line in figure.axes[0].lines if str(line.get_gid()).startswith("force ")]
     assert len(arrows_) >= 8, "an arrow at every joint and mesh"
