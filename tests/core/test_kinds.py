@@ -25,7 +25,7 @@ def test_what_a_record_names_is_there(kind: Kind) -> None:
     assert kind.spec_model().model_fields["kind"].annotation.__args__ == (kind.name,)
     for command, place in kind.commands.items():
         assert not place or kind.design_class(command).kind == kind.name
-    for place in (kind.picture, kind.scene, kind.profiles, *kind.sheets.values()):
+    for place in (kind.picture, kind.scene, kind.profiles, *kind.all_sheets.values()):
         assert not place or callable(load(place)), place
     assert kind.picture
     assert callable(kind.axis_maker()) is bool(kind.array)
