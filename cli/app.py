@@ -230,7 +230,8 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
     complete(wrong, arguments, _tree())
     message = wrong.format_message()
     if not _wants_json(arguments):
-        wrong.message = wrong.message.replace("\n", "\n  help: ", 1)
+        if not message.startswith("Usage: "):  # else no arguments: the help of the command is the message
+            wrong.message = wrong.message.replace("\n", "\n  help: ", 1)
         show = getattr(wrong, "show", None)  # errors of usage know the command's usage line
         if show is not None:
             show(file=sys.stderr)

@@ -70,8 +70,8 @@ def template(kind: Kind, name: str = "") -> str:
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
         f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
-        f"# Run it with: gearlink {asked} FILE      numbers are given without a unit, each in the one named "
-        f"behind it\n\n"
+        f"# Run it with: gearlink {asked} FILE\n"
+        "# A number is in the unit named behind it; another unit may be written with the number\n\n"
     )
     return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
 

@@ -152,3 +152,10 @@ def test_options_that_are_gone_say_what_serves_instead(gearlink: Any, line: str,
     assert (ended.status, ended.out) == (2, "")
     assert "No such option" in ended.err
     assert serves in " ".join(ended.err.split())
+
+
+@pytest.mark.parametrize("words", [(), ("synth",)])
+def test_without_arguments_the_help_is_shown_as_it_is(gearlink: Any, words: tuple[str, ...]) -> None:
+    err = gearlink(*words).err
+    assert err.startswith("Usage: ")
+    assert "help: " not in err.partition("\n\n")[0]

@@ -194,7 +194,7 @@ def test_the_narrower_bound_of_a_side_is_named() -> None:
 def test_units_stand_behind_the_keys_and_not_in_the_head_line(gearlink: Any, kind: str) -> None:
     """It had listed sheets/h, which the speeds of most kinds refuse: 1/min is theirs."""
     head, _, keys = gearlink("new", kind).out.partition("\n\n")
-    assert "each in the one named behind it" in head
+    assert "in the unit named behind it; another unit may be written with the number" in head
     assert not re.search(r"\b(mm|deg|min|sheets|kg)\b", head)
     speed = next(line for line in keys.splitlines() if re.match(r"#? ?(input_)?speed: ", line))
     assert ("# sheets/h: " if kind == "swing-gripper" else "# 1/min: ") in speed
