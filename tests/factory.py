@@ -1,4 +1,4 @@
-"""The one place where tests make designs: from the data of a design file, or from a example, with changes."""
+"""The one place where tests make designs: from the data of a design file, or from an example, with changes."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def design(given: str | Mapping[str, Any], /, *, command: str = "analyze", **key
     """The design of a file's data.
 
     Parameters
-        given : the data, or the name of a example ("ty460")
+        given : the data, or the name of an example ("ty460")
         command : str - whose design class it is; "analyze" stands for all but the four of `synth`
         keys - changes as in `changed`
     """

@@ -1,4 +1,4 @@
-"""A example of every kind that has loads, for tests that hold of all of them."""
+"""An example of every kind that has loads, for tests that hold of all of them."""
 
 from __future__ import annotations
 

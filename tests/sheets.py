@@ -26,7 +26,7 @@ class Sheet(NamedTuple):
 
 
 def sheet(given: str | Mapping[str, Any], command: str = "analyze", /, **keys: Any) -> Sheet:
-    """The sheet of a command on the data of a design file, or on a example, with changes as in the factory."""
+    """The sheet of a command on the data of a design file, or on an example, with changes as in the factory."""
     return _drawn(_as_key(given, keys), command)
 
 

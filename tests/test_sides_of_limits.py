@@ -18,7 +18,7 @@ from gearlink.core.parts.linkages.checks import dwell_edge_check
 
 
 def findings(name: str) -> Iterator[Check]:
-    """What the checks of all commands of a example say."""
+    """What the checks of all commands of an example say."""
     data = worked(name)
     kind = KINDS[data["kind"]]
     spec = kind.spec_model().model_validate(data)

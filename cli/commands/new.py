@@ -61,7 +61,7 @@ def template(kind: Kind, name: str = "") -> str:
         kind : Kind
         name : what the design is called; empty: it is named after its file
     Raises
-        LookupError - for a kind without a example in `gearlink.designs`
+        LookupError - for a kind without an example in `gearlink.designs`
     """
     design = worked_design(kind)
     if kind.name in KINDS:
@@ -77,7 +77,7 @@ def template(kind: Kind, name: str = "") -> str:
 
 
 def _explained(kind: Kind, text: str, name: str) -> str:
-    """A example under another name, every key with its unit, its meaning and who chooses it."""
+    """An example under another name, every key with its unit, its meaning and who chooses it."""
     from gearlink.cli.texts.written_design import written
 
     data = _read(text)

@@ -5,7 +5,7 @@ numbers are known not to be met, with the reason, which are shown on the page "V
 
 * `id`, `place` (example, table or page of the source) and, for both, `note`;
 * what is computed: `command` and `design`, the keys of a design file, or `kernel` and `given`; `like` takes the keys of
-  an earlier case of the file, or of a example (`ty460.yaml`), over which those of `design` are put;
+  an earlier case of the file, or of an example (`ty460.yaml`), over which those of `design` are put;
 * `numbers`, each with its `name`, `published` as it is printed, in quotation marks so that no digit is lost, and where
   the program has it: `quantity`, or `table`, `column` and `where: {column: value}`; `scale` is what the program's value
   is multiplied by. A list of published numbers is a list of the quantity: of its gears, or of two limits each.

@@ -165,7 +165,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "wide-swing-cam",
-            "cam drive of a wide swing with a device that bears the inertia",
+            "cam drive of a wide swing with a device that balances the inertia",
             "machines.wide_swing",
             "spec:WideSwingSpec",
             {
@@ -198,7 +198,7 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "mutilated-gear-dwell",
-            "long dwell by a intermittent gear",
+            "long dwell by an intermittent gear",
             "machines.dwell_gears",
             "mutilated_spec:MutilatedGearDwellSpec",
             {

@@ -25,7 +25,7 @@ PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
 
 def asked(name):
-    """The commands that a example asks for, the main one first."""
+    """The commands that an example asks for, the main one first."""
     data = factory.worked(name)
     return KINDS[data["kind"]].spec_model().model_validate(data).commands()
 

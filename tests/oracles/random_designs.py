@@ -277,7 +277,7 @@ def loads(rng: random.Random) -> Drawn:
 
 
 def _varied(rng: random.Random, name: str, changes: Sequence[Change]) -> Data:
-    """A example with one to three of the changes."""
+    """An example with one to three of the changes."""
     drawn = rng.sample(changes, rng.choice([1, 1, 2, 3]))
     return factory.changed(factory.worked(name), **{key.replace(".", "__"): draw() for key, draw in drawn})
 

@@ -9,7 +9,7 @@ from factory import DESIGNS
 
 
 def refusal(gearlink: Any, words: str, *sets: str) -> dict[str, Any]:
-    """The one error of a command line on a example, with its keys set."""
+    """The one error of a command line on an example, with its keys set."""
     *command, name = words.split()
     changes = [word for each in sets for word in ("--set", each)]
     ended = gearlink(*command, DESIGNS / f"{name}.yaml", *changes, "--format", "json")

@@ -29,7 +29,7 @@ SAMPLES = 8
 
 
 class Study(NamedTuple):
-    """A example, how far its sizes scatter to either side, changed keys, and codes that must mix."""
+    """An example, how far its sizes scatter to either side, changed keys, and codes that must mix."""
 
     design: str
     widths: dict[str, float]
