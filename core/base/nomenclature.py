@@ -333,7 +333,12 @@ GEAR_PAIR = {
     "working_pressure_angle": Term(
         "alpha_wt", "deg", "angle between line of action and common tangent of the pitch circles", "ISO 21771"
     ),
-    "center_distance": Term("a_w", "mm", "distance between the axes of both gears as they run", "ISO 21771"),
+    "center_distance": Term(
+        "a_w",
+        "mm",
+        "distance between the axes of both gears as they run; of a cam, between its axis and the pivot",
+        "ISO 21771",
+    ),
     "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
     "shift_sum": Term("x1+x2", "1", "sum of the profile shift coefficients", "ISO 21771"),
     "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
