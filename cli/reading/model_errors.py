@@ -386,6 +386,9 @@ class _Wording:
             return f"a space belongs after the colon: '{name}: {rest[:40].strip()}'"
         if value is None and re.fullmatch(r"[0-9]+", key):
             return "a comma separates entries: write decimals with a point"
+        if parent[:2] == ("tolerance", "sources") and len(parent) == 3 and isinstance(value, dict):
+            source = f"{parent[2]}.{key}"
+            return f'a source is named by the whole path of its key: {source}, with --set "{source}" in quotation marks'
         if (meaning := self._meaning(key, parent, allowed)) is not None:
             from gearlink.cli.glossary import hint
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gearlink.core.base.errors import NoSolution, named
-from gearlink.core.base.spec_paths import number_at, unit_at
+from gearlink.core.base.spec_paths import number_at, numbers_at, unit_at
 from gearlink.core.parts.gears.measures.iso_1328 import cumulative_pitch
 from gearlink.core.studies.study.faults import Fault, Place, WrongStudy
 from gearlink.core.studies.tolerance.iso_286 import fit_clearances, limit_deviations
@@ -203,6 +203,10 @@ def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place
     return Scatter(key, "pin", 0.0, _law(entry, least, greatest, place), entry)
 
 
+_ASIDE = {"tolerance", "register", "loads", "limits", "kind", "name"}
+_LONGEST = 100
+
+
 def _gear(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:
     gears = parts.gears or {}
     if name not in gears:
@@ -230,7 +234,9 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
         what = "holds a whole number, which does not vary" if nominal is not None else "is no key with a number"
-        raise _no("GL170", f"{named(key)} {what}\nname a length or an angle of this file", place)
+        near = _near(key, spec) if nominal is None else ""
+        remedy = f"did you mean {near}?" if near else "name a length or an angle of this file"
+        raise _no("GL170", f"{named(key)} {what}\n{remedy}", place)
     unit = "mm" if group == "centers" or key in parts.others else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
         what = "class" if entry.form == "class" else "grades"
@@ -238,6 +244,15 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
         raise _no("GL173", message, (*place, what))
     lower, upper = _limits(entry, nominal, place)
     return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
+
+
+def _near(key: str, spec: Any) -> str:
+    """The nearest key of the file that holds a number, or ""."""
+    from difflib import get_close_matches
+
+    sections = (name for name in spec.model_fields_set if name not in _ASIDE)
+    known = [path for name in sections for path in numbers_at(spec, name)]
+    return next(iter(get_close_matches(key[:_LONGEST], known, n=1, cutoff=0.7)), "")
 
 
 def _limits(entry: ToleranceSource, nominal: float, place: Place) -> tuple[float, float]:

@@ -297,6 +297,19 @@ def test_names_that_the_design_does_not_have_are_refused_by_check_and_batch(
     assert code in ended.out + ended.err
 
 
+@pytest.mark.parametrize(
+    ("key", "help"),
+    [
+        ('"links.crnk"', "help: did you mean links.crank?"),
+        ("links.crank", "by the whole path of its key: links.crank,"),
+    ],
+)
+def test_a_source_that_is_slightly_wrong_is_told_the_right_name(gearlink: Any, spec: Path, key: str, help: str) -> None:
+    ended = gearlink("tolerance", spec, "--set", f"tolerance.sources.{key}={{plus_minus: 0.1}}")
+    assert ended.status == 2
+    assert help in " ".join(ended.err.split())
+
+
 def test_every_name_that_is_unknown_is_said_at_its_line(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "feed.yaml"
     path.write_text(
