@@ -76,6 +76,7 @@ def test_textbook_rival_and_march_agree_with_the_reference() -> None:
     assert four_bar.error_of(lambda: four_bar.march(phi, 1e-12), "Newton with", phi) < 100
 
 
+@pytest.mark.slow
 def test_pages_hold_every_row(tmp_path: Path) -> None:
     machine = timing.machine()
     for page in (as_text([FAMILY], machine), as_markdown([FAMILY], machine)):

@@ -405,6 +405,7 @@ def test_a_full_disk_is_said_without_traceback(line: str) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "status"),
     mostly_slow(

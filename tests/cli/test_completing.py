@@ -183,6 +183,7 @@ def _script(shell: str) -> str:
     return shlex.join([sys.executable, "-c", code])
 
 
+@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("shell", "line", "wanted"),

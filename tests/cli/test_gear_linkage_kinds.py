@@ -286,6 +286,7 @@ def test_table_of_the_other_form_is_refused(gearlink, designs):
     assert "it has path" in ended.json["errors"][0]["message"]
 
 
+@pytest.mark.slow
 def test_five_bar_figure_shows_the_table():
     made, figure = sheet("five_bar_points")
     lines = {line.get_label(): line for axes in figure.axes for line in axes.lines}

@@ -69,6 +69,7 @@ def test_a_processor_is_named_by_what_numpy_uses_of_it(
     assert program.processor() == named
 
 
+@pytest.mark.slow
 def test_what_numpy_is_told_to_leave_out_counts() -> None:
     """Switched off, other kernels of numpy compute; what the processor has stays the same."""
     *_, last = ["", *program.processor().split()[1:]]

@@ -83,6 +83,7 @@ def test_nothing_where_quiet_or_on_a_terminal_that_takes_nothing_back(
     assert shown.getvalue() == ""
 
 
+@pytest.mark.slow
 def test_none_where_nobody_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     stream = io.StringIO()
     monkeypatch.setattr("sys.stderr", stream)
@@ -111,6 +112,7 @@ def test_the_innermost_work_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
         until(lambda: shown.getvalue().endswith("computing ... 0 s"))
 
 
+@pytest.mark.slow
 def test_what_takes_more_than_a_minute_is_said_once(monkeypatch: pytest.MonkeyPatch) -> None:
     shown = terminal(monkeypatch)
     with progress(100_000, "samples", quiet=False) as advance:
@@ -159,6 +161,7 @@ print("done", file=sys.stderr)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_processes_are_forked_while_it_is_drawn() -> None:
     """The thread that draws holds no lock that a forked process would find taken, and wait for."""

@@ -327,6 +327,7 @@ def test_a_process_that_dies_costs_its_one_file(
     assert capfd.readouterr().err == ""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
 def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One tried file of a fifth of a second says enough; no second one waits here for its turn."""

@@ -48,6 +48,7 @@ def plain(ended: Any) -> list[dict[str, Any]]:
     return [{k: v for k, v in d.items() if k not in ("seconds", "unchanged")} for d in ended.json["designs"]]
 
 
+@pytest.mark.slow
 def test_what_passed_is_skipped_and_the_summary_stays_the_same(gearlink: Any, run: Any, designs: Path) -> None:
     """Beside it one with a warning, one that fails, one that is wrong."""
     Path("designs/warn.yaml").write_text((designs / "thesis_example_1.yaml").read_text())

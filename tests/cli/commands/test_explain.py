@@ -84,6 +84,7 @@ def test_keys_of_the_explanations_exist_in_a_kind() -> None:
     assert missing == set()
 
 
+@pytest.mark.slow
 def test_what_is_known_is_what_models_and_classes_say() -> None:
     """After a change of specs or outlines: `make docs`."""
     from docs.generate import index_text, schemas_text

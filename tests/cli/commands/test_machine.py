@@ -103,6 +103,7 @@ def test_a_study_explores_ratios_and_keys_of_members(gearlink: Any, files: Path)
     assert min(row[radius] for row in front["rows"]) == pytest.approx(90.0 + 50.8 - 15.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_sheets_film_page_and_table_of_a_drive(gearlink: Any, files: Path) -> None:
     machine, out = str(files / "machine.yaml"), ("--out", str(files))
     assert gearlink("sheet", machine, "timing", "--plot-format", "svg", *out).status == 0

@@ -47,6 +47,7 @@ def crank(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_page_is_whole_and_self_contained_and_the_same_every_time(gearlink: Any, crank: Path, tmp_path: Path) -> None:
     folders = ["a", *("b" if ALL else "")]
     for folder in folders:

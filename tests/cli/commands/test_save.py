@@ -57,6 +57,7 @@ def test_what_a_synthesis_found_is_analysed_without_copying(
     assert not spec_of(path).sized_by("analyze")
 
 
+@pytest.mark.slow
 def test_a_cam_axis_that_was_chosen_is_written_in_place_of_its_rule(gearlink: Any, tmp_path: Path) -> None:
     path, sized = tmp_path / "full.yaml", ("--set", "cam.center=null", "--set", "size={pressure_angle: 28}")
     before = gearlink("cam", DESIGNS / "swing_gripper.yaml", *sized, "--save", path, "--format", "json")

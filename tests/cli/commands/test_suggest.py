@@ -166,6 +166,7 @@ def test_formats(gearlink: Any, loop: Path) -> None:
     assert "\n# loop: swing\n" in markdown
 
 
+@pytest.mark.slow
 def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> None:
     ended = gearlink("swing", loop, "--suggest", "--quantity", "velocity_peak")
     assert ended.out.count("\n") == 1

@@ -32,6 +32,7 @@ def spec(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_options_are_keys_of_the_section(gearlink: Any, spec: Path) -> None:
     line = ["tolerance", str(spec), "--samples", "100", "--seed", "7", "--worst-case", "--sobol", "--format", "json"]
     ended = gearlink(*line)
@@ -56,6 +57,7 @@ def test_a_missed_target_fails(gearlink: Any, spec: Path) -> None:
     assert "--samples" in check["fix"]
 
 
+@pytest.mark.slow
 def test_the_verdict_says_whether_the_yield_is_part_of_it(gearlink: Any, spec: Path) -> None:
     line = ["tolerance", spec, "--samples", "64", "--set"]
     without = gearlink(*line, "tolerance.target_yield=null").out
@@ -63,6 +65,7 @@ def test_the_verdict_says_whether_the_yield_is_part_of_it(gearlink: Any, spec: P
     assert "checks of the nominal design and of the yield: " in gearlink(*line, "tolerance.target_yield=0.5").out
 
 
+@pytest.mark.slow
 def test_a_quoted_key_is_one_step_of_a_path(gearlink: Any, spec: Path) -> None:
     key = 'tolerance.sources."links.crank".plus_minus'
     line = ["tolerance", str(spec), "--samples", "512", "--format", "json"]

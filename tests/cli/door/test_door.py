@@ -41,6 +41,7 @@ def test_import_costs_one_module() -> None:
     }
 
 
+@pytest.mark.slow
 def test_numbers_need_no_numpy() -> None:
     code = f"import gearlink; gearlink.design(**{CRANK}).crank_length"
     assert not {"numpy", "scipy", "matplotlib", "typer", "rich"} & loaded_after(code)
@@ -248,6 +249,7 @@ def test_long_tables_show_their_ends(designs: Path) -> None:
     assert table._repr_html_().count("<tr>") == 1 + 10 + 1 + 10
 
 
+@pytest.mark.slow
 def test_figure_is_the_sheet(designs: Path) -> None:
     figure = gearlink.figure(gearlink.load(designs / "ty460_slider_crank.yaml"))
     assert figure.axes

@@ -150,6 +150,7 @@ def test_what_a_killed_run_leaves_on_the_disk_is_continued(
     assert ran == whole[2:]
 
 
+@pytest.mark.slow
 def test_finished_chunks_are_not_computed_again(
     gearlink: Any, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -211,6 +212,7 @@ def test_empty_and_missing_files_begin_a_store(gearlink: Any, study: Path, tmp_p
     )
 
 
+@pytest.mark.slow
 def test_show_and_write_give_files_that_run(gearlink: Any, study: Path, tmp_path: Path) -> None:
     store = tmp_path / "s.sqlite"
     front = gearlink("explore", study, "--store", store, "--format", "json", "--write", tmp_path / "out").json
@@ -383,6 +385,7 @@ def test_damage_is_seen_or_changes_nothing(finished: bytes, tmp_path: Path) -> N
     assert len(found) > sum(each in refusals for each in found) > len(found) // 4, "both ends are tried"
 
 
+@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("seed", mostly_slow([*range(60)], 8))
 def test_a_damaged_store_is_no_fault_of_the_program(
@@ -430,6 +433,7 @@ def begun_by(monkeypatch: pytest.MonkeyPatch, **other: str) -> None:
     monkeypatch.setattr(stores, "program", lambda: {**own, **other})
 
 
+@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["gearlink", "python", "numpy", "scipy", "cpu"])
 def test_a_store_of_another_program_is_shown_but_not_continued(
@@ -447,6 +451,7 @@ def test_a_store_of_another_program_is_shown_but_not_continued(
     assert (code, message) == ("GL158", f"{store} was begun with {name} 0.0; this is {own}")
 
 
+@pytest.mark.slow
 def test_designs_that_another_program_computes_otherwise_are_no_fault(
     gearlink: Any, small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -29,6 +29,7 @@ def rack_part(given: Any, form: CurveForm = CurveForm.POLYLINE) -> Any:
     return contour(parts.makers(design(given))["rack"](), 1e-3, form)
 
 
+@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("given", [worked("rack_drive"), BENT], ids=["spur", "helical"])
 @pytest.mark.parametrize("form", list(CurveForm))
@@ -61,6 +62,7 @@ def test_the_solid_has_the_area_of_trapezia_less_the_roundings() -> None:
     assert section_area(made) == pytest.approx(teeth + below + 60 * corner + 30 * pitch * 12.0, rel=3e-8)
 
 
+@pytest.mark.slow
 def test_files_of_a_rack_and_what_has_none(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink(
         "export", designs / "rack_drive.yaml", "--as", "svg", "--as", "csv", "--as", "dxf", "--out", tmp_path

@@ -101,6 +101,7 @@ def test_the_rests_of_a_cycle_are_drawn_where_the_roller_presses_hardest() -> No
     assert not titles
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", mostly_slow(sorted(path.stem for path in DESIGNS.glob("loaded_*.yaml")), 1))
 def test_a_sheet_of_loads_is_a_page_of_a4_or_of_a3(name: str) -> None:
     """That of a press was 475 mm long: no printer takes it to scale. All panels are on it, in rows of several."""

@@ -29,6 +29,7 @@ def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
     assert design.result.values["back_step_angle"].size == 128  # every sample, where there are few
 
 
+@pytest.mark.slow
 def test_bars_are_the_linear_shares() -> None:
     design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
     axes = next(axes for axes in figure.axes if axes.get_title(loc="left") == "Contributions")

@@ -159,6 +159,7 @@ with workers(1) as pool:
 """
 
 
+@pytest.mark.slow
 def test_half_a_result_is_not_waited_for(tmp_path: Path) -> None:
     command = [sys.executable, "-c", HALF, str(tmp_path / "begun")]
     ended = subprocess.run(command, capture_output=True, timeout=60, check=False)

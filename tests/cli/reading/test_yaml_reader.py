@@ -412,6 +412,7 @@ TREES = st.dictionaries(
 )
 
 
+@pytest.mark.slow
 @examples(200)
 @given(TREES, st.sampled_from([None, 1, 3]), st.booleans())
 def test_json_is_read_as_it_was_written(tree: dict[str, Any], indent: int | None, ascii_only: bool) -> None:

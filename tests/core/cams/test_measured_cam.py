@@ -108,6 +108,7 @@ def cut(laws: tuple[str, str], ends: tuple[float, float, float, float], lift: fl
     return [[float(a), round(float(r), 3)] for a, r in zip(at, radius, strict=True)]
 
 
+@pytest.mark.slow
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("laws", [("cycloidal", "modified-sine"), ("polynomial-345", "modified-trapezoid")])
 @settings(max_examples=4, deadline=None)

@@ -118,6 +118,7 @@ def test_backlash_is_where_the_ground_disc_meets_a_pin() -> None:
     assert plain.backlash == pytest.approx(2.0 * 0.02 / (3.0 * 11.0), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_checks_on_both_sides_of_their_limits() -> None:
     material = {"contact_limit": 700.0}
     assert {each.status for each in design(GIVEN, material=material).report("analyze").checks} == {"pass"}

@@ -120,6 +120,7 @@ def test_no_change_of_the_links_lowers_the_error(best: Any) -> None:
             assert angle < least or error > 0.98 * fit.error.greatest
 
 
+@pytest.mark.slow
 def test_error_table_is_the_difference(best: Any) -> None:
     table = best.table("structural_error", samples=40)
     np.testing.assert_allclose(table["error"], table["output_angle"] - table["wanted_angle"], rtol=0.0, atol=1e-12)

@@ -54,6 +54,7 @@ def test_three_poses_give_back_their_maker() -> None:
     assert found.frame_place is None
 
 
+@pytest.mark.slow
 def test_three_poses_leave_output_and_phase_for_the_transmission_angle() -> None:
     found = design(GIVEN, target={"poses": poses([20.0, 110.0, 250.0])})
     assert found.pose_error_max < 1e-8

@@ -58,9 +58,7 @@ def test_dyad_closes(b, c, share, turn, side):
     assert transmission_angle(n, b, c) == pytest.approx(angle, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("n", "words"), [(12.0, "lengthen the links by 1 mm"), (0.5, "their difference by 0.5 mm")]
-)
+@pytest.mark.parametrize(("n", "words"), [(12.0, "lengthen the links by 1 mm"), (0.5, "their difference by 0.5 mm")])
 def test_dyad_that_does_not_reach(n, words):
     with pytest.raises(NoSolution, match=words):
         close_dyad(0j, complex(n), 6.0, 5.0, 1)

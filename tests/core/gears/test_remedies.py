@@ -34,6 +34,7 @@ def test_a_pointed_tip_gives_its_mate_what_it_has_too_much_of() -> None:
     assert check.fix == "set profile_shift[0] to 0.47 and profile_shift[1] to 0.23"
 
 
+@pytest.mark.slow
 def test_interference_is_repaired() -> None:
     for teeth in ([12, 80], [14, 60], [10, 24]):
         for check in failing(teeth=teeth, profile_shift=[0, 0]):

@@ -298,6 +298,7 @@ def test_a_safety_below_1_never_passes(least: float, status: str) -> None:
     assert {check.status for check in found if 0.1 < check.value < 1.0} == {status}
 
 
+@pytest.mark.slow
 def test_the_lag_is_half_the_play_over_the_radius_of_the_gear_that_is_named() -> None:
     """0.1 mm in the racks, a pinion of 100 mm: 0.05/100 rad, which the pinion lags by."""
     press = factory.design("loaded_press", command="loads", loads__backlash=0.1)

@@ -138,6 +138,7 @@ def test_a_check_of_what_is_no_number_does_not_pass() -> None:
     assert rule.check("pass", "nothing to compare").value is None
 
 
+@pytest.mark.slow
 def test_every_result_can_be_asked_for(swing: Any) -> None:
     report = swing.report("loads", tables=("spectrum",))
     assert {table.name for table in report.tables} == {"torque", "contact_stroke", "spectrum"}

@@ -89,6 +89,7 @@ def test_a_phase_that_is_left_open_is_the_middle_of_its_interval() -> None:
     assert found.room == pytest.approx({"a": 0.0, "b": 80.0}, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_the_machine_takes_what_was_found() -> None:
     members = {"feed": of(cam(FEED), phase=20), "gripper": of(cam(GRIPPER), phase="free")}
     require = ["gripper.rise_end before feed.rise_start by 2", "feed.rise_end before gripper.return_start by 2"]

@@ -80,6 +80,7 @@ def test_several_members_stand_on_one_disc() -> None:
     assert table["mean"].tolist() == pytest.approx([math.degrees(-16.0 / 5000.0)] * 2, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_swing_is_that_of_an_integration_over_time() -> None:
     """A chain with damping in every mode runs until nothing is left of its start, then over one more period."""
     chain = Chain(np.array([2.0, 0.4, 0.7]), np.array([900.0, 500.0]), damping=0.15)

@@ -101,6 +101,7 @@ def test_every_link_is_in_equilibrium(name: str) -> None:
         assert moment == pytest.approx(turned, abs=1e-4 * size), body
 
 
+@pytest.mark.slow
 def test_a_slider_crank_has_the_loads_of_its_kind() -> None:
     links = {"crank": {"mass": 1, "inertia": 0.002, "center": [12, 1]},
              "rod": {"mass": 2, "inertia": 0.01, "center": [60, 2]},

@@ -81,6 +81,7 @@ def test_the_bed_chain_is_that_of_the_press() -> None:
     assert place[0] - place == pytest.approx(bed, abs=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", mostly_slow(["four-bar", "cylinder", "watt", "quick-return"], 1))
 def test_extremes_against_dense_rows(name: str) -> None:
     """None of 20,000 rows lies beyond an extreme, and the row next to its place comes near it."""
@@ -104,6 +105,7 @@ def test_extremes_against_dense_rows(name: str) -> None:
         assert again == pytest.approx(value, abs=1e-11 * size)
 
 
+@pytest.mark.slow
 def test_lengths_of_paths() -> None:
     """Of the circle of a crank pin, of an arc that a rocker goes to and fro, of a coupler curve by quadrature."""
     design = planar("four-bar", outputs=["B", "C", "P", "rocker"])
@@ -116,6 +118,7 @@ def test_lengths_of_paths() -> None:
     assert design.raw("P.path_length") == pytest.approx(math.pi / 16.0 * float((speed @ weight).sum()), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_dead_centres_of_a_driven_rocker_are_the_ends_of_its_swing() -> None:
     swing = planar("four-bar")
     file = {**FOUR_BAR, "drive": {"link": "rocker"}, "range": {"start": -1, "end": 1}, "outputs": ["crank"]}
@@ -128,6 +131,7 @@ def test_dead_centres_of_a_driven_rocker_are_the_ends_of_its_swing() -> None:
     assert high + 113.0 == pytest.approx(math.degrees(swing.raw("rocker.angle_max")), abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_cylinder_jams_where_rod_and_lever_are_in_line() -> None:
     """|A - E| = 140 + 90 and 140 - 90, E on the line through (-200, -10) at 4 deg, less the start at 20 mm."""
     low, high = planar("cylinder").raw("free_range")
@@ -205,6 +209,7 @@ def test_a_rough_start_far_off_is_told() -> None:
     assert planar("four-bar").check("assembly") == []
 
 
+@pytest.mark.slow
 def test_the_limit_of_the_transmission_angle_is_judged() -> None:
     assert [each.status for each in planar("watt").check("transmission-angle")] == ["warn"]
     strict = planar("watt", limits={**WATT["limits"], "transmission_angle": 12})

@@ -48,6 +48,7 @@ def test_both_rollers_keep_the_limit_and_no_smaller_cam_does(limit: float) -> No
             assert max(other.max_pressure_angle) > math.radians(limit)
 
 
+@pytest.mark.slow
 def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
     design = sized(28.0)
     for command in ("gripper", "cam", "analyze"):

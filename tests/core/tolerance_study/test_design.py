@@ -80,6 +80,7 @@ def test_corners_hold_the_worst_swing() -> None:
     assert found["signs"] == "++--"
 
 
+@pytest.mark.slow
 def test_play_of_pins_counts_in_the_worst_case() -> None:
     """The back-step is as good as linear: |slope| times limit of each size, of a pin times half its clearance.
 

@@ -129,6 +129,7 @@ def test_torque_of_the_device_is_the_change_of_the_energy() -> None:
     np.testing.assert_allclose(law.device_torque(k), gained / turned, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_design() -> None:
     made = design("wide_swing_slider_cam")
     report = made.report("analyze")
