@@ -11,7 +11,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gearlink.core.base.report import FEWEST_ROWS, MOST_ROWS
+from gearlink.core.base.rows import FEWEST_ROWS, MOST_ROWS
 
 STREAM = Path("-")
 """Standard output, where a file is asked for."""

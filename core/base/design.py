@@ -19,8 +19,9 @@ from gearlink.core.base.key_results import Key, key_results
 from gearlink.core.base.nomenclature import fixed_name, term
 from gearlink.core.base.remedies.trials import Bench, commands_of, with_remedies
 from gearlink.core.base.remedies.ways import Way
-from gearlink.core.base.report import FEWEST_ROWS, MOST_ROWS, Check, Quantity, Remedy, Report, Rows, Table, TableInParts
+from gearlink.core.base.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.base.results import cached_property, step
+from gearlink.core.base.rows import FEWEST_ROWS, MOST_ROWS, Rows
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.base.report import row_numbers
+from gearlink.core.base.rows import row_numbers
 
 # The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
 # pages for each of them, which doubles the time.

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.base.report import Rows
+from gearlink.core.base.rows import Rows
 from gearlink.core.parts.linkages.fourbar.position import solve
 
 LINKS = [

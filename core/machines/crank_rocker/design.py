@@ -277,7 +277,7 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         if self.crank_range is not None:
             import numpy as np
 
-            from gearlink.core.base.report import row_numbers
+            from gearlink.core.base.rows import row_numbers
 
             start, end = self.spec.range or (math.degrees(angle) for angle in self.crank_range)
             count = samples or 180

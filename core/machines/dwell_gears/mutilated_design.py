@@ -16,8 +16,9 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.real_speed import RealSpeed, per_time
 from gearlink.core.base.remedies.ways import Way, down, either, up
-from gearlink.core.base.report import Check, Shown, Table, row_numbers
+from gearlink.core.base.report import Check, Shown, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
 from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK

@@ -16,8 +16,9 @@ from gearlink.core.base.design import Found, Outline, placed
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
 from gearlink.core.base.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import down, either, modules, up
-from gearlink.core.base.report import Check, Table, row_numbers
+from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short, unlike
 from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.machines.five_bar.path import rates

@@ -623,7 +623,7 @@ def polygons(design: FlatbedPress, samples: int | None = None) -> dict[str, tupl
     """
     import numpy as np
 
-    from gearlink.core.base.report import row_numbers
+    from gearlink.core.base.rows import row_numbers
     from gearlink.core.machines.flatbed_press.mechanism import bare
 
     count = samples or 12

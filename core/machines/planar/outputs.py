@@ -168,7 +168,7 @@ def inputs(design: PlanarMechanism, samples: int | None) -> Reals:
     """Inputs of the rows, in deg or mm."""
     import numpy as np
 
-    from gearlink.core.base.report import row_numbers
+    from gearlink.core.base.rows import row_numbers
     from gearlink.core.numerics.arrays import turn_degrees
 
     if (turns := design.period_turns) is not None:

@@ -310,7 +310,7 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
         """Input angles of a table [deg]."""
         import numpy as np
 
-        from gearlink.core.base.report import row_numbers
+        from gearlink.core.base.rows import row_numbers
         from gearlink.core.numerics.arrays import turn_degrees
 
         if self.period_turns is not None:

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.base.errors import NoSolution, at_key
-from gearlink.core.base.report import Table, row_numbers
+from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.wide_swing.cam import CurveState, WideSwingCam
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over

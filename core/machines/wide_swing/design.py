@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import MissingSection, NoSolution, at_key
-from gearlink.core.base.report import Table, row_numbers
+from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.machines.wide_swing import bodies, checks, remedies
 from gearlink.core.machines.wide_swing.motion import Motion
 from gearlink.core.machines.wide_swing.sizing import QUANTITIES, DeviceSize, device_table, names

@@ -6,8 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.report import Table, row_numbers, safely_above, safely_below
+from gearlink.core.base.report import Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import unlike
 
 if TYPE_CHECKING:
