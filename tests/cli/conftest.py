@@ -12,7 +12,7 @@ from gearlink.core.parts.gears.shifts import contour
 @pytest.fixture(scope="module", autouse=True)
 def _few_lines_of_blocking_contours() -> Iterator[None]:
     """Contours are traced on fewer diagonals: each takes a second at its full fineness, and what a sheet, a page or a
-    file shows of one does not depend on it. tests/core/parts/gears/shifts/test_contour.py judges the lines."""
+    file shows of one does not depend on it. tests/core/gears/shifts/test_contour.py judges the lines."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contour, "_DIAGONALS", 17)
         patch.setattr(contour, "_UPRIGHTS", 9)

@@ -116,8 +116,8 @@ def follow(data: Data, check: Check, i: int, stood: dict[str, Failing | None]) -
 
 
 IN_THEIR_ROOMS = ("cycle", "loads", "wide_swing")
-"""Up to a second for one design; their rooms follow remedies of their own (tests/core/studies/loads/test_remedies.py,
-test_remedy_in_the_message_holds in tests/core/machines/wide_swing/test_design.py)."""
+"""Up to a second for one design; their rooms follow remedies of their own (tests/core/loads/test_remedies.py,
+test_remedy_in_the_message_holds in tests/core/wide_swing/test_design.py)."""
 SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
 """Draws that begin with designs whose remedy takes few trials; every other one belongs to `make check-full`."""
 

@@ -1,4 +1,4 @@
 """Dwells by gears alone: the hypocycloid dwell and the mutilated gear, a `*_spec` and a `*_design` each.
 
-Begin with `hypocycloid_design` or `mutilated_design`; the kernels are `hypocycloid` and `mutilated`.
+Begin with `hypocycloid_design` or `mutilated_design`, which have the kernels.
 """

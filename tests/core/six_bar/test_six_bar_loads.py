@@ -1,6 +1,6 @@
 """Loads of the geared six-bar: both torques for every seat of a train, energy over the period, and what is refused.
 
-The forces themselves are held against an augmented system in tests/core/studies/loads/test_augmented.py.
+The forces themselves are held against an augmented system in tests/core/loads/test_augmented.py.
 """
 
 from __future__ import annotations
