@@ -147,7 +147,7 @@ def print_report(report: Report, options: Options) -> None:
     elif options.quantities:
         print(as_lines(report))
     elif report.key and not options.all:
-        from gearlink.cli.render.terminal import show_key_results
+        from gearlink.cli.render.key_results import show_key_results
 
         show_key_results(report, options)
     else:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from html import escape
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
@@ -453,7 +452,7 @@ _ENDS = 10
 
 def report_as_html(report: Report) -> str:
     """Quantities, then checks, then tables of a report."""
-    parts = [f"<h4>{escape(report.name)}: {escape(report.command)}</h4>"]
+    parts = [f"<h4>{_escaped(report.name)}: {_escaped(report.command)}</h4>"]
     if report.quantities:
         rows = ((q.name, q.symbol, q.value, "" if q.unit == "1" else q.unit) for q in report.quantities)
         parts.append(_grid(("quantity", "symbol", "value", "unit"), rows))
@@ -474,12 +473,12 @@ def table_as_html(table: Table) -> str:
     if table.length > 2 * _ENDS:
         last = replace(table, data=tuple(column[-_ENDS:] for column in table.data))
         rows = chain(islice(rows, _ENDS), [["…"] * len(heads)], last.each_row())
-    return f"<p>{escape(table.name)}, {amount(table.length, 'row')}</p>\n" + _grid(heads, rows)
+    return f"<p>{_escaped(table.name)}, {amount(table.length, 'row')}</p>\n" + _grid(heads, rows)
 
 
 def _grid(heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     lines = (f"<tr>{''.join(f'<td>{_cell(cell)}</td>' for cell in row)}</tr>" for row in rows)
-    head = "".join(f"<th>{escape(name)}</th>" for name in heads)
+    head = "".join(f"<th>{_escaped(name)}</th>" for name in heads)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
 
 
@@ -488,4 +487,10 @@ def _cell(value: Any) -> str:
         return ", ".join(map(_cell, value))
     if isinstance(value, float):
         return f"{value:.9g}"
-    return "" if value is None else escape(str(value)).replace("\n", "<br>")
+    return "" if value is None else _escaped(str(value)).replace("\n", "<br>")
+
+
+def _escaped(text: str) -> str:
+    from html import escape
+
+    return escape(text)

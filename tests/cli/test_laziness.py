@@ -212,6 +212,11 @@ def test_core_imports_no_interface() -> None:
     assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "highspy", "gearlink.cli"}
 
 
+def test_key_results_that_pass_import_no_rich() -> None:
+    (modules,) = modules_after("press designs/ty460.yaml")
+    assert "rich" not in packages(modules)
+
+
 def test_results_in_a_terminal_import_no_matplotlib() -> None:
     assert "matplotlib" not in packages(loaded_after(*LINES))
 

@@ -17,12 +17,11 @@ from itertools import chain, combinations, product
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.base.results import cached_property
-from gearlink.core.parts.gears.tooth.teeth import rim_radius
-from gearlink.core.studies.clearance.reach import Reach
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.gears.mesh.pair import GearPair
+    from gearlink.core.studies.clearance.reach import Reach
 
 
 LEAST_SHAFT_MODULES = 2.0
@@ -118,6 +117,7 @@ def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance
         Beside each other at the nearest, or one within the other's ring at the farthest: a body that passes from
         within a ring to without meets its teeth, so that none of the three is positive.
     Example
+        >>> from gearlink.core.studies.clearance.reach import Reach
         >>> ring = Gear("the ring gear", "A", outer=81.5, inner=73.0)
         >>> least_gap(ring, Shaft("shaft at D", "D", 5.0, ""), Reach(60.0, 60.0)).gap
         8.0
@@ -191,6 +191,8 @@ class Layout:
 
 def ring_gear(axis: str, mesh: GearPair, mates: str = "", rim: float | None = None) -> Gear:
     """The ring gear of an internal mesh, on its axis, with the outer radius that the file gives [mm]."""
+    from gearlink.core.parts.gears.tooth.teeth import rim_radius
+
     outer = rim_radius(mesh.root_radius[1], mesh.module, rim)
     return Gear("the ring gear", axis, outer, abs(mesh.tip_radius[1]), mates)
 
