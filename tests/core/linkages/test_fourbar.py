@@ -457,7 +457,10 @@ def test_refusal_names_angle_distance_limits_and_remedy() -> None:
         solve(FourBar(90.0, 160.0, 100.0, 140.0), 0.1)
     with pytest.raises(NoSolution, match=r"rocker angle 10 deg: AC .* too long.* to .* deg"):
         solve_inverse(CRANK_ROCKER, math.radians(10.0))
-    with pytest.raises(NoSolution, match=r"shorten the longest link, 61 mm, below 60 mm"):
+    with pytest.raises(
+        NoSolution,
+        match=r"BD 56\.23 mm is .* too long .reach 10 to 50 mm.; shorten the longest link, 61 mm, below 60 mm",
+    ):
         solve(FourBar(10.0, 20.0, 30.0, 61.0), 1.0)
 
 

@@ -267,7 +267,7 @@ def test_longest_crank_is_the_change_point():
 
 
 def test_swing_out_of_reach_names_the_greatest():
-    with pytest.raises(NoSolution, match="limit <=") as refused:
+    with pytest.raises(NoSolution, match=r"swing: 700 deg \(limit <= ") as refused:
         crank_for_swing(70.0, 60.0, 80.0, 1, -1.5, math.radians(700.0))
     reach = float(str(refused.value).split("limit <= ")[1].split()[0])
     assert crank_for_swing(70.0, 60.0, 80.0, 1, -1.5, math.radians(reach - 0.1)) < 50.0

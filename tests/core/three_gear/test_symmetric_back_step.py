@@ -161,7 +161,7 @@ def test_refuses_a_back_step_out_of_reach():
         crank_angle_for_back_step(-1.0, math.radians(180.0))
     with pytest.raises(NoSolution, match="back-step: 180 deg"):
         i3_for_back_step(0.1, math.pi)
-    with pytest.raises(NoSolution, match="limit < 0"):
+    with pytest.raises(NoSolution, match=r"i3: 1 \(limit < 0: "):
         dwell_angle(1.0, 1.0)
 
 

@@ -315,7 +315,9 @@ def test_undercut_limit_is_where_the_cutter_passes_the_base_tangent_point():
 def test_interference_of_a_small_pinion_with_a_large_gear():
     pair = GearPair.from_shift(1.0, (10, 100))
     assert pair.interference_margin[1] < 0.0 < pair.interference_margin[0]  # the wheel's tip digs into the pinion
-    with pytest.raises(NoSolution, match=r"tip of gear 2 beyond the base tangent point of gear 1"):
+    with pytest.raises(
+        NoSolution, match=r"tip of gear 2 beyond the base tangent point of gear 1: \d[\d.]* mm \(limit < 0 mm"
+    ):
         _ = pair.specific_sliding
 
 
@@ -407,5 +409,5 @@ def test_tip_inside_the_base_circle_is_refused_with_the_remedy():
     assert pair.tip_radius[0] < pair.base_radius[0]
     with pytest.raises(NoSolution, match=r"tip radius of gear 1: 28 mm \(limit >= 28\.19.* by at least 0\.191 modules"):
         _ = pair.tip_pressure_angle
-    with pytest.raises(NoSolution, match="limit >="):
+    with pytest.raises(NoSolution, match=r"9 mm \(limit >= 9\.397 mm, the base radius"):
         teeth.pressure_angle_rise(10.0, -1.0, ALPHA)
