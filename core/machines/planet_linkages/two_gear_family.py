@@ -158,12 +158,12 @@ def momentary_frame(family: Family) -> float:
     return found[0]
 
 
-def beyond_reach(what: str, most: float, drive: PlanetLinkage) -> str:
+def beyond_reach(what: str, most: float, drive: PlanetLinkage, key: str = "") -> str:
     """The refusal of a request that is more than the most [rad] of a family, which one of its drives reaches."""
-    angle = math.degrees(drive.linkage.min_transmission_angle())
+    angle, limit = math.degrees(drive.linkage.min_transmission_angle()), safely_below(math.degrees(most))
     return (
-        f"{what} is out of reach: at most {safely_below(math.degrees(most))} deg with these gears and links "
-        f"(transmission angle {angle:.3g} deg)\nreduce it, or change gears or links"
+        f"{what} is out of reach: at most {limit} deg with these gears and links (transmission angle {angle:.3g} deg)\n"
+        f"set {key or 'it'} to at most {limit} deg, or change gears or links"
     )
 
 
@@ -314,7 +314,12 @@ def window_of(drive: PlanetLinkage) -> float:
 
 
 def solved(
-    family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str, share: float = 1.0
+    family: Family,
+    measure: Callable[[PlanetLinkage], float],
+    target: float,
+    what: str,
+    share: float = 1.0,
+    key: str = "",
 ) -> float:
     """Frame with which the output steps back and a measure that rises with the back-step meets a target.
 
@@ -323,6 +328,7 @@ def solved(
         target : float [rad] - positive
         what : str - the request in words, for a refusal
         share : float - of the target that the words speak of: a tolerance is half a back-step
+        key : str - the key of the request, for the remedy
     Returns
         frame : float [mm]
     Raises
@@ -338,7 +344,7 @@ def solved(
     quiet, steep = stepping(family)
     most = measure(family.drive(steep))
     if not target <= most:
-        raise NoSolution(beyond_reach(what, share * most, family.drive(steep)))
+        raise NoSolution(beyond_reach(what, share * most, family.drive(steep), key))
     ends = (-target, most - target)  # at the momentary dwell itself rounding may leave a back-step
     return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)
 
@@ -385,13 +391,14 @@ def longest(family: Family, tolerance: float) -> tuple[float, float] | None:
     return _better(family, reached, filled, window) or (filled, window)
 
 
-def flattest(family: Family, window: float, what: str, *, beyond: bool = False) -> tuple[float, float]:
+def flattest(family: Family, window: float, what: str, *, beyond: bool = False, key: str = "") -> tuple[float, float]:
     """The frame with which the output keeps nearest to its place over a window, and how near.
 
     Parameters
         window : float [rad]
         what : str - the request in words, for a refusal
         beyond : bool - whether to seek windows too that no back-step fills
+        key : str - the key of the window, for the remedy
     Returns
         frame, tolerance : float [mm], float [rad] - of equal ripple; where a shorter back-step serves better (see
             `longest`) the frame of the minimum tolerance
@@ -400,7 +407,7 @@ def flattest(family: Family, window: float, what: str, *, beyond: bool = False) 
     """
     steep, refusal = stepping(family)[1], None
     try:
-        frame = solved(family, window_of, window, what)
+        frame = solved(family, window_of, window, what, key=key)
         least = 0.5 * back_step_of(family.drive(frame))
     except NoSolution as error:
         if not beyond:

@@ -118,7 +118,9 @@ class BackStepSynthesis(TwoGearFourBar):
             words = f"a back-step of {self._request:g} deg"
             if self.always is not None:
                 return self._of_always(self.always, math.radians(self._request), words)
-            return kernel.solved(self.family, kernel.back_step_of, math.radians(self._request), words)
+            return kernel.solved(
+                self.family, kernel.back_step_of, math.radians(self._request), words, key="back_step.angle"
+            )
 
     def _of_always(self, always: AlwaysStepping, angle: float, words: str) -> float:
         """Of the frames with that back-step, to either side of the least one, that of the better transmission angle."""
@@ -130,11 +132,11 @@ class BackStepSynthesis(TwoGearFourBar):
                     f"{words} is less than the minimum of crank-rockers with these gears and links, {limit} "
                     "deg: their output steps back with every frame"
                 ),
-                fix="specify more, or take more teeth on the ring gear",
+                fix=f"set back_step.angle to at least {limit} deg, or take more teeth on the ring gear",
             )
         frames = always.with_step(angle)
         if not frames:
-            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low), "back_step.angle"))
         return max(frames, key=lambda frame: self.family.drive(frame).linkage.min_transmission_angle())
 
     def check_target(self) -> Check:
@@ -213,7 +215,9 @@ class DwellSynthesis(TwoGearFourBar):
         if self.always is not None:
             return self._flattest_of(self.always, words)
         try:
-            return kernel.flattest(self.family, self.window, words, beyond=self._longest is not None)
+            return kernel.flattest(
+                self.family, self.window, words, beyond=self._longest is not None, key="dwell.window"
+            )
         except NoSolution:
             self._refuse_long_window(self.window)
             raise
@@ -232,7 +236,7 @@ class DwellSynthesis(TwoGearFourBar):
         assert self.window is not None
         if self.window > (most := always.ripple(always.low)):
             self._refuse_long_window(self.window)
-            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low)))
+            raise NoSolution(beyond_reach(words, most, self.family.drive(always.low), "dwell.window"))
         return flattest_of(self._parts, self.window, self.asked_tolerance)
 
     def _longest_frame(self) -> float:
@@ -260,7 +264,7 @@ class DwellSynthesis(TwoGearFourBar):
         words = f"a tolerance of {short(math.degrees(whole))} deg"
         most = kernel.back_step_of(self.family.drive(kernel.stepping(self.family)[1]))
         if 2.0 * whole > most:
-            kernel.solved(self.family, kernel.back_step_of, 2.0 * whole, words, 0.5)
+            kernel.solved(self.family, kernel.back_step_of, 2.0 * whole, words, 0.5, "dwell.tolerance")
         longest = kernel.longest(self.family, aimed)
         assert longest is not None
         return longest[0]
@@ -277,6 +281,7 @@ class DwellSynthesis(TwoGearFourBar):
                 f"dwell tolerance: {unlike(math.degrees(band), 180.0 * self._mean)} deg (limit < "
                 f"{safely_below(180.0 * self._mean)} deg, half of the output angle per revolution of the crank)",
                 key="dwell.tolerance",
+                fix=f"set dwell.tolerance below {safely_below(180.0 * self._mean)} deg",
             )
 
     def _refuse_even_motion(self, window: float) -> None:

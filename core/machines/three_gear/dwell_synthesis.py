@@ -163,7 +163,7 @@ class DwellTask(FamilyTask):
         if request.angle is not None:
             with at_key("dwell.angle"):
                 words = f"a dwell angle of {request.angle:g} deg"
-                return solved(family, dwell_angle_of(train), math.radians(request.angle), words)
+                return solved(family, dwell_angle_of(train), math.radians(request.angle), words, key="dwell.angle")
         with at_key(self.key):
             self._refuse_even_motion(abs(train.ratio))
             try:
@@ -185,7 +185,7 @@ class DwellTask(FamilyTask):
             self._refuse_short_reach(family, train)
         words = f"a window of {self.request.window:g} deg"
         try:
-            linkage = solved(family, window_of(train), self.window, words)
+            linkage = solved(family, window_of(train), self.window, words, key="dwell.window")
         except NoSolution:
             self._refuse_short_reach(family, train)  # which names the longest within the tolerance
             raise
@@ -229,7 +229,7 @@ class DwellTask(FamilyTask):
         words = f"a tolerance of {short(math.degrees(whole))} deg"
         most = back_step_of(train)(family.linkage(family.stepping()[1]))
         target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
-        return solved(family, back_step_of(train), target, words, share)
+        return solved(family, back_step_of(train), target, words, share, "dwell.tolerance")
 
     def _refuse_even_motion(self, ratio: float) -> None:
         band, window = self.band, self.window

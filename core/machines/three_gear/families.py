@@ -203,7 +203,7 @@ def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
 
 
 def solved(
-    family: Family, measure: Callable[[FourBar], float], target: float, what: str, share: float = 1.0
+    family: Family, measure: Callable[[FourBar], float], target: float, what: str, share: float = 1.0, key: str = ""
 ) -> FourBar:
     """The linkage of a family whose output steps back and whose rising measure meets a target.
 
@@ -212,6 +212,7 @@ def solved(
         target : float [rad]
         what : str - the request in words, for a refusal
         share : float - of the target that the words speak of: a tolerance is half a back-step
+        key : str - the key of the request, for the remedy
     Raises
         NoSolution - for a target beyond the family, naming its limits
     """
@@ -221,20 +222,17 @@ def solved(
         raise NoSolution(f"{what} cannot be had: no linkage with this crank or frame makes the output step back")
     if not target <= most:
         angle = f"{math.degrees(family.linkage(high).min_transmission_angle()):.3g}"
+        limit = safely_below(math.degrees(share * most))
         raise NoSolution(
-            (
-                f"{what} is out of reach: at most {safely_below(math.degrees(share * most))} deg with these gears "
-                f"(transmission angle {angle} deg)"
-            ),
-            fix="reduce it, or change the gears",
+            f"{what} is out of reach: at most {limit} deg with these gears (transmission angle {angle} deg)",
+            fix=f"set {key or 'it'} to at most {limit} deg, or change the gears",
         )
     if not target >= least:
+        limit = safely_above(math.degrees(share * least))
         raise NoSolution(
-            (
-                f"{what} is less than that of any crank-rocker with this crank: its output steps back "
-                f"with every frame, and the minimum is {safely_above(math.degrees(share * least))} deg"
-            ),
-            fix="take a shorter crank",
+            f"{what} is less than that of any crank-rocker with this crank: its output steps back with every frame, "
+            f"and the minimum is {limit} deg",
+            fix=f"set {key or 'it'} to at least {limit} deg, or take a shorter crank",
         )
     ends = (least - target, most - target)
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))

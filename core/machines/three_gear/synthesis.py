@@ -431,10 +431,11 @@ class BackStepTask(FamilyTask):
         if task.angle is not None:
             with at_key("back_step.angle"):
                 request = f"a back-step of {task.angle:g} deg"
-                return solved(family, back_step_of(train), math.radians(task.angle), request)
+                return solved(family, back_step_of(train), math.radians(task.angle), request, key="back_step.angle")
         with at_key("back_step.crank_angle"):
             request = f"a back-step over {task.crank_angle:g} deg of the crank"
-            return solved(family, back_step_crank_angle_of(train), math.radians(task.crank_angle), request)
+            measure, target = back_step_crank_angle_of(train), math.radians(task.crank_angle)
+            return solved(family, measure, target, request, key="back_step.crank_angle")
 
     def chosen_idler(self, *, advises: bool = True) -> int:
         """From angle and crank angle by thesis (4-19), rounded to teeth; else the smallest that keeps the limits."""
