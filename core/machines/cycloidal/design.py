@@ -360,7 +360,7 @@ class CycloidalReducer(RealSpeed, Design):
         fix = "raise eccentricity"
         if k:
             per = self.spec.eccentricity / k
-            fix = f"set eccentricity to {within(per * low, per * high, 'mm')}"
+            fix = f"set eccentricity from {within(per * low, per * high, 'mm')}"
         status: Status = "pass" if low <= k <= high else "warn"
         return SHORTENING.check(status, what, k, limit, shown=Shown(k), aside=aside, fix=fix)
 

@@ -215,7 +215,7 @@ class FollowerCams:
             raise NoSolution(
                 message,
                 key="cam.prime_radius",
-                fix=f"set cam.prime_radius to {within(abs(distance - arm), distance + arm, 'mm')}",
+                fix=f"set cam.prime_radius from {within(abs(distance - arm), distance + arm, 'mm')}",
             )
         return Place(radius, 0.0, distance, math.acos(share))
 

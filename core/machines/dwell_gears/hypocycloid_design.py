@@ -234,7 +234,10 @@ class HypocycloidSlider:
         """
         limit = 0.5 * self.stroke
         if not 0.0 < tolerance < limit:
-            raise NoSolution(f"tolerance: {tolerance:g} mm (above 0, below {safely_below(limit)} mm, half the stroke)")
+            raise NoSolution(
+                f"tolerance: {tolerance:g} mm (above 0, below {safely_below(limit)} mm, half the stroke)",
+                fix=f"set dwell.tolerance below {safely_below(limit)} mm",
+            )
         low = high = 0.0
         for (t_0, _), (t_1, value) in zip(self.extremes, self.extremes[1:], strict=False):
             if max(high, value) - min(low, value) > 2.0 * tolerance:
@@ -243,7 +246,7 @@ class HypocycloidSlider:
             low, high = min(low, value), max(high, value)
         raise NoSolution(
             f"the slider stays within +-{tolerance:g} mm over the whole revolution",
-            fix=f"specify a tolerance below {safely_below(0.5 * (high - low))} mm",
+            fix=f"set dwell.tolerance below {safely_below(0.5 * (high - low))} mm",
         )
 
 
@@ -525,7 +528,8 @@ class SlottedArm:
         if not 0.0 < tolerance < half:
             raise NoSolution(
                 f"tolerance: {math.degrees(tolerance):g} deg (above 0, below {safely_below(math.degrees(half))} deg, "
-                "half a step)"
+                "half a step)",
+                fix=f"set dwell.tolerance below {safely_below(math.degrees(half))} deg",
             )
         top = -self.angle(self.standstill)  # before the cusp
         if top <= tolerance:

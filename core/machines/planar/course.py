@@ -104,7 +104,9 @@ class _Refusals:
 
     def starts_dead(self) -> NoSolution:
         return NoSolution(
-            "the mechanism starts in a dead centre, where its motion is not certain", key="start", fix="change start"
+            "the mechanism starts in a dead centre, where its motion is not certain",
+            key="start",
+            fix=f"change {_starts(self.course.structure)}",
         )
 
     def jams(self, q: float, back: float | None, *, ranged: bool) -> NoSolution:
@@ -653,7 +655,7 @@ class Start:
                 f"open by {gap:.4g} mm at the rough directions)"
             ),
             key="start",
-            fix="change start, or the lengths",
+            fix=f"change {_starts(self.structure)}, or the lengths of {_listed(links)}",
         )
 
     def _choose(self, system: System, block: Block, dyad: Dyad, y: Reals) -> None:
@@ -833,6 +835,12 @@ def _newton(system: System, block: Block, y: Reals) -> bool:
 
 def _count(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if abs(number) == 1 else many or one + 's'}"
+
+
+def _starts(structure: Structure) -> str:
+    """The keys of the start that count as they stand, of drives and what a mesh ties to them; the others are rough."""
+    exact = dict.fromkeys([*(drive.name for drive in structure.drives), *structure.tied.values()])
+    return _listed([f"start.{name}" for name in exact])
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -131,7 +131,7 @@ def longest_crank(frame: float, b: float, c: float) -> float:
     if not high > 0.0:
         raise NoSolution(
             f"frame: {short(frame)} mm, in which no crank turns fully (coupler {short(b)}, rocker {short(c)} mm)",
-            fix=f"set the frame to {within(abs(b - c), b + c, 'mm')}",
+            fix=f"set the frame from {within(abs(b - c), b + c, 'mm')}",
         )
     return high
 
@@ -437,7 +437,7 @@ def rooms(design: ThreeGearFourBar, window: float, band: float) -> tuple[Room, .
 
 def words(found: tuple[Room, ...]) -> str:
     """What the length that changes minimum may be, in words."""
-    return f"set {found[0].key} to {within(found[0].low, found[0].high, 'mm')}" if found else ""
+    return f"set {found[0].key} from {within(found[0].low, found[0].high, 'mm')}" if found else ""
 
 
 # Trains with a ring: on the side where the output steps back, of r5 < 0 that is a frame shorter than d*
@@ -500,12 +500,12 @@ def momentary_ring_linkage(r1: float, r3: float, r5: float, crank: float, assemb
     if crank >= found.high:
         raise NoSolution(
             f"crank: {unlike(crank, found.high)} mm (for a momentary dwell {within(found.low, found.high, 'mm')})",
-            fix=f"set the crank to {within(found.low, found.high, 'mm')}",
+            fix=f"set the crank from {within(found.low, found.high, 'mm')}",
         )
     if family.low == family.least:
         raise NoSolution(
             f"crank: {short(crank)} mm, which does not turn fully with the frame of its momentary dwell",
-            fix=f"set the crank to {within(found.low, found.high, 'mm')}",
+            fix=f"set the crank from {within(found.low, found.high, 'mm')}",
         )
     return family.linkage(family.low)
 

@@ -366,7 +366,8 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
     if not shortest < frame < longest:
         raise NoSolution(
             f"frame: {unlike(frame, shortest if frame <= shortest else longest)} mm (for a momentary dwell of these "
-            f"gears {within(shortest, longest, 'mm')})"
+            f"gears {within(shortest, longest, 'mm')})",
+            fix=f"set the frame from {within(shortest, longest, 'mm')}",
         )
     return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
 
@@ -476,7 +477,9 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
     q = 16.0 * r3 * (r3 + r5) * (r1 + r3) * t
     if r1 < -r3:
         raise NoSolution(
-            "a crank gear that is a ring round the idler never stops the output", fix="make it an external gear"
+            "a crank gear that is a ring round the idler never stops the output",
+            key="gears.crank",
+            fix="give gears.crank teeth above 0, an external gear",
         )
     if not q > 0.0:
         least = safely_above(2.0 * (r1 + r3))
@@ -609,6 +612,7 @@ def _ring_eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) 
         low, high = sorted(math.sqrt(max(0.0, end)) for end in ends)
         raise NoSolution(
             f"frame: {unlike(frame, low if frame <= low else high)} mm (for a momentary dwell of these gears "
-            f"{within(low, high, 'mm')})"
+            f"{within(low, high, 'mm')})",
+            fix=f"set the frame from {within(low, high, 'mm')}",
         )
     return math.sqrt(square)

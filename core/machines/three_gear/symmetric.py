@@ -275,10 +275,9 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
         raise NoSolution(
             (
                 f"back-step within {_deg(2.0 * h)} deg of the crank: {_deg(back_step_angle, limit)} deg (above 0, "
-                "below "
-                f"{_deg(limit, back_step_angle)} deg)"
+                f"below {_deg(limit, back_step_angle)} deg)"
             ),
-            fix="reduce it or enlarge the crank angle",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
         )
     v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
     if v == 1.0:
@@ -287,7 +286,7 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
                 f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is "
                 f"the limit, {_deg(limit)} deg, to rounding, and takes an endless idler"
             ),
-            fix="reduce it or enlarge the crank angle",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or raise back_step.crank_angle",
         )
     return -v / (1.0 - v)
 
@@ -320,7 +319,7 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
                 f"{_deg(limit, back_step_angle)} "
                 f"deg; i3 {short(i3)})"
             ),
-            fix="reduce the back-step, or take an idler of more teeth",
+            fix=f"set back_step.angle below {safely_below(math.degrees(limit))} deg, or take an idler of more teeth",
         )
     v = i3 / (i3 - 1.0)
     return 2.0 * _rising_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
@@ -642,7 +641,7 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
                 f"an even motion stays within +-{_deg(tolerance)} deg over {_deg(2.0 * tolerance)} deg of "
                 f"the crank: a window of {_deg(window)} deg needs no linkage"
             ),
-            fix="specify a longer one",
+            fix=f"set dwell.window above {safely_above(math.degrees(2.0 * tolerance))} deg",
         )
     check_reach(i3, window, tolerance)
     k = math.sin((0.5 * window - tolerance) / (1.0 - i3)) / math.sin(0.5 * window)

@@ -95,7 +95,7 @@ class Task:
         except MissingSection:
             raise
         except NoSolution as error:
-            if error.key in ("", "gears.idler") or not self.depends_on_idler(error):
+            if error.key in ("", "gears.idler", "gears.crank", "gears.output") or not self.depends_on_idler(error):
                 raise
             words = f"no idler from {LEAST_IDLER} to {GREATEST_IDLER} teeth meets the task: {error.message}"
             raise NoSolution(words, key="gears.idler", fix=error.fix) from error
@@ -670,7 +670,7 @@ class MomentaryTask(Task):
             raise NoSolution(
                 f"a momentary dwell of these gears has no gap of {request.gap:g} mm between gears 1 and 5",
                 key="momentary.gap",
-                fix=f"specify less than {safely_below(widest)} mm",
+                fix=f"set momentary.gap below {safely_below(widest)} mm",
             )
         return crank
 

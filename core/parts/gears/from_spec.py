@@ -143,7 +143,7 @@ def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
             "rack "
             f"{within(low, high, 'mm')} from the axis)",
             key="center_distance",
-            fix=f"set center_distance to {within(low, high, 'mm')}",
+            fix=f"set center_distance from {within(low, high, 'mm')}",
         )
     return beside_a_rack(known, shift)
 

@@ -277,7 +277,12 @@ def way_before(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: 
             start = bracketed_root(lambda x: angle(x) - goal, there, here)
             return _judged(speed, extremes, start, end)
         here = there
-    raise NoSolution("the way before the lay is longer than the feed of two revolutions", fix="give a shorter one")
+    whole = angle(end) - angle(end - 2.0 * TURN)
+    raise NoSolution(
+        f"output angle of the way before the lay: {short(math.degrees(turned))} deg (limit < "
+        f"{safely_below(math.degrees(whole))} deg, that of two revolutions)",
+        fix="reduce feed.lay.distance",
+    )
 
 
 def gentlest(speed: Speed, angle: Speed, extremes: Sequence[Turning], turned: float) -> Lay:
@@ -348,6 +353,6 @@ def _judged(speed: Speed, extremes: Sequence[Turning], start: float, end: float)
     if min(values) < 0.0:
         raise NoSolution(
             f"the sheet goes back on the way before the lay, speed ratio {short(min(values))}",
-            fix="give a shorter one, or a drive without back-step",
+            fix="reduce feed.lay.distance, or take a drive without back-step",
         )
     return Lay(start, end, max(values), speed(end))

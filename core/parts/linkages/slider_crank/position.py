@@ -284,7 +284,8 @@ def _check_rod(rod: float, offset: float) -> None:
         raise NoSolution(f"rod {rod:g} mm: its length must be positive")
     if not abs(offset) < rod:
         raise NoSolution(
-            f"magnitude of the offset: {unlike(abs(offset), rod)} mm (limit < {unlike(rod, abs(offset))} mm, the rod)"
+            f"magnitude of the offset: {unlike(abs(offset), rod)} mm (limit < {unlike(rod, abs(offset))} mm, the rod)",
+            fix=f"set the offset within -{safely_below(rod)} and {safely_below(rod)} mm",
         )
 
 
@@ -296,8 +297,7 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
         raise NoSolution(
             (
                 f"stroke: {unlike(stroke, largest)} mm (limit < {unlike(largest, stroke)} mm with rod {short(rod)} "
-                "mm and "
-                f"offset {short(offset)} mm)"
+                f"mm and offset {short(offset)} mm)"
             ),
             fix=f"set stroke below {safely_below(largest)} mm, lengthen the rod or reduce the offset",
         )
@@ -406,9 +406,13 @@ def _require_within(key: str, length: float, low: float, high: float, ratio: flo
     if low < length < high:
         return
     if not low < high:
-        text, fix = f"no {key} gives a time ratio of {ratio:g}, a slider-crank reaches less than 3", "specify less"
+        text, fix = f"no {key} gives a time ratio of {ratio:g} (limit < 3)", "set quick_return_ratio below 3"
     elif length >= high:
-        text, fix = f"{key} {length:g} mm is too long for this stroke and ratio", f"stay below {safely_below(high)} mm"
+        most = safely_below(high)
+        text = f"{key}: {unlike(length, high)} mm (limit < {most} mm with this stroke and time ratio)"
+        fix = f"set {key} below {most} mm"
     else:
-        text, fix = f"{key} {length:g} mm is too short for this stroke and ratio", f"go above {safely_above(low)} mm"
+        least = safely_above(low)
+        text = f"{key}: {unlike(length, low)} mm (limit > {least} mm with this stroke and time ratio)"
+        fix = f"set {key} above {least} mm"
     raise NoSolution(text, key=key, fix=fix)
