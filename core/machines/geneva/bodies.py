@@ -94,6 +94,8 @@ class Outlines:
         away = math.sqrt(a * a + radius * radius - 2.0 * drive.sign * a * radius * math.cos(end))
         if drive.sign > 0.0 and _seen(a, self.hollow, self.tip) < end:
             away = self.tip
+        if self.hollow >= a + away:  # the edge of the disc comes to no side of the arc
+            return None
         return 2.0 * (_seen(a, away, self.hollow) - _seen(a, away, radius))
 
     def wheel_half(self) -> list[Piece]:

@@ -375,6 +375,5 @@ class GenevaDrive(RealSpeed, Design):
         if rate is None or speed is None:
             return
         over = rate > limit
-        speed = abs(self.spec.input_speed or 0.0)
-        fix = f"reduce input_speed to {safely_below(speed * limit / rate)} 1/min or less" if over else ""
+        fix = f"reduce input_speed to {safely_below(abs(speed) * limit / rate)} 1/min or less" if over else ""
         yield STEP_RATE.check("warn" if over else "pass", "step rate", rate, limit, "1/min", fix=fix)

@@ -7,8 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.base.report import safely_below
 from gearlink.core.base.spec import Deferred, DrivenSpec, Length, LoadLimits, Ratio, Spec
-from gearlink.core.base.wording import short
+from gearlink.core.base.wording import short, unlike
 from gearlink.core.parts.linkages.spec_parts import DwellTolerance
 
 Clearance = Annotated[float, Field(ge=0, le=1e3, json_schema_extra={"unit": "mm"})]
@@ -88,6 +89,13 @@ class GenevaDriveSpec(DrivenSpec):
             message = "the pin's radius {pin} mm reaches over the crank's axis: below {crank} mm"
             words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": short(crank)}
             raise PydanticCustomError("GL111", message, words)
+        if self.slot_clearance >= (most := 2.0 * self._nearest(sign)):
+            message = (
+                "slot_clearance: {given} mm (limit < {most} mm, with which a slot turns freely about its pin)\n"
+                "reduce slot_clearance"
+            )
+            words = {"key": "slot_clearance", "given": unlike(self.slot_clearance, most), "most": safely_below(most)}
+            raise PydanticCustomError("GL111", message, words)
         if self.locking_clearance and self.locking_radius is None:
             message = "locking_clearance is that of the locking disc: give locking_radius"
             raise PydanticCustomError("GL111", message, {"key": "locking_clearance"})
@@ -97,6 +105,15 @@ class GenevaDriveSpec(DrivenSpec):
         from math import pi, sin
 
         return self.center_distance * sin(pi / self.slots)
+
+    def _nearest(self, sign: float) -> float:
+        """Minimum distance of a pin in its slot from the wheel's axis: in the middle of a step, of an internal wheel at
+        both ends [mm]."""
+        from math import cos, pi
+
+        if sign > 0.0:
+            return self.center_distance - self._crank(sign)
+        return self.center_distance * cos(pi / self.slots)
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -246,6 +246,13 @@ def test_running_clearance() -> None:
     for way, status in ((1.001, "pass"), (0.999, "warn")):
         (check,) = design(GIVEN, locking_clearance=0.05, slot_clearance=way * least).check("pin-entry")
         assert check.status == status
+    far = {"slots": 11, "center_distance": 100.0, "pin_radius": 2.5, "locking_radius": 210.0, "pins": 2}
+    assert design(GIVEN, **far, locking_clearance=168.0).locking_play is None
+    for kind, near in (("external", 60.0), ("internal", 120.0 * math.cos(math.pi / 6.0))):
+        loose = design(GIVEN, type=kind, slot_clearance=math.nextafter(2.0 * near * (1.0 - 1e-12), 0.0))
+        assert loose.wheel_backlash == pytest.approx(math.pi, abs=1e-5)
+        with pytest.raises(ValueError, match="turns freely"):
+            design(GIVEN, type=kind, slot_clearance=2.0 * near * (1.0 + 1e-12))
     with pytest.raises(ValueError, match="give locking_radius"):
         design(GIVEN, locking_radius=None, locking_clearance=0.1)
 
