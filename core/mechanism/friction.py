@@ -40,8 +40,7 @@ LOCKS = 0.9
 """A mechanism of which a pass leaves more of a change counts as self-locking."""
 LOCKED = (
     "with this friction the mechanism is self-locking: the forces grow from pass to pass\nreduce friction, or the "
-    "radii "
-    "of the pins"
+    "radii of the pins"
 )
 
 

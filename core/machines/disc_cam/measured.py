@@ -203,8 +203,7 @@ class MeasuredCam:
             low, high = math.sqrt(float(np.min(q))), math.sqrt(float(np.max(q)))
             raise NoSolution(
                 f"distance of the roller's centre from the cam axis: {short(low)} to {short(high)} mm (reach of the "
-                "arm "
-                f"{within(abs(f - l), f + l, 'mm')})",
+                f"arm {within(abs(f - l), f + l, 'mm')})",
                 key="follower.arm",
                 fix="check pivot, arm and roller_radius against the machine",
             )

@@ -82,8 +82,7 @@ class HypocycloidSlider:
             )
             raise NoSolution(
                 f"rod: {unlike(self.rod, least)} mm (limit > {unlike(least, self.rod)} mm, the distance of the point "
-                "from the "
-                "slide line)",
+                "from the slide line)",
                 fix=f"set rod above {safely_above(least)} mm{usual}",
             )
 
@@ -715,8 +714,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             raise NoSolution(
                 (
                     f"ring {ring} over planet {planet} teeth is {unlike(ring / planet, round(ring / planet))}: the "
-                    "curve does not close "
-                    "in one revolution of the carrier"
+                    "curve does not close in one revolution of the carrier"
                 ),
                 key="gears.ring",
                 fix=f"take a whole multiple, for example {near * planet}",

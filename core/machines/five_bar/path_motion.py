@@ -136,8 +136,7 @@ class PathFiveBar:
                 ),
                 fix=(
                     f"reduce the difference of coupler and follower by more than {safely_above(shortest - least, 4)} "
-                    "mm, or shorten "
-                    "input or output"
+                    "mm, or shorten input or output"
                 ),
             )
 

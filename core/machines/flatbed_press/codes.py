@@ -10,8 +10,7 @@ SYNC_SPEED = Rule(
     "At the start of the synchronous zone bed and cylinder do not run equally fast; or the file has no cam, and the "
     "travels differ over the zone.",
     "The compensation cam compensates a difference of travel, but a difference of speed is a blow at its start. "
-    "Without "
-    "a cam the difference of travel smears the print.",
+    "Without a cam the difference of travel smears the print.",
     "Omit sync.start: then the zone starts where the speeds are equal; or take the difference up before the zone "
     "by cam.lead_in. Give the section cam, whose follower takes the difference of travel back.",
     "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder; with a lead-in the jump of "

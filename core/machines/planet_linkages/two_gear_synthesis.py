@@ -300,8 +300,7 @@ class DwellSynthesis(TwoGearFourBar):
         raise NoSolution(
             (
                 f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
-                "with "
-                f"these gears and links: max. {safely_below(math.degrees(longest))} deg{self._there()}"
+                f"with these gears and links: max. {safely_below(math.degrees(longest))} deg{self._there()}"
             ),
             fix=f"set dwell.window to {safely_below(math.degrees(longest))} deg",
         )
@@ -314,8 +313,7 @@ class DwellSynthesis(TwoGearFourBar):
         raise NoSolution(
             (
                 f"a dwell of {self._request.window:g} deg within +-{short(math.degrees(band))} deg is not possible "
-                "with "
-                f"these gears and links: max. {longest} deg{self._there()}, or "
+                f"with these gears and links: max. {longest} deg{self._there()}, or "
                 f"+-{safely_above(math.degrees(least))} deg"
             ),
             fix=f"set dwell.window to {longest} deg, or dwell.tolerance to {safely_above(math.degrees(least))} deg",

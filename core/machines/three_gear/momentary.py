@@ -208,8 +208,7 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     if not e_lo < e < e_hi:
         raise NoSolution(
             f"crank: {unlike(e, e_lo if e <= e_lo else e_hi)} mm (for the output to stop above {unlike(e_lo, e_hi)}, "
-            "below "
-            f"{unlike(e_hi, e_lo)} mm)",
+            f"below {unlike(e_hi, e_lo)} mm)",
             fix=f"set the crank between {unlike(e_lo, e_hi)} and {unlike(e_hi, e_lo)} mm, or change the gears",
         )
     return touching(r1, r3, r5, e, e_lo if e < r1 else e_hi)
@@ -331,8 +330,7 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
         raise NoSolution(
             (
                 f"crank: {unlike(eccentricity, low if eccentricity <= low else high)} mm, which {what} (for a "
-                "momentary "
-                f"dwell of these gears above {unlike(low, high)}, below {unlike(high, low)} mm)"
+                f"momentary dwell of these gears above {unlike(low, high)}, below {unlike(high, low)} mm)"
             ),
             fix=f"set the crank between {unlike(low, high)} and {unlike(high, low)} mm, or change the gears",
         )

@@ -448,8 +448,7 @@ def crank_angle_for_window(i3: float, window: float) -> float:
         raise NoSolution(
             (
                 f"dwell window: {_deg(window, limit)} deg (above 0, below {_deg(limit, window)} deg with any "
-                "tolerance that "
-                f"a back-step fills; i3 {short(i3)})"
+                f"tolerance that a back-step fills; i3 {short(i3)})"
             ),
             fix=f"set dwell.window below {safely_below(math.degrees(limit))} deg",
         )

@@ -184,8 +184,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
         most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
         raise NoSolution(
             f"roller radius: {unlike(roller_radius, most)} mm (limit < {unlike(most, roller_radius)} mm, where the "
-            "roller "
-            "at rest covers the whole profile)",
+            "roller at rest covers the whole profile)",
             fix=f"set cam.roller_radius below {safely_below(most)} mm, or raise cam.center_distance",
         )
     within = np.flatnonzero(room < 0.0)
@@ -426,8 +425,7 @@ class WideSwingCam:
             raise NoSolution(
                 (
                     f"peak speed of the rocker over that of the cam: {unlike(self.speed_ratio_peak, 1.0)} (limit > 1 "
-                    "for "
-                    "a twin-rocker)"
+                    "for a twin-rocker)"
                 ),
                 fix=(
                     f"reduce {self.angle_words} to at most {safely_below(0.5 * limit)} deg (possible below "

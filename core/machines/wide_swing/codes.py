@@ -70,8 +70,7 @@ CYCLE_ANGLES = Rule(
     "GL510",
     "two strokes take more than a revolution",
     "Working and return stroke together take more cam angle than a revolution has; of a cycle, a dwell has no length "
-    "(a "
-    "warning).",
+    "(a warning).",
     "The two profiles would overlap; without a dwell between them the concave parts of both strokes meet in an edge.",
     "Reduce cycle_angle to 180 deg or less; give both dwells of a cycle some degrees.",
     "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, dwells above 0",
@@ -101,8 +100,7 @@ CLOSED_CONTOUR = Rule(
     "GL512",
     "roller cuts into the closed contour",
     "On its way round the whole revolution a roller would cut into its own cam: next to a joint, in the sector "
-    "where the "
-    "other cam guides, or where two concave parts come near each other.",
+    "where the other cam guides, or where two concave parts come near each other.",
     "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
     "Take a smaller cam.roller_radius or cam.free_clearance, longer dwells, or a larger cam.center_distance.",
     "minimum distance of contour and path of the roller's centre >= r_p",
@@ -130,8 +128,7 @@ SIDE_CHANGE = Rule(
     "rocker.",
     "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing: the reduced "
     "inertia is stationary there, and so is the rocker's speed. Where that is its minimum, since the slider's "
-    "mass slows "
-    "it, take a lighter slider or more inertia of the rocker.",
+    "mass slows it, take a lighter slider or more inertia of the rocker.",
     "k_mid within the slot; c(k_mid) = 0 where d2s/dphi2 = 0 at mid-swing",
     "own derivation",
     ("side-change",),
@@ -186,8 +183,7 @@ CAM_CLEARANCE = Rule(
     "Bodies would collide; a cam and a shaft cannot be in the same position.",
     "Put the cams into planes: separate, turn cam.second.direction away, or make the centre distances larger.",
     "|O1 O2| - (rho_max - r_p) - shaft_radius >= limits.cam_gap; in one plane the minimum distance of "
-    "both contours over "
-    "a revolution, and roller against the circle of the other cam",
+    "both contours over a revolution, and roller against the circle of the other cam",
     "wide-swing dissertation, figure 2; own derivation",
     ("cam-clearance",),
     ("cam.second.direction", "cam.second", "cam"),

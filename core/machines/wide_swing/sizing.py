@@ -310,8 +310,7 @@ def free_stretch(free: float, arm: float, shortest: float, stroke: float) -> flo
     if left < 0.0:
         raise NoSolution(
             f"free length of the spring: {unlike(free, arm * shortest)} mm (limit <= {unlike(arm * shortest, free)} "
-            "mm, "
-            "distance of the pins at mid-swing: it is slack there)",
+            "mm, distance of the pins at mid-swing: it is slack there)",
             key="unloader.free_length",
             fix=f"set unloader.free_length to at most {safely_below(arm * shortest)} mm",
         )

@@ -33,8 +33,7 @@ from gearlink.core.parts.linkages.slider_crank.sweep import slider
 _NEWTON_STEPS = 60
 _TOO_SHARP = (
     "the slider changes the inertia of the rocker too sharply within the stroke\nmove slider.middle_angle away from "
-    "the "
-    "position where rod and arm are collinear, or lengthen slider.rod"
+    "the position where rod and arm are collinear, or lengthen slider.rod"
 )
 _GRID = np.linspace(0.0, math.pi, 257)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
@@ -159,7 +158,7 @@ class SliderLaw:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.rocker_share <= 1.0:
-            raise NoSolution(f"share of the rocker in the inertia: {self.rocker_share:.4g} (above 0, below 1)")
+            raise NoSolution(f"share of the rocker in the inertia: {self.rocker_share:.4g} (0 to 1)")
         if abs(self._stroke) <= 1e-12 * self.drive.crank:
             raise NoSolution("the slider ends where it began", fix="turn the arm's mid-swing away from the slide line")
         if self.rocker_share == 0.0:
