@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.planar.spec import CamPair
     from gearlink.core.machines.planar.structure import Line, LineJoint, Structure
     from gearlink.core.machines.planar.system import Jets
-    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.numerics.arrays import Mask, Points, Reals
 
 _DEGREE = math.pi / 180.0
 _STEP = 1e-6  # of the maximum velocity: what laws that meet leave
@@ -80,8 +80,8 @@ class Lift(NamedTuple):
         if k > 3:
             raise AssertionError(f"a law of motion has no derivative of order {k}")
         a = [self.angle(jets, j) for j in range(1, k + 1)]
-        back = k > 1 and float(a[0][0]) < 0.0  # the law is run through backwards
-        s = self.motion.evaluate(self.angle(jets, 0), k, side=-jets.side if back else jets.side)
+        phi, back = self.angle(jets, 0), a[0] < 0.0 if k > 1 else np.zeros(1, dtype=bool)
+        s = _on_side(lambda side: self.motion.evaluate(phi, k, side=side), back, jets.side)
         if k == 0:
             return self.share * s[0]
         found = s[1] * a[k - 1]
@@ -201,8 +201,9 @@ class Contact(NamedTuple):
             p, p1 = (each / self.size for each in self.cam.pitch(phi, 1))
             normal = 1j * sense * p1 / np.abs(p1)
             return [(np.conj(normal) * (z - p)).real], [phi]
-        forward = self._sense(jets, phi)
-        p, p1, *more = (each / self.size for each in self.cam.pitch(phi, 3 if k == 3 else 2, jets.side * forward))
+        back = (np.conj(self.cam.pitch(phi, 1)[1]) * jets.seen(self.line, 1)).real < 0.0
+        pitch = _on_side(lambda side: self.cam.pitch(phi, 3 if k == 3 else 2, side), back, jets.side)
+        p, p1, *more = (each / self.size for each in pitch)
         v = np.abs(p1)
         along, normal = p1 / v, 1j * sense * p1 / v
         rates = [math.factorial(j) * jets.seen(self.line, j) for j in range(1, k + 1)]
@@ -224,11 +225,6 @@ class Contact(NamedTuple):
                 nu[2] + mu * (turned * tau[1] + (bend * angle[1] ** 2 + turn * angle[2]) * tau[0] + turned * next_tau)
             )
         return d, angle
-
-    def _sense(self, jets: Jets, phi: Reals) -> int:
-        """Which way the cam angle goes with the input."""
-        p1 = self.cam.pitch(phi[:1], 1)[1]
-        return 1 if (np.conj(p1[0]) * jets.seen(self.line, 1)[0]).real >= 0.0 else -1
 
     def bounds(self, jets: Jets) -> Reals:
         """K, K', M of the row, less those of the line."""
@@ -530,6 +526,16 @@ class CamJoint:
         assert self._pivot is not None
         at, own = self._pivot
         return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self.ahead.conjugate())
+
+
+def _on_side(evaluate: Callable[[int], list[Any]], back: Mask, side: int) -> list[Any]:
+    """What a law is just after inputs (side 1) or just before them; where it is run through backwards, on the other."""
+    if back.all():
+        return evaluate(-side)
+    ahead = evaluate(side)
+    if not back.any():
+        return ahead
+    return [np.where(back, other, each) for other, each in zip(evaluate(-side), ahead, strict=True)]
 
 
 def _turned(arm: complex, a: Sequence[Reals]) -> list[Points]:

@@ -15,7 +15,9 @@ from gearlink.core.machines.disc_cam.loads import DiscCamLoads
 from gearlink.core.machines.disc_cam.spec import DiscCamSpec
 from gearlink.core.machines.planar.design import PlanarMechanism
 from gearlink.core.machines.planar.loads import PlanarLoads
+from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.spec import PlanarSpec
+from gearlink.core.machines.planar.system import Jets
 
 MOTION = [{"to": 110, "lift": 18}, {"to": 170}, {"to": 300, "lift": 0, "law": "polynomial-345"}, {"to": 360}]
 STROKE = [{"to": 110, "lift": 9, "law": "cycloidal"}, {"to": 170}, {"to": 300, "lift": 0}, {"to": 360}]
@@ -176,6 +178,26 @@ def test_a_cam_on_a_rocker_moves_a_chain() -> None:
     rows = course.derivatives(each.coefficient, course.jets(np.linspace(0.0, course.end, 4001), 2), 2)[2]
     assert design.raw("lever.acceleration_ratio_max") >= rows.max() - 1e-12
     assert design.raw("lever.acceleration_ratio_max") == pytest.approx(rows.max(), rel=1e-3)
+
+
+def test_a_law_run_through_backwards_has_the_side_of_the_input() -> None:
+    """A cam as cut, swinging over the end of a rise that stops with an acceleration: both ways at once, against places
+    a little later and earlier."""
+    motion = [{"law": "simple-harmonic", **each} if "lift" in each else each for each in MOTION]
+    cams = {"cam": {**CHAIN["cams"]["cam"], "phase": 75, "motion": motion}}
+    design = PlanarMechanism(PlanarSpec.model_validate({**CHAIN, "cams": cams}))
+    course, system, lever = design.course, PlanarSamples(design).system, design.structure.numbers["lever"]
+    angles = course.at_start.lifts["cam"].angle(course.jets(np.array(course.joints), 1), 0)
+    q = np.array(course.joints)[np.abs(angles - math.radians(110.0)) < 1e-9]
+    assert q.size == 2  # there and back
+
+    def bend(places: Any, side: int) -> Any:
+        near = course.jets(places, 0)
+        return system.onward(Jets(near.x, near.t, side=side), course.walked(places), 2).t[2][:, lever]
+
+    for side in (1, -1):
+        assert bend(q, side) == pytest.approx(bend(q + side * 1e-7, side), abs=1e-7)
+    assert np.abs(bend(q, 1) - bend(q, -1)).min() > 0.01
 
 
 @pytest.mark.parametrize(
