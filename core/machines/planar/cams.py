@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from gearlink.core.machines.planar.structure import Line, LineJoint, Structure
     from gearlink.core.machines.planar.system import Jets
     from gearlink.core.numerics.arrays import Mask, Points, Reals
+
+Array = TypeVar("Array", "Reals", "Points")
 
 _DEGREE = math.pi / 180.0
 _STEP = 1e-6  # of the maximum velocity: what laws that meet leave
@@ -528,7 +530,7 @@ class CamJoint:
         return np.asarray(own + (place + self.axis - at) * np.exp(-1j * s) * self.ahead.conjugate())
 
 
-def _on_side(evaluate: Callable[[int], list[Any]], back: Mask, side: int) -> list[Any]:
+def _on_side(evaluate: Callable[[int], Sequence[Array]], back: Mask, side: int) -> Sequence[Array]:
     """What a law is just after inputs (side 1) or just before them; where it is run through backwards, on the other."""
     if back.all():
         return evaluate(-side)
