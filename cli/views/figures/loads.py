@@ -244,6 +244,7 @@ _LOCI = "Pins: force on the second link in the axes of the frame, a mark every 3
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK, style.GREY)
 _MOST_CURVES = 5
 _XY = ("_x", "_y")
+_ROUNDING = 1e-12  # of the largest joint force
 _SAME = 1e-9
 """Of a force: joints whose forces differ by less are drawn once."""
 _LEAST_JUMP, _STEEPER = 0.08, 6.0
@@ -362,6 +363,19 @@ def _columns(design: LoadsDesign, table: str) -> dict[str, Any]:
     return {name: np.asarray(values) for name, values in zip(found.columns, found.data, strict=True)}
 
 
+def _forces_of(design: LoadsDesign, table: str = "joints") -> dict[str, Any]:
+    """Columns of the joints, or of the frame, with 0 for what is rounding beside the largest joint force."""
+    import numpy as np
+
+    columns = _columns(design, table)
+    if design.locked:  # by friction: the joints have no forces
+        return columns
+    joints = columns if table == "joints" else _columns(design, "joints")
+    sizes = (float(np.abs(joints[name]).max()) for name in design.pins if name in joints)
+    rounding = _ROUNDING * max(sizes, default=0.0)
+    return {name: np.where(np.abs(values) < rounding, 0.0, values) for name, values in columns.items()}
+
+
 def _closed(values: Any) -> Any:
     import numpy as np
 
@@ -471,7 +485,7 @@ def _words(names: Sequence[str]) -> str:
 def _forces(axes: Axes, design: LoadsDesign, groups: Sequence[Sequence[str]], *, first: bool) -> None:
     """Magnitude of the force of some pins, with the maximum of each."""
     _over_turn(axes, design, "Joint forces" if first else "Joint forces, smaller ones", "force [N]")
-    columns = _columns(design, "joints")
+    columns = _forces_of(design)
     for names, color, line in zip(groups, cycle(_COLORS), cycle(_LINES)):
         values = columns[names[0]]
         label = f"{_words(names)}, ≤ {float(f'{values.max():.3g}'):g} N"
@@ -509,18 +523,21 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
 
 def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
     """Force on the second link of a joint as a curve, round the joint."""
-    columns = _columns(design, "joints")
+    columns = _forces_of(design)
     names = next(names for names in _alike(design, columns, _XY) if name in names)
     title = f"Pin{'s' if len(names) > 1 else ''} {_words(names)}"
-    _locus(axes, title, columns[f"{name}_x"], columns[f"{name}_y"], style.BLUE)
-    _angle_marks(axes, columns, columns[f"{name}_x"], columns[f"{name}_y"])
+    _round(axes, title, columns, f"{name}_x", f"{name}_y", style.BLUE)
 
 
 def _shaking(axes: Axes, design: LoadsDesign) -> None:
-    columns = _columns(design, "frame")
-    _locus(axes, "Shaking force", columns["force_x"], columns["force_y"], style.RED)
-    if any(columns["force_x"]) or any(columns["force_y"]):
-        _angle_marks(axes, columns, columns["force_x"], columns["force_y"])
+    _round(axes, "Shaking force", _forces_of(design, "frame"), "force_x", "force_y", style.RED)
+
+
+def _round(axes: Axes, title: str, columns: dict[str, Any], x: str, y: str, color: str) -> None:
+    """A force about its joint with marks of the input angle, or that it is 0."""
+    _locus(axes, title, columns[x], columns[y], color)
+    if columns[x].any() or columns[y].any():
+        _angle_marks(axes, columns, columns[x], columns[y])
     else:
         axes.text(0.5, 0.62, "0 N throughout", transform=axes.transAxes, fontsize=8, ha="center")
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -195,6 +196,10 @@ def _runs(design: Any, name: str) -> list[tuple[str, float, float]]:
     return [(name, start, start + duration) for name, start, duration in runs]
 
 
+_NAME_WIDTH, _RELATION_WIDTH = 16, 54
+"""Characters in a line of a member's name beside its row, and of a relation beside the circle."""
+
+
 def _called(member: str) -> str:
     """A member as it is called on sheets."""
     return member.replace("_", " ")
@@ -218,7 +223,7 @@ def _line(axes: Axes, design: Any) -> None:
         axes.plot(_degrees(design), bottom + _BAR + 0.1 + 0.6 * share, color=style.BLUE, linewidth=1.6, label=name)
         _bars(axes, design, name, bottom)
         low, high = (0.0 if abs(end) < _SAMPLED * (high - low) else end for end in (low, high))
-        labels.append(f"{_called(name)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
+        labels.append(f"{fill(_called(name), _NAME_WIDTH)}\n{style.number(low, 4)} to {style.number(high, 4)}{unit}")
     for relation, margin in design.margins:
         _relation(axes, design, rows, relation, margin)
     style.curves(axes, "machine angle [deg]", "")
@@ -351,7 +356,8 @@ def _list_of_relations(axes: Any, design: Any) -> None:
     for relation, margin in design.margins:
         unit = "" if isinstance(relation, Value) else "°"
         words = f"{relation.text}: {style.number(margin, 4)}{unit}"
-        axes.plot([], [], color=_STATUS[design.status_of(relation, margin)], linewidth=3, label=words)
+        axes.plot([], [], color=_STATUS[design.status_of(relation, margin)], linewidth=3,
+                  label=fill(words, _RELATION_WIDTH, subsequent_indent="  "))  # fmt: skip
     if design.margins:
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=8, title="margins")
 

@@ -75,6 +75,14 @@ def test_a_locked_machine_has_a_sheet_of_what_is_left(name: str) -> None:
     assert _axes(figure, "Shaking force [N]").lines
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("title", ["Pins A, D [N]", "Shaking force [N]"])
+def test_what_is_rounding_beside_the_joint_forces_is_no_force(title: str) -> None:
+    """Two discs opposite each other leave no force on the shaft; what is left is 1e-14 of that on their bearings."""
+    _, figure = sheet("loaded_cycloidal", "loads")
+    assert [text.get_text() for text in _axes(figure, title).texts] == ["0 N throughout"]
+
+
 def test_curves_of_a_panel_are_told_apart_in_grey() -> None:
     """No two neighbours have the same line, and no two curves the same line and colour."""
     _, figure = sheet("loaded_feed", "loads")

@@ -426,3 +426,9 @@ def test_numbers_of_a_path_that_coincide_are_one_text() -> None:
     assert texts == ["0° 90° 180° 270°"]
     scene = shown.build(design("crank_rocker_links"), np.zeros(1), shown.wishes("path:B"))
     assert [mark.text for mark in scene.marks if "°" in mark.text] == ["0°", "90°", "180°", "270°"]
+
+
+@pytest.mark.slow
+def test_a_joint_of_two_letters_keeps_them_on_a_small_drawing() -> None:
+    small = vector_sheet.draw(design("five_bar_path"), [40.0]).axes[0]
+    assert {"A", "B", "C, M", "D", "E"} <= {text.get_text() for text in small.texts}
