@@ -326,7 +326,7 @@ def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> 
 
 
 def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
-    """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `loop._rates`.
+    """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `loop.rates`.
 
     Rows used: 1/n^2 = one m and 1/R = one r instead of n and R, g' and h.
     """
