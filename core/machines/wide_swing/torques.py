@@ -311,9 +311,8 @@ class TorsionResponse:
         decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
         waves = math.pi * np.arange(len(self.series.coefficients))
         forced = self.series.coefficients * self.stiffness**2 / (self.stiffness**2 - waves**2 + 2j * decay * waves)
-        result = np.zeros_like(k)
-        for wave, each in zip(waves.tolist(), forced.tolist(), strict=True):
-            result += (each * np.exp(1j * wave * k)).real
+        # the waves are powers of the first: a product each, and no sine
+        result: Reals = np.polynomial.polynomial.polyval(np.exp(1j * math.pi * k), forced).real
         cosine = float(forced.real.sum())
         sine = float((1j * waves * forced).real.sum()) + decay * cosine
         result -= np.exp(-decay * k) * (cosine * np.cos(free * k) + sine / free * np.sin(free * k))
