@@ -36,7 +36,7 @@ def show_key_results(report: Report, options: Options) -> None:
     if report.tables or not passed:
         _show_rest(report, options)
     elif report.checks:
-        verdict = f"{checks_of(report)}: {len(report.checks)} pass"
+        verdict = f"{report.counted}: {len(report.checks)} pass"
         print(f"{_GREEN}{verdict}{_PLAIN}" if coloured else verdict)
 
 
@@ -111,12 +111,3 @@ def _more(report: Report) -> str:
         *([amount(len(report.left_out), "table" if quantities > 0 else "more table")] if report.left_out else []),
     ]
     return ", ".join(parts)
-
-
-def checks_of(report: Report) -> str:
-    """What the verdict counts: with tolerances checks of the design as drawn, and of a yield that has a target."""
-    if report.command != "tolerance":
-        return "checks"
-    if any(check.name == "target-yield" for check in report.checks):
-        return "checks of the nominal design and of the yield"
-    return "checks of the nominal design (no tolerance.target_yield)"

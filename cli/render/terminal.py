@@ -19,7 +19,6 @@ from rich.text import Text
 
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible, visible_lines
-from gearlink.cli.render.key_results import checks_of
 from gearlink.cli.render.numbers import drawn, number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.core.base.report import Check, Quantity, Report, Table
 
@@ -69,7 +68,7 @@ def show_findings(report: Report, console: Console, *, passed: bool = True) -> N
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
         style = _STYLE[next(s for s, n in counts.items() if n)]
-        console.print(Text(f"{checks_of(report)}: {verdict}", style=style))
+        console.print(Text(f"{report.counted}: {verdict}", style=style))
 
 
 def console_for(options: Options) -> Console:

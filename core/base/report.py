@@ -311,7 +311,6 @@ class Table:
         return found
 
     def _repr_html_(self) -> str:
-
         return table_as_html(self)
 
     @property
@@ -368,13 +367,21 @@ class Report:
     left_out: tuple[str, ...] = ()
 
     def _repr_html_(self) -> str:
-
         return report_as_html(self)
 
     @property
     def ok(self) -> bool:
         """False where a check fails."""
         return all(check.status != "fail" for check in self.checks)
+
+    @property
+    def counted(self) -> str:
+        """What a verdict counts: with tolerances checks of the design as drawn, and of a yield that has a target."""
+        if self.command != "tolerance":
+            return "checks"
+        if any(check.name == "target-yield" for check in self.checks):
+            return "checks of the nominal design and of the yield"
+        return "checks of the nominal design (no tolerance.target_yield)"
 
 
 def _read_only(column: Column) -> Column:
