@@ -199,7 +199,7 @@ def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
     try:
         return Family(linkage, 0.0, balanced_eccentricity(r1, r3, r5), min(b, c))
     except NoSolution as error:
-        return Family(linkage, 0.0, None, min(b, c), error.message)
+        return Family(linkage, 0.0, None, min(b, c), f"{error.message}\n{error.fix}")
 
 
 def solved(
@@ -481,7 +481,7 @@ def _ring_balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family
     def linkage(e: float) -> FourBar:
         return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
 
-    why = "these gears have no balanced linkage whose output steps back\ngive crank or frame"
+    why = "these gears have no balanced linkage whose output steps back\nomit balanced, give crank or frame"
     return _rising(r1, r3, r5, linkage, min(b, c, abs(r1)), why)
 
 

@@ -426,7 +426,7 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
                 f"no balanced linkage with a momentary dwell has gears of {short(2 * r1)}, {short(2 * r3)} and "
                 f"{short(2 * r5)} mm reference diameter"
             ),
-            fix="give crank or frame",
+            fix="omit balanced, give crank or frame",
         )
     return math.sqrt(square)
 
@@ -597,7 +597,9 @@ def _ring_balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     found, square = shape(r1, r3, r5), (r1 + r3) ** 2 + (r3 + r5) ** 2
     crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
     if not found.low**2 < crank2 < min(found.high**2, (r1 + r3) ** 2, (r3 + r5) ** 2):
-        raise NoSolution("these gears have no balanced linkage with a momentary dwell", fix="give crank or frame")
+        raise NoSolution(
+            "these gears have no balanced linkage with a momentary dwell", fix="omit balanced, give crank or frame"
+        )
     return math.sqrt(crank2)
 
 

@@ -554,16 +554,7 @@ class _Meshes(PitchPair):
 class ShapedRings(ShapedRing):
     """Rings of many shifts as one pinion cutter shapes them."""
 
-    @cached_property
-    def mesh(self) -> PitchPair:
-        """Cutter and rings while the last cut is taken."""
-        return _Meshes(
-            module=self.module,
-            teeth=(self.cutter.teeth, self.teeth),
-            pressure_angle=self.pressure_angle,
-            helix_angle=self.helix_angle,
-            given_shift=(self.cutter.shift, self.shift),
-        )
+    meshes: ClassVar[type[PitchPair]] = _Meshes
 
     @cached_property
     def fillet_radius(self) -> Any:

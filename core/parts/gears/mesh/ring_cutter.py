@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import safely_below
@@ -51,6 +51,8 @@ class ShapedRing:
         ISO 21771; own derivation of the form radius
     """
 
+    meshes: ClassVar[type[PitchPair]] = PitchPair
+
     module: float
     teeth: int
     shift: float
@@ -85,7 +87,7 @@ class ShapedRing:
     @cached_property
     def mesh(self) -> PitchPair:
         """Cutter and ring while the last cut is taken."""
-        return PitchPair(
+        return self.meshes(
             module=self.module,
             teeth=(self.cutter.teeth, self.teeth),
             pressure_angle=self.pressure_angle,

@@ -16,7 +16,7 @@ import numpy as np
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.ring_cutter import ShapedRing
-from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, involute, roll_at
 
 Curve = Callable[[Reals], Points]
 
@@ -85,9 +85,6 @@ class RingProfile:
             return self.root
         return min(self.root, self.base / math.cos(inverse_involute(left)))
 
-    def _roll(self, radius: float) -> float:
-        return math.sqrt(max(0.0, (radius / self.base - 1.0) * (radius / self.base + 1.0)))
-
     def _beside(self, roll: float) -> float:
         """Polar angle of the flank from the middle of the space [rad]."""
         return math.pi / self.teeth - (self.at_base + roll - math.atan(roll))
@@ -100,7 +97,7 @@ class RingProfile:
 
     def pieces(self) -> list[tuple[str, Curve, float, float]]:
         """Names and curves from the middle of the space to the middle of the tooth, with their parameters' ranges."""
-        high = self._roll(self.deepest if self.shaped is None else self.shaped.form_radius)
+        high = roll_at((self.deepest if self.shaped is None else self.shaped.form_radius) / self.base)
         fillet: list[tuple[str, Curve, float, float]] = []
         at_root = self._beside(high)
         if self.shaped is not None:

@@ -18,7 +18,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.tooth.involute import inverse_involute
+from gearlink.core.parts.gears.tooth.involute import inverse_involute, roll_at
 from gearlink.core.parts.gears.tooth.root_fillet import RackCutRoot
 from gearlink.core.parts.gears.tooth.tools import RackTool, full_rounding
 
@@ -254,7 +254,7 @@ class ToothProfile:
 
     def pieces(self) -> list[tuple[Curve, float, float]]:
         """The curves from the middle of the space to the middle of the tooth, with the range of their parameters."""
-        low, high = _roll_at(self._form / self._base), _roll_at(self._top / self._base)
+        low, high = roll_at(self._form / self._base), roll_at(self._top / self._base)
         tooth_edge = self._at_base + high - math.atan(high)
         return [
             (self.root_arc, 0.0, self._u / self._r),
@@ -341,8 +341,3 @@ def _chords(curve: Curve, low: float, high: float, chord_error: float) -> Points
         if np.all(area <= chord_error * np.abs(chord)):
             return fine[::2]
         count *= 2
-
-
-def _roll_at(ratio: float) -> float:
-    """Roll angle tan(alpha_R) from the radius over the base radius."""
-    return math.sqrt(max((ratio - 1.0) * (ratio + 1.0), 0.0))

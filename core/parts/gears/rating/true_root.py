@@ -34,7 +34,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile
-from gearlink.core.parts.gears.tooth.involute import involute
+from gearlink.core.parts.gears.tooth.involute import involute, roll_at
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
@@ -163,10 +163,6 @@ class RootContour:
     def _sign(self) -> float:
         return -1.0 if self.ring else 1.0
 
-    def roll_at(self, radius: float) -> float:
-        """Roll angle tan(alpha) of the flank at a radius."""
-        return math.sqrt(max(0.0, (radius / self.base - 1.0) * (radius / self.base + 1.0)))
-
     def flank(self, roll: Any) -> Any:
         """The involute over its roll angle."""
         sign = self._sign
@@ -206,8 +202,8 @@ class RootContour:
 
     def load_patch(self, radius: float) -> tuple[float, float]:
         """Minimum and maximum roll angle of the load on the flank about a radius."""
-        low, high = sorted((self.roll_at(self.form), self.tip_corner[1]))
-        middle = min(max(self.roll_at(radius), low), high)
+        low, high = sorted((roll_at(self.form / self.base), self.tip_corner[1]))
+        middle = min(max(roll_at(radius / self.base), low), high)
         # arc length of the involute: base roll^2/2
         half = _LOAD_HALF / self.base
         ends = [math.sqrt(max(0.0, middle * middle + 2.0 * side * half)) for side in (-1.0, 1.0)]
@@ -219,7 +215,7 @@ class RootContour:
         """Names, curves and places of panels from below the tooth counter-clockwise to the middle of its tip."""
         stand = self.standing
         begin, end = self.load_patch(load_radius)
-        form, radius = self.roll_at(self.form), self.tip_corner[0]
+        form, radius = roll_at(self.form / self.base), self.tip_corner[0]
         roll, center = self.tip_corner[1], self.tip_corner[2]
         flank = [*_between(form, begin if form < roll else end, _FLANK)]
         patch = np.linspace(begin, end, _LOAD_PANELS + 1)

@@ -98,6 +98,19 @@ def _inverse_near_pole(v: float) -> float:
     return math.atan(v + alpha)
 
 
+def roll_at(ratio: float) -> float:
+    """Roll angle tan(alpha) of a flank from the radius over the base radius; 0 below the base circle.
+
+    Example
+        >>> round(roll_at(1.25), 12), roll_at(0.99)
+        (0.75, 0.0)
+
+    Source
+        ISO 21771-1:2024: cos(alpha) = r_b/r
+    """
+    return math.sqrt(max((ratio - 1.0) * (ratio + 1.0), 0.0))
+
+
 def involute_rise(alpha: float, rise: float) -> float:
     """Difference of the involutes of two pressure angles, from the first angle and their difference.
 
