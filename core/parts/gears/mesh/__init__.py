@@ -1,4 +1,4 @@
 """Two gears in mesh: distances, shifts and tips, contact, rings, what a pair must satisfy to exist.
 
-Begin with `pair`; `pair_sweep` is the same for arrays.
+Begin with `pair`; `pair_sweep` is the same for arrays, rings included.
 """
