@@ -198,7 +198,9 @@ class FollowerCams:
             low, high = max(low, least), min(high, most)
             if low > high:
                 message = "no start angle keeps the pressure angle of both rollers"
-                raise NoSolution(message, key="cam.size", fix="raise the limit, or change return_roller.angle")
+                raise NoSolution(
+                    message, key="cam.size", fix="raise cam.size.pressure_angle, or change return_roller.angle"
+                )
         start = first_from_which(
             lambda psi: self._room(psi, follower.center_distance),
             low,

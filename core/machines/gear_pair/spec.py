@@ -95,7 +95,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             message = "a pinion cutter goes with a ring (negative teeth)\nomit it, or give tool"
             raise PydanticCustomError("GL111", message, {"key": "cutter"})
         if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
-            message = "a cutter of {cutter} teeth does not go into a ring of {ring}\ntake a smaller one"
+            message = "a cutter of {cutter} teeth does not go into a ring of {ring}\nset cutter.teeth below {ring}"
             raise PydanticCustomError(
                 "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
             )

@@ -288,7 +288,12 @@ class GenevaDrive(RealSpeed, Design):
 
         step, half, pitch = self.drive.step, math.radians(self.spec.compare_tolerance), TURN / self.spec.pins
         if half >= 0.5 * step:
-            raise NoSolution("the tolerance takes in the whole step", key="compare_tolerance", fix="give a smaller one")
+            most = safely_below(math.degrees(0.5 * step))
+            raise NoSolution(
+                f"compare_tolerance: {short(self.spec.compare_tolerance)} deg (limit < {most} deg, half a step)",
+                key="compare_tolerance",
+                fix=f"set compare_tolerance below {most} deg",
+            )
         sine, share, other = law("modified-sine"), self.motion_angle, self.compared
         left = bracketed_root(lambda x: sine.evaluate(x, 0)[0] - half / step, 0.0, 0.5)
         rows = [

@@ -165,7 +165,7 @@ def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: fl
     if feasible.size == 0:
         raise NoSolution(
             "no cam centre keeps the pressure angle within its limit for the whole revolution",
-            fix="raise the limit, lengthen the phases or reduce the swing",
+            fix="raise the limit of the pressure angle, lengthen the phases or reduce the swing",
         )
     return complex(feasible[int(np.argmin(np.abs(feasible - target)))])
 
@@ -360,7 +360,7 @@ class Rocking(NamedTuple):
 
 def _nowhere() -> NoSolution:
     message = "no cam keeps this pressure angle at this center_distance"
-    return NoSolution(message, key="cam.size", fix="raise the limit, or move the pivot")
+    return NoSolution(message, key="cam.size", fix="raise cam.size.pressure_angle, or change follower.center_distance")
 
 
 def first_from_which(least: Callable[[float], float], low: float, high: float, key: str, *, steps: int = 1) -> float:
@@ -379,7 +379,9 @@ def first_from_which(least: Callable[[float], float], low: float, high: float, k
         if least(place) >= 0.0:
             return bracketed_root(least, before, place)
         before = place
-    raise NoSolution("no cam keeps this curvature_radius here", key=key, fix="lower it, or lengthen the motion")
+    raise NoSolution(
+        "no cam keeps this curvature_radius here", key=key, fix=f"lower {key}.curvature_radius, or lengthen the motion"
+    )
 
 
 def flat_base_radius(motion: FollowerMotion, radius: float) -> float:

@@ -25,6 +25,7 @@ SPLITS = ("equal", "sliding", "tip", "root", "undercut")
 _POINTS = 60
 _WIDEST = 10.0
 _APART = 1e-3
+_GIVEN = "give shift_split as a number, the profile shift of gear 1"
 
 
 class Split(NamedTuple):
@@ -106,9 +107,7 @@ class Diagonal:
 
     def _require_shares(self) -> None:
         if self.pair.given_tip_radius is not None:
-            raise NoSolution(
-                "with given tip diameters sliding and contact do not change with the share", fix="give a number"
-            )
+            raise NoSolution("with given tip diameters sliding and contact do not change with the share", fix=_GIVEN)
 
     def equal_sliding(self) -> Split:
         """x_1 of equal specific sliding at both roots: rho_A2 rho_E2 = u^2 rho_A1 rho_E1.
@@ -129,7 +128,7 @@ class Diagonal:
         try:
             return Split(bracketed_root(difference, low, high), "the only share of equal sliding")
         except NoSolution:
-            raise NoSolution("no share of the shift sum makes the sliding of both gears equal") from None
+            raise NoSolution("no share of the shift sum makes the sliding of both gears equal", fix=_GIVEN) from None
 
     def equal_tips(self) -> Split:
         """x_1 of equal tip thickness.
@@ -148,7 +147,7 @@ class Diagonal:
         values = [difference(first) for first in grid]
         falling = [k for k in sign_changes(values) if values[k] >= 0.0]
         if not falling:
-            raise NoSolution("no share of the shift sum makes both tips equally thick")
+            raise NoSolution("no share of the shift sum makes both tips equally thick", fix=_GIVEN)
         middle = min(falling, key=lambda k: abs(grid[k] - self.shift_sum / 2.0))
         return Split(bracketed_root(difference, grid[middle], grid[middle + 1]), "equal tips")
 
@@ -216,7 +215,9 @@ class Diagonal:
 
         grid = [first for k in range(_POINTS + 1) if stresses(first := low + (high - low) * k / _POINTS) is not None]
         if not grid:
-            raise NoSolution("no share of the shift sum leaves both gears full tips and a root section of ISO 6336-3")
+            raise NoSolution(
+                "no share of the shift sum leaves both gears full tips and a root section of ISO 6336-3", fix=_GIVEN
+            )
         roots = roots_on(ratio, grid)
         if roots:
             count = "the only share" if len(roots) == 1 else f"the better of {len(roots)} shares"
@@ -226,7 +227,8 @@ class Diagonal:
         first, _ = maximum(lambda x: -greatest(x), *ends)
         if not all(whole(first + off * _APART) for off in (-1.0, 1.0)):
             raise NoSolution(
-                "no share of equal root stress: the maximum stress is at its minimum where a tooth becomes pointed"
+                "no share of equal root stress: the maximum stress is at its minimum where a tooth becomes pointed",
+                fix=_GIVEN,
             )
         return Split(first, "no share of equal root stress; this one has the lowest maximum")
 

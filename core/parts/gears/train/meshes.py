@@ -99,7 +99,8 @@ class Train:
     def _span(self, place: Place, gear: int) -> int:
         spans, at, teeth = self.keys.span_teeth, place.gears[gear], abs(place.teeth[gear])
         if spans[at] > teeth:
-            raise NoSolution(f"a gear of {teeth} teeth has no span over {spans[at]}", key=f"span_teeth[{at}]")
+            words, key = f"a gear of {teeth} teeth has no span over {spans[at]}", f"span_teeth[{at}]"
+            raise NoSolution(words, key=key, fix=f"set {key} to at most {teeth}")
         found: int = spans[at]
         return found
 
@@ -107,7 +108,7 @@ class Train:
         given = self.keys.cutter
         if given.teeth >= ring:
             message = f"a cutter of {given.teeth} teeth does not go into a ring of {ring}"
-            raise NoSolution(message, key="cutter.teeth", fix="take a smaller one")
+            raise NoSolution(message, key="cutter.teeth", fix=f"set cutter.teeth below {ring}")
         return PinionCutter(**given.model_dump())
 
     def data(self, place: Place, pair: GearPair, rim: float | None = None) -> GearData:

@@ -3,9 +3,9 @@
 Frame: crank pivot D = (0, 0), crank pin E = r (cos psi, sin psi), slider F below on the line x = -e (the offset e
 is positive where the line passes to the left of D); the depth of the slider is h = -y_F.
 
-A stroke and a time ratio give the linkage with a rod, a crank or the best transmission angle. Crank r, rod L, offset e, stroke
-S, K slow over fast stroke, p = 90 deg (K - 1)/(K + 1). D and both dead centres of the slider make a triangle of the
-sides L + r, L - r and S, 2 p at D and e its height:
+A stroke and a time ratio give the linkage with a rod, a crank or the best transmission angle. Crank r, rod L,
+offset e, stroke S, K slow over fast stroke, p = 90 deg (K - 1)/(K + 1). D and both dead centres of the slider make a
+triangle of the sides L + r, L - r and S, 2 p at D and e its height:
 
     (S/2)^2 = r^2 cos^2 p + L^2 sin^2 p,   e = (L^2 - r^2) sin(2 p)/S
 
