@@ -114,11 +114,17 @@ class Function(Spec):
                 )
             raise PydanticCustomError("GL106", "a function needs {missing}", {"key": missing, "missing": missing})
         if (self.name == "power") != (self.exponent is not None):
-            raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
+            message = "exponent goes with power, and a power needs one\n"
+            message += "give exponent" if self.name == "power" else "omit exponent"
+            raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
         if self.x is not None and self.x[0] == self.x[1]:
             raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
         if self.output_swing == 0.0:
-            raise PydanticCustomError("GL108", "an output that is at rest is no function", {"key": "output_swing"})
+            raise PydanticCustomError(
+                "GL108",
+                "an output that is at rest is no function\ngive output_swing above or below 0",
+                {"key": "output_swing"},
+            )
         return self
 
 

@@ -91,11 +91,19 @@ class CycloidalReducerSpec(DrivenSpec):
     def _no_loops(self) -> CycloidalReducerSpec:
         most = self.pin_circle_radius / self.pins
         if self.eccentricity >= most:
-            message = "the lobes have loops: eccentricity must lie below pin_circle_radius/pins, {most} mm"
-            raise PydanticCustomError("GL111", message, {"key": "eccentricity", "most": safely_below(most)})
-        if self.pin_radius >= self.pin_circle_radius - self.eccentricity:
-            message = "a pin of {radius} mm leaves no disc: pin_radius below pin_circle_radius less eccentricity"
-            raise PydanticCustomError("GL111", message, {"key": "pin_radius", "radius": f"{self.pin_radius:g}"})
+            message = (
+                "the lobes have loops: eccentricity {given} mm (limit < {most} mm, pin_circle_radius/pins)\n"
+                "set eccentricity below {most} mm"
+            )
+            words = {"key": "eccentricity", "given": f"{self.eccentricity:g}", "most": safely_below(most)}
+            raise PydanticCustomError("GL111", message, words)
+        if self.pin_radius >= (most := self.pin_circle_radius - self.eccentricity):
+            message = (
+                "no disc is left: pin_radius {given} mm (limit < {most} mm, pin_circle_radius - eccentricity)\n"
+                "set pin_radius below {most} mm"
+            )
+            words = {"key": "pin_radius", "given": f"{self.pin_radius:g}", "most": safely_below(most)}
+            raise PydanticCustomError("GL111", message, words)
         if self.friction is not None and self.friction.bearing > 0.0 and self.bearing_radius is None:
             message = "friction of the bearing acts at its radius\ngive bearing_radius (mm)"
             raise PydanticCustomError("GL106", message, {"key": "bearing_radius"})

@@ -45,5 +45,7 @@ class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):
     def _has_a_track(self) -> CylindricalCamSpec:
         if self.cam.depth >= self.cam.radius:
             words = {"key": "cam.depth", "depth": f"{self.cam.depth:g}", "radius": f"{self.cam.radius:g}"}
-            raise PydanticCustomError("GL111", "depth {depth} mm is not below radius {radius} mm", words)
+            raise PydanticCustomError(
+                "GL111", "depth: {depth} mm (limit < {radius} mm, radius)\nset cam.depth below {radius} mm", words
+            )
         return self

@@ -219,10 +219,10 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if self.is_flat:
             wanted, other = other, wanted
         if (given := getattr(cam, other)) is not None:
-            message = f"a flat face has base_radius: {given:g} mm"
+            message = f"{other} goes with a roller\ngive cam.base_radius instead"
             if not self.is_flat:
                 whole = given + getattr(self.follower, "roller_radius", 0.0)
-                message = f"a roller has prime_radius, {given:g} mm and its radius: {whole:g}"
+                message = f"{other} goes with a flat face\ngive cam.prime_radius: {whole:g} (with the roller's radius)"
             raise _refuse(f"cam.{other}", message)
         if (getattr(cam, wanted) is None) == (cam.size is None):
             both = cam.size is not None
@@ -240,9 +240,15 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
         if isinstance(follower, TranslatingRoller):
             if follower.offset == "best":
                 if size is None:
-                    raise _refuse("follower.offset", "offset: best goes with cam.size")
+                    raise _refuse(
+                        "follower.offset", "offset: best goes with cam.size\ngive cam.size, or a number in mm"
+                    )
             elif self.cam.prime_radius is not None and abs(follower.offset) >= self.cam.prime_radius:
-                message = f"offset {follower.offset:g} mm is not below prime_radius {self.cam.prime_radius:g} mm"
+                most = self.cam.prime_radius
+                message = (
+                    f"magnitude of the offset: {abs(follower.offset):g} mm (limit < {most:g} mm, cam.prime_radius)"
+                )
+                message += f"\nset follower.offset within -{most:g} and {most:g} mm"
                 raise _refuse("follower.offset", message)
         if isinstance(follower, OscillatingRoller) and follower.center_distance is None and size is None:
             raise _refuse("follower", "give follower.center_distance, or cam.size that finds the pivot")
@@ -252,19 +258,21 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     def _closed(self) -> DiscCamSpec:
         roller = self.return_roller
         if self.is_flat and self.closure != "spring":
-            raise _refuse("closure", f"{self.closure} goes with a roller")
+            raise _refuse("closure", f"{self.closure} goes with a roller\nset closure to spring")
         if (roller is not None) != (self.closure == "conjugate"):
             message = (
-                "give return_roller: {radius: ...}" if roller is None else "return_roller needs closure: conjugate"
+                "give return_roller: {radius: ...}"
+                if roller is None
+                else "return_roller needs closure: conjugate\nset closure to conjugate, or omit return_roller"
             )
             raise _refuse("closure" if roller is None else "return_roller", message)
         if roller is not None:
             own, foreign = (("arm", "angle"), ("distance",)) if self.oscillates else ((), ("arm", "angle"))
             for key in foreign:
                 if getattr(roller, key) is not None:
-                    raise _refuse(f"return_roller.{key}", f"this follower's return roller has no {key}")
+                    raise _refuse(f"return_roller.{key}", f"this follower's return roller has no {key}\nomit it")
             if any(getattr(roller, key) is None for key in own):
-                raise _refuse("return_roller", "the return roller of a rocker has arm and angle")
+                raise _refuse("return_roller", "the return roller of a rocker has arm and angle\ngive both")
         return self
 
     def pressure_limits(self) -> tuple[float, float]:

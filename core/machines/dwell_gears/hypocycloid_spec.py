@@ -107,7 +107,7 @@ class HypocycloidDwellSpec(DrivenSpec):
     @model_validator(mode="after")
     def _rod_or_target(self) -> HypocycloidDwellSpec:
         if not self.point.ratio > 0.0:
-            message = "point.ratio is {ratio}: it must be above 0"
+            message = "point.ratio: {ratio} (limit > 0)\nset point.ratio above 0"
             raise PydanticCustomError("GL108", message, {"key": "point.ratio", "ratio": f"{self.point.ratio:g}"})
         if self.is_arm:
             for key in ("rod", "target"):

@@ -120,11 +120,15 @@ class WantedFunction(Spec):
     @model_validator(mode="after")
     def _whole(self) -> WantedFunction:
         if (self.name == "power") != (self.exponent is not None):
-            raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
+            message = "exponent goes with power, and a power needs one\n"
+            message += "give exponent" if self.name == "power" else "omit exponent"
+            raise PydanticCustomError("GL111", "{message}", {"key": "exponent", "message": message})
         if self.x[0] == self.x[1]:
             raise PydanticCustomError("GL111", "x is the same at both ends\ngive an interval", {"key": "x[1]"})
         if self.output_swing == 0.0:
-            raise PydanticCustomError("GL108", "an output at rest is no function", {"key": "output_swing"})
+            raise PydanticCustomError(
+                "GL108", "an output at rest is no function\ngive output_swing above or below 0", {"key": "output_swing"}
+            )
         return self
 
 

@@ -81,7 +81,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         for place, spanned in enumerate(self.span_teeth or ()):
             z = self.teeth[place]
             if isinstance(z, int) and spanned > abs(z):
-                message = "a gear of {z} teeth has no span over {k}"
+                message = "a gear of {z} teeth has no span over {k}\nset {key} to at most {z}"
                 key = f"span_teeth[{place}]"
                 raise PydanticCustomError("GL111", message, {"key": key, "z": abs(z), "k": spanned})
         return self
@@ -160,7 +160,7 @@ def require_teeth(teeth: list[Any]) -> None:
     """Refuse teeth that no pair has: gear 1 is external, gear 2 external, a ring (negative), or a rack."""
     first, second = teeth
     if first == "rack":
-        message = "teeth[0] must be a number: gear 1 is external, a rack is teeth: [z, rack]"
+        message = "teeth[0] must be a number: gear 1 is external\ngive the rack as gear 2: teeth: [z, rack]"
         raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
     for place, z in enumerate((first, second)):
         if z == 0 or (place == 0 and z < 0):
@@ -172,5 +172,5 @@ def require_teeth(teeth: list[Any]) -> None:
                 help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
             raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
     if second != "rack" and second < 0 and -second <= first:
-        message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"
+        message = "a ring of {ring} teeth does not take a gear of {first}\nset teeth[1] below -{first}"
         raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})

@@ -82,12 +82,14 @@ class GenevaDriveSpec(DrivenSpec):
         sign = 1.0 if self.type == "external" else -1.0
         step = 180.0 - sign * 360.0 / self.slots
         if self.pins * step > 360.0 + 1e-9:
-            message = "a step takes {step} deg of the crank: at most {most} pins fit in a revolution"
+            message = "a step takes {step} deg of the crank: at most {most} pins fit in a revolution\n"
+            message += "set pins to at most {most}"
             words = {"key": "pins", "step": short(step), "most": str(int((360.0 + 1e-9) // step))}
             raise PydanticCustomError("GL111", message, words)
         if self.pin_radius >= (crank := self._crank(sign)):
-            message = "the pin's radius {pin} mm reaches over the crank's axis: below {crank} mm"
-            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": short(crank)}
+            message = "the pin reaches over the axis of the crank: {pin} mm (limit < {crank} mm)\n"
+            message += "set pin_radius below {crank} mm"
+            words = {"key": "pin_radius", "pin": f"{self.pin_radius:g}", "crank": safely_below(crank)}
             raise PydanticCustomError("GL111", message, words)
         if self.slot_clearance >= (most := 2.0 * self._nearest(sign)):
             message = (
@@ -97,7 +99,7 @@ class GenevaDriveSpec(DrivenSpec):
             words = {"key": "slot_clearance", "given": unlike(self.slot_clearance, most), "most": safely_below(most)}
             raise PydanticCustomError("GL111", message, words)
         if self.locking_clearance and self.locking_radius is None:
-            message = "locking_clearance is that of the locking disc: give locking_radius"
+            message = "locking_clearance is that of the locking disc\ngive locking_radius"
             raise PydanticCustomError("GL111", message, {"key": "locking_clearance"})
         return self
 

@@ -42,7 +42,7 @@ class PlanetGears(TrainKeys):
         if self.ring is not None and self.ring <= self.planet:
             raise PydanticCustomError(
                 "GL111",
-                "a ring gear of {ring} teeth does not take a planet of {planet}\ngive it more teeth",
+                "a ring gear of {ring} teeth does not take a planet of {planet}\nset gears.ring above {planet}",
                 {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
             )
         require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)

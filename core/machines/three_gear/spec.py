@@ -51,7 +51,9 @@ class Gears(TrainKeys):
     def _rings_are_larger(self) -> Gears:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
             if teeth < 0 and self.idler is not None and -teeth <= self.idler:
-                message = "a ring gear of {ring} teeth does not take an idler of {idler}\ngive it more teeth"
+                message = (
+                    "a ring gear of {ring} teeth does not take an idler of {idler}\nset gears.{key} below -{idler}"
+                )
                 words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
                 raise PydanticCustomError("GL111", message, words)
         if self.i3 is not None and min(self.crank, self.output) < 0:
