@@ -1,15 +1,13 @@
 """What errors of parts do to a mechanism: their cost at an output by unit loads, and the mechanism closed exactly.
 
-What an error costs at an output is the force under a unit load there, times how far an element stands off.
+What an error costs at an output is the force under a unit load there, times how far an element stands off. The matrix
+of the forces is the transpose of that of the displacements, so one solution serves every source. An error moves the
+element that a joint has on a link; meshes touch on the flank that carries.
 
-The matrix of the forces is the transpose of that of the displacements, so one solution serves every source. An error
-moves the element that a joint has on a link; meshes touch on the flank that carries.
-
-With errors the mechanism is closed by Newton with the matrix of its forces, transposed.
-
-Every joint says how far its two elements miss each other where the links stand; teeth do so by the involutes of their
-base circles on one flank, a roller by the parabola of its cam's pitch curve. The steps take the matrix of the mechanism
-without errors, so that each leaves the share error/length of the last.
+With errors the mechanism is closed by Newton. Every joint says how far its two elements miss each other where the links
+stand; teeth do so by the involutes of their base circles on one flank, a roller by the parabola of its cam's pitch
+curve. The steps take the transposed matrix of the forces of the mechanism without errors, so that each leaves the share
+error/length of the last.
 """
 
 from __future__ import annotations
