@@ -193,10 +193,12 @@ class TestRefusals:
 
     def test_request_beyond_the_family(self) -> None:
         train = GearTrain(20, 20, 60)
-        with pytest.raises(NoSolution, match=r"a back-step of 400 deg is out of reach: at most 19\.77 deg"):
+        with pytest.raises(NoSolution, match=r"a back-step of 400 deg is out of reach: at most 19\.77 deg") as refused:
             families.solved(
                 families.with_crank(25.0, 25.0, 75.0, 18.0),
                 families.back_step_of(train),
                 math.radians(400.0),
                 "a back-step of 400 deg",
+                key="back_step.angle",
             )
+        assert refused.value.fix == "set back_step.angle to at most 19.77 deg, or change the gears"
