@@ -813,10 +813,14 @@ class SwingGripper(WithExtremes, WithShapedLaws, OnDiscCams):
 
     @classmethod
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
-        """With cams each command judges them, and whether a spring keeps the rollers on."""
+        """Those of the optional sections too: cams with their spring, fingers, a balanced law, a stop."""
         of_cams = () if spec.cam is None else (*cls.outlines["cam"].checks, "lift-off")
-        of_fingers = () if spec.fingers is None or command == "cam" else _OF_FINGERS
-        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams, *of_fingers)))
+        if command == "cam":
+            return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams)))
+        of_fingers = () if spec.fingers is None else _OF_FINGERS
+        of_law = () if spec.limits.return_acceleration is None else ("phase-allotment",)
+        of_stop = () if spec.cam is None or spec.stop is None else ("stop-settling",)
+        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams, *of_fingers, *of_law, *of_stop)))
 
     def outline(self, command: str) -> Outline:
         """`gripper` and `analyze` add what the optional sections of the file make possible."""
