@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from gearlink.core.machines.disc_cam.closing import Closing
-    from gearlink.core.machines.disc_cam.loads_spec import DiscCamLoads as Section
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.studies.loads.design import Wanted
     from gearlink.core.studies.loads.machine import Machine
+    from gearlink.core.studies.loads.spec import CamLoads
 
 _SHOWN = (*CONTACT, "spring_preload", "lift_off_speed", "face_width_needed")
 _OF_ROLLERS = ("roller_speed_max", "roller_acceleration_max", "traction_needed", "entrainment_speed_max")
@@ -44,7 +44,7 @@ class FollowerCamLoads(_Loads):
     """Input angle: that of the cam; O is its bearing, A the pivot of a rocker."""
 
     spec: DiscCamSpec
-    section: Section
+    section: CamLoads
     section_example = "roller: {width: 20}"
     links, output = ("cam", "follower"), "follower"
     pins, meshes = ("O", "A"), ()

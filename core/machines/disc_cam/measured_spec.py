@@ -111,7 +111,7 @@ class MeasuredCamSpec(TolerancedSpec):
     closure: Literal["spring", "groove"] = Field("spring", description="what holds the follower on the cam")
     spring: Spring | None = Field(None, description="what presses the follower on the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
-    loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
+    loads: Annotated[Any, Deferred("studies.loads.spec:CamLoads")] | None = Field(
         None, description="forces, roller and vibration, for the command loads"
     )
 

@@ -199,7 +199,7 @@ class DiscCamSpec(OfFollowerKeys, TolerancedSpec):
     errors: Errors | None = Field(None, description="errors of the cam as manufactured")
     servo: Servo | None = Field(None, description="table of a drive instead of the cam")
     limits: DiscCamLimits = DiscCamLimits.model_construct()
-    loads: Annotated[Any, Deferred("machines.disc_cam.loads_spec:DiscCamLoads")] | None = Field(
+    loads: Annotated[Any, Deferred("studies.loads.spec:CamLoads")] | None = Field(
         None, description="forces, roller and vibration, for the command loads"
     )
 

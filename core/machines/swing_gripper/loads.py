@@ -18,7 +18,6 @@ from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
-    from gearlink.core.machines.swing_gripper.loads_spec import GripperLoads as Section
     from gearlink.core.machines.swing_gripper.spec import SwingGripperSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.cams.disc_cam import DiscCam
     from gearlink.core.studies.loads.cams.contact import RollerOnCam
     from gearlink.core.studies.loads.machine import Machine
+    from gearlink.core.studies.loads.spec import CamLoads
 
 
 class GripperLoads(CamLoadsDesign):
@@ -34,7 +34,7 @@ class GripperLoads(CamLoadsDesign):
 
     kind = "swing-gripper"
     spec: SwingGripperSpec
-    section: Section
+    section: CamLoads
     section_example = "roller: {width: 20}"
     links = ("input", "coupler", "output", "return_rocker", "cam")
     pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()

@@ -347,7 +347,7 @@ class SwingGripperSpec(TolerancedSpec):
     stop: ArmStop | None = None
     fingers: FingerSection | None = None
     limits: GripperLimits = GripperLimits.model_construct()
-    loads: Annotated[Any, Deferred("machines.swing_gripper.loads_spec:GripperLoads")] | None = Field(
+    loads: Annotated[Any, Deferred("studies.loads.spec:CamLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
 

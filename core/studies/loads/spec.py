@@ -316,6 +316,13 @@ class Loads(CommonLoads):
     speed: Speed | None = Field(None, description="speed of the input, signed; default: input_speed")
 
 
+class CamLoads(CommonLoads):
+    """Forces, rollers and vibration of a cam's follower; masses, spring and speed stand in sections of their own."""
+
+    roller: Roller | None = None
+    material: Material | None = None
+
+
 def of_body(spec: Any, name: str) -> Body:
     """The mass that a section `links` gives a link; a link of no mass where it gives none."""
     found: Body | None = getattr(spec, name, None)
