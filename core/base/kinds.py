@@ -361,6 +361,7 @@ KINDS: dict[str, Kind] = {
             },
             errors="mechanism:errors",
             register_at="range",
+            codes="",
             motion="mechanism:motion",
             outputs={"follower": ("lift",)},
             picture="cli.views.figures.cams:draw_disc",

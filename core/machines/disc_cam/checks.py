@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.base.report import NO_NUMBER, Check, Status, safely_above, safely_below
 from gearlink.core.base.wording import short
-from gearlink.core.machines.disc_cam import codes
 from gearlink.core.parts.cams.checks import flat_undercut_check, hub_checks, undercut_checks
 from gearlink.core.parts.cams.codes import (
     CONSTANT_SUM,
+    CUTTER_RADIUS,
+    FACE_LENGTH,
     LIFT_OFF,
+    OUTER_WALL,
     PRESSURE_ANGLE,
 )
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
@@ -103,10 +105,10 @@ def face_length(design: DiscCamDesign) -> Iterator[Check]:
     what = "contact beyond the end of the face"
     if beyond > 1e-9:
         fix = f"lengthen follower.face by {safely_above(beyond)} mm"
-        yield codes.FACE_LENGTH.check("fail", what, beyond, 0.0, "mm", aside=aside, fix=fix)
+        yield FACE_LENGTH.check("fail", what, beyond, 0.0, "mm", aside=aside, fix=fix)
     else:
         what = "the contact stays on the face"
-        yield codes.FACE_LENGTH.check("pass", what, beyond, 0.0, "mm", shown=NO_NUMBER, aside=aside)
+        yield FACE_LENGTH.check("pass", what, beyond, 0.0, "mm", shown=NO_NUMBER, aside=aside)
 
 
 def outer_wall(design: DiscCamDesign) -> Iterator[Check]:
@@ -116,13 +118,13 @@ def outer_wall(design: DiscCamDesign) -> Iterator[Check]:
     roller, hollow = design.cams.main.roller_radius, design.cams.hollow
     if hollow is None:
         what = "the pitch curve is convex: the outer wall is whole"
-        yield codes.OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
+        yield OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
         return
     least = hollow[0] - roller
     at = f"cam angle {short(math.degrees(hollow[1]))} deg"
     status: Status = "fail" if roller >= least else "pass"
     what = "roller radius against the minimum concave radius of the outer wall"
-    yield codes.OUTER_WALL.check(status, what, roller, least, "mm", at=at, fix=_LARGER)
+    yield OUTER_WALL.check(status, what, roller, least, "mm", at=at, fix=_LARGER)
 
 
 def cutter_radius(design: DiscCamDesign) -> Iterator[Check]:
@@ -133,14 +135,14 @@ def cutter_radius(design: DiscCamDesign) -> Iterator[Check]:
     found = design.min_concave_radius
     least = min((each for each in (found if isinstance(found, list) else [found]) if each is not None), default=None)
     if least is None:
-        yield codes.CUTTER_RADIUS.check(
+        yield CUTTER_RADIUS.check(
             "pass", "the profile has no concave flank: any cutter fits", cutter, None, "mm", shown=NO_NUMBER
         )
         return
     what, aside = "cutter radius", "minimum concave radius of the profile"
     status: Status = "fail" if cutter >= least else "pass"
     fix = f"set cam.cutter_radius below {safely_below(least)} mm"
-    yield codes.CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix, aside=aside)
+    yield CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix, aside=aside)
 
 
 def lift_off(design: DiscCamDesign) -> Iterator[Check]:

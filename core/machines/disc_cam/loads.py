@@ -19,7 +19,7 @@ from gearlink.core.studies.loads.design import loads_outline
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.machines.disc_cam.closing import Closing
+    from gearlink.core.machines.disc_cam.design import Closing
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
     from gearlink.core.mechanism.dynamics import Force, Mass, Torque
     from gearlink.core.mechanism.links import Mechanism
