@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -11,14 +11,24 @@ import numpy as np
 from gearlink.core.base.design import Design, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.nomenclature import term
-from gearlink.core.base.report import Quantity, Table
+from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
-from gearlink.core.machines.disc_cam import checks
+from gearlink.core.base.wording import short
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over
+from gearlink.core.parts.cams.checks import flat_undercut_check, hub_checks, undercut_checks
+from gearlink.core.parts.cams.codes import (
+    CONSTANT_SUM,
+    CUTTER_RADIUS,
+    FACE_LENGTH,
+    LIFT_OFF,
+    OUTER_WALL,
+    PRESSURE_ANGLE,
+)
 from gearlink.core.parts.cams.disc_cam import SAMPLES
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
+from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.cams import FollowerCams, Making
@@ -326,11 +336,138 @@ class DiscCamDesign(OfFollower, Design):
         self.require_table("servo")
         return self.making.servo_table()
 
-    check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
-    check_shaft_clearance = checks.shaft_clearance
-    check_constant_sum, check_lift_off = checks.constant_sum, checks.lift_off
-    check_face_length, check_outer_wall = checks.face_length, checks.outer_wall
-    check_cutter_radius = checks.cutter_radius
+    def check_pressure_angle(self) -> Iterator[Check]:
+        """GL401 of the stroke that is nearest to its limit."""
+        rise, back = self.spec.pressure_limits()
+        found = [(self.pressure_angle_rise, rise, "rise"), (self.pressure_angle_return, back, "return")]
+        found.append((self.cams.most_in_strokes(0), max(rise, back), "dwell"))
+        known = [(math.degrees(value), limit, stroke) for value, limit, stroke in found if value is not None]
+        value, limit, stroke = max(known, key=lambda each: each[0] - each[1])
+        over = value > limit + _FIT
+        status: Status = "fail" if over else "pass"
+        yield PRESSURE_ANGLE.check(status, f"pressure angle of the {stroke}", value, limit, "deg", fix=_LARGER)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402: roller against the pitch curve, or the profile under a flat face."""
+        if not self.spec.is_flat:
+            cams = [cam for cam in (self.cams.main, self.cams.back) if cam is not None]
+            yield from undercut_checks(cams, plainly=_LARGER)
+            return
+        limit = self.spec.limits.curvature_radius
+        size = self.spec.cam.size
+        if size is not None and size.curvature_radius is not None and "curvature_radius" not in _given(self):
+            limit = 0.0
+        yield flat_undercut_check(self.cams.flat, limit, "raise cam.base_radius by {} mm")
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: the profile against its shaft."""
+
+        spec = self.spec
+        key, radius = ("base_radius", self.base_radius) if spec.is_flat else ("prime_radius", self.prime_radius or 0.0)
+
+        def farther(by: float) -> str:
+            larger = safely_above(radius + by)
+            if spec.cam.size is None:
+                return f"set cam.{key} to {larger}"
+            center, given = self.center_distance, getattr(spec.follower, "center_distance", None)
+            pivot = (
+                ""
+                if given is not None or center is None
+                else f", with follower.center_distance: {safely_above(center)}"
+            )
+            return f"replace cam.size by cam.{key}: {larger}{pivot}"
+
+        yield from hub_checks(SHAFT_CLEARANCE, self.profiles, self.spec.cam.shaft_radius, farther)
+
+    def check_constant_sum(self) -> Iterator[Check]:
+        """GL405 of the two rollers of a slide: they stand on either side of the cam axis at their distance."""
+        import numpy as np
+
+        cams = self.cams
+        if cams.back is None or self.spec.oscillates:
+            return
+        phi = np.radians(np.arange(0.0, 360.0, 1.0))
+        lift, distance = cams.motion.evaluate(phi, 0)[0], cams.roller_distance
+        # along the travel: with an offset the radii themselves do not add up
+        along = np.abs(cams.start_height + lift) + np.abs(cams.start_height + lift - distance)
+        off, limit = float(np.abs(along - distance).max()), 1e-9 * distance
+        what, aside = "deviation of the sum of the pitch radii", f"roller distance {short(distance)} mm"
+        status: Status = "fail" if off > limit else "pass"
+        fix = "raise return_roller.distance: the return roller passes the cam axis"
+        yield CONSTANT_SUM.check(status, what, off, limit, "mm", aside=aside, fix=fix)
+
+    def check_lift_off(self) -> Iterator[Check]:
+        """GL406, where speed, mass and spring are given."""
+        closing, spec = self.closing, self.spec
+        found = closing.unloading
+        if found is None or spec.speed is None:
+            return
+        speed = closing.lift_off_speed
+        if speed is None:
+            yield LIFT_OFF.check("pass", "no speed lifts the follower off its cam", None, spec.speed, "1/min")
+            return
+        status: Status = "fail" if speed <= spec.speed else "warn" if speed < _RESERVE * spec.speed else "pass"
+        fix = ""
+        if status != "pass":
+            more = safely_above(closing.preload_for(_RESERVE * closing.speed))
+            unit = "N m" if spec.oscillates else "N"
+            fix = f"raise spring.preload to {more} {unit} (10 % speed margin)"
+        at = f"cam angle {short(math.degrees(found.place))} deg"
+        most = _RESERVE * spec.speed
+        yield LIFT_OFF.check(
+            status, "lift-off speed of the follower", speed, spec.speed, "1/min", recommended=most, at=at, fix=fix
+        )
+
+    def check_face_length(self) -> Iterator[Check]:
+        """GL408, where the file gives the face."""
+        face = getattr(self.spec.follower, "face", None)
+        if face is None:
+            return
+        low, high = self.cams.flat.contact_places
+        least, most = (face[0], face[1]) if self.spec.oscillates else (-face[0], face[1])
+        beyond = max(least - low, high - most)
+        aside = f"contact {short(low)} to {short(high)} mm, face {short(least)} to {short(most)} mm"
+        what = "contact beyond the end of the face"
+        if beyond > 1e-9:
+            fix = f"lengthen follower.face by {safely_above(beyond)} mm"
+            yield FACE_LENGTH.check("fail", what, beyond, 0.0, "mm", aside=aside, fix=fix)
+        else:
+            what = "the contact stays on the face"
+            yield FACE_LENGTH.check("pass", what, beyond, 0.0, "mm", shown=NO_NUMBER, aside=aside)
+
+    def check_outer_wall(self) -> Iterator[Check]:
+        """GL409 of a groove."""
+        if self.spec.closure != "groove":
+            return
+        roller, hollow = self.cams.main.roller_radius, self.cams.hollow
+        if hollow is None:
+            what = "the pitch curve is convex: the outer wall is whole"
+            yield OUTER_WALL.check("pass", what, 0.0, roller, "mm", shown=NO_NUMBER)
+            return
+        least = hollow[0] - roller
+        at = f"cam angle {short(math.degrees(hollow[1]))} deg"
+        status: Status = "fail" if roller >= least else "pass"
+        what = "roller radius against the minimum concave radius of the outer wall"
+        yield OUTER_WALL.check(status, what, roller, least, "mm", at=at, fix=_LARGER)
+
+    def check_cutter_radius(self) -> Iterator[Check]:
+        """GL410, where the file gives the cutter."""
+        cutter = self.spec.cam.cutter_radius
+        if cutter is None:
+            return
+        found = self.min_concave_radius
+        least = min(
+            (each for each in (found if isinstance(found, list) else [found]) if each is not None), default=None
+        )
+        if least is None:
+            yield CUTTER_RADIUS.check(
+                "pass", "the profile has no concave flank: any cutter fits", cutter, None, "mm", shown=NO_NUMBER
+            )
+            return
+        what, aside = "cutter radius", "minimum concave radius of the profile"
+        status: Status = "fail" if cutter >= least else "pass"
+        fix = f"set cam.cutter_radius below {safely_below(least)} mm"
+        yield CUTTER_RADIUS.check(status, what, cutter, least, "mm", fix=fix, aside=aside)
 
 
 MILLIMETER = 1e-3
@@ -469,3 +606,12 @@ class Closing:
             return self.cams.flat.touch(phi).radius
         roller = self.cams.main.roller_radius
         return np.asarray(roller * (1.0 - roller * self.cams.main.curvature(phi)))
+
+
+_FIT = 1e-9  # deg: a cam that is sized lies on its limit
+_RESERVE = 1.1
+_LARGER = "enlarge the cam, or give the motion more cam angle"
+
+
+def _given(design: DiscCamDesign) -> set[str]:
+    return set(design.spec.limits.model_fields_set)
