@@ -319,6 +319,7 @@ KINDS: dict[str, Kind] = {
             {"analyze": "design:PlanarMechanism", "loads": "loads:PlanarLoads", "register": "", "tolerance": ""},
             errors="mechanism:errors",
             register_at="range",
+            codes="",
             motion="mechanism:motion",
             samples="samples:PlanarSamples",
             picture="cli.views.figures.of_motion:draw",

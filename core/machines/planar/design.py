@@ -19,14 +19,13 @@ from gearlink.core.base.report import Check, Quantity
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.planar import outputs
-from gearlink.core.machines.planar.codes import ASSEMBLY
 from gearlink.core.machines.planar.extremes import turning_points
 from gearlink.core.machines.planar.structure import GearJoint, RackJoint
 from gearlink.core.machines.planar.wiring import FRAME
 from gearlink.core.mechanism import courses
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.parts.linkages.codes import CLOSURE
+from gearlink.core.parts.linkages.codes import ASSEMBLY, CLOSURE
 from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_shaft
 from gearlink.core.studies.clearance.checks import collision_check, seat_checks, shaft_checks
 from gearlink.core.studies.clearance.reach import reaches

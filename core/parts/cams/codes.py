@@ -1,4 +1,4 @@
-"""The rules that the checks of every cam judge by."""
+"""The rules that the checks of cams judge by."""
 
 from __future__ import annotations
 
