@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.studies.tolerance_study.band import Course
     from gearlink.core.studies.tolerance_study.design import ToleranceStudy
+    from gearlink.core.studies.tolerance_study.samples import Course
 
 
 _MOST = 4

@@ -28,9 +28,16 @@ from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import REPLICATIONS, Estimate, estimate, replication, rounded_up
 from gearlink.core.studies.tolerance.sources import Scatter
-from gearlink.core.studies.tolerance_study.band import Course, columns_of, courses
 from gearlink.core.studies.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
-from gearlink.core.studies.tolerance_study.samples import evaluated, judged, replicated, replication_size
+from gearlink.core.studies.tolerance_study.samples import (
+    Course,
+    columns_of,
+    courses,
+    evaluated,
+    judged,
+    replicated,
+    replication_size,
+)
 from gearlink.core.studies.tolerance_study.statistics import Result, Spread, capabilities, result
 
 _MOST_TRIED = 1_000_000

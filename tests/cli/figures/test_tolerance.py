@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from sheets import sheet
 
 from gearlink.cli.views.figures import tolerance
-from gearlink.core.studies.tolerance_study.band import Course
+from gearlink.core.studies.tolerance_study.samples import Course
 
 SMALL = {"tolerance__samples": 128}
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.machines.three_gear import motion
-from gearlink.core.studies.tolerance_study.band import SHARES, courses
+from gearlink.core.studies.tolerance_study.samples import SHARES, courses
 
 CANDY: dict[str, Any] = {
     "kind": "three-gear-four-bar",
