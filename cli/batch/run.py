@@ -25,7 +25,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, Unchanged
-from gearlink.cli.batch.outcome import Fix, Outcome
+from gearlink.cli.batch.summary import Fix, Outcome, write_batch
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, read_plain_file, safe_stem, stem_of, write_atomically
@@ -168,8 +168,6 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     except DesignFileError as error:  # of the cluster; those of files stand among the results
         return _refused(error, options)
     results.sort(key=lambda outcome: outcome.file)
-    from gearlink.cli.batch.summary import write_batch
-
     write_batch(results, options, sys.stdout)
     if interrupted:
         print(f"interrupted after {len({r.file for r in results})} of {amount(len(files), 'file')}", file=sys.stderr)

@@ -17,7 +17,7 @@ import pytest
 
 from gearlink.cli import main as program
 from gearlink.cli.batch import summary
-from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.batch.summary import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.parallel import shares, workers
 from gearlink.cli.reading.diagnostics import Diagnostic

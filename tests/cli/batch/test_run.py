@@ -286,7 +286,7 @@ def test_what_is_finished_is_not_computed_again_where_processes_fail(
 ) -> None:
     from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.outcome import Outcome
+    from gearlink.cli.batch.summary import Outcome
 
     real = run.workers
 
@@ -310,7 +310,7 @@ def test_a_process_that_dies_costs_its_one_file(
 ) -> None:
     from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.outcome import Outcome
+    from gearlink.cli.batch.summary import Outcome
 
     parent = os.getpid()
 
@@ -333,7 +333,7 @@ def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, mo
     """One tried file of a fifth of a second says enough; no second one waits here for its turn."""
     from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.outcome import Outcome
+    from gearlink.cli.batch.summary import Outcome
 
     parent, first = os.getpid(), tmp_path / "00"
 
@@ -367,7 +367,7 @@ def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monke
     """Pipes of a pool that was half made took the last descriptors, and no file could be opened."""
     from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.outcome import Outcome
+    from gearlink.cli.batch.summary import Outcome
 
     class Pipes:
         pass
@@ -397,7 +397,7 @@ def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monke
 def test_a_file_whose_process_was_killed_by_chance_is_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from gearlink.cli.batch import run
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.outcome import Outcome
+    from gearlink.cli.batch.summary import Outcome
 
     parent, killed = os.getpid(), tmp_path / "killed"
 

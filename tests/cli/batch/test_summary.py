@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
-from gearlink.cli.batch.outcome import Outcome
-from gearlink.cli.batch.summary import write_batch
+from gearlink.cli.batch.summary import Outcome, write_batch
 
 
 class Pieces:
