@@ -244,7 +244,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
     import numpy as np
 
-    from gearlink.cli.views.figures.drawing.ticks import powers_of_ten
+    from gearlink.cli.views.figures.drawing.panels import powers_of_ten
     from gearlink.core.machines.wide_swing.strokes import is_external
 
     stroke_axis(axes, design, "radius [mm]")

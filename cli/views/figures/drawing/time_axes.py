@@ -104,7 +104,7 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
     turn : time of an input turn [ms]; None where the speed is not known
     """
-    from gearlink.cli.views.figures.drawing.ticks import without_numbers
+    from gearlink.cli.views.figures.drawing.panels import without_numbers
 
     labels = [axes.get_xlabel() for axes in stacked]
     for axes, words, below in zip(stacked, labels, [*labels[1:], ""], strict=False):
@@ -117,7 +117,7 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
 def _time_row(axes: Axes, functions: Any, name: str) -> None:
     """Numbers in ms on a thin line, their unit at the left of it, where the numbers of the y axis leave room."""
-    from gearlink.cli.views.figures.drawing.ticks import RoundNumbers
+    from gearlink.cli.views.figures.drawing.panels import RoundNumbers
 
     labelled = bool(axes.get_xlabel())
     down = _BELOW if labelled else _BELOW - 12.0
