@@ -229,7 +229,7 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
 def _svg(design: Any) -> bytes:
     from gearlink.cli.views.figures.drawing import panels
     from gearlink.cli.views.figures.drawing.placing import settled
-    from gearlink.cli.views.figures.gears.contour import contour_plot
+    from gearlink.cli.views.figures.gears import contour_plot
     from gearlink.cli.views.figures.write import save
 
     def made() -> Figure:

@@ -661,7 +661,7 @@ def _cams(axes: Axes, design: FlatbedPress) -> None:
 def _draw_parts(command: str, design: FlatbedPress) -> Figure:
     """The pair of input gears, or the slider-crank D-E-F."""
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
     from gearlink.cli.views.figures import slider_crank

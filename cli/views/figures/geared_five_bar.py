@@ -212,7 +212,7 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
     title = f"{design.spec.name}: {command}"
     meshes = list(design.meshes.items())
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         named = zip(meshes, _gears(design), strict=True)
         return mesh_figure(title, [Mesh(mesh, name.replace("_", "-"), two) for (name, mesh), two in named])

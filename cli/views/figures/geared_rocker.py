@@ -72,7 +72,7 @@ def draw(command: str, design: GearedRocker) -> Figure:
     """The sheet of a command on a geared rocker."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
     return linkage.sheet(title, design, mechanism, _WORDS, [_angles, linkage.over_crank, _speed, _acceleration])

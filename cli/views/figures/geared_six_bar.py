@@ -145,7 +145,7 @@ def draw(command: str, design: GearedSixBar) -> Figure:
     """The sheet of a command on a geared six-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(mesh, pins, (pins[0], pins[1])) for pins, mesh in design.meshes.items()])
     charts: list[linkage.Panel] = [

@@ -121,7 +121,7 @@ _WORDS = {
 def draw(command: str, design: HypocycloidDwell) -> Figure:
     """The sheet of a command on a hypocycloid dwell."""
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.mesh, "", ("2", "ring"))])
     if design.spec.is_arm:

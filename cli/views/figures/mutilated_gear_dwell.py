@@ -140,7 +140,7 @@ def draw(command: str, design: MutilatedGearDwell) -> Figure:
     """The sheet of a command on a mutilated-gear dwell."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("1, wheel", "2, driven"), mesh_scene(design))])
     charts = [_angles, _speeds, *([] if design.linkage is None else [_transmission])]

@@ -115,7 +115,7 @@ def draw(command: str, design: ThreeGearFourBar) -> Figure:
     """The figure of a command on a three-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
         meshes = zip(design.meshes.values(), names, strict=True)

@@ -83,7 +83,7 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
     """The sheet of a command on a two-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+        from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
     charts: list[linkage.Panel] = [

@@ -19,7 +19,7 @@ from oracles.sections import section_area
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.views.figures.gears.mesh import build, zone_size
+from gearlink.cli.views.figures.gears import build, zone_size
 from gearlink.core.parts.gears.rack.geometry import RackGeometry
 
 BENT = worked("rack_drive") | {"helix_angle": 12, "tool": {"addendum": 1.3, "rounding": 0.2}}

@@ -10,15 +10,14 @@ import pytest
 from matplotlib.mathtext import MathTextParser
 
 import gearlink
-from gearlink.cli.views.figures import write
+from gearlink.cli.views.figures import gears, write
 from gearlink.cli.views.figures.drawing import style
-from gearlink.cli.views.figures.gears import mesh
 
 
 def test_a_star_stands_above_the_index_before_it() -> None:
     figure = style.figure(4.0, 3.0, "")
     axes = figure.add_subplot()
-    mesh._set_symbol(axes, (0.5, 0.5), "h_fP*", 6.2)
+    gears._set_symbol(axes, (0.5, 0.5), "h_fP*", 6.2)
     figure.canvas.draw()
     letter, index, star = (text.get_window_extent() for text in axes.texts)
     assert letter.x1 < index.x0 < index.x1 < star.x0

@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 
 from gearlink.cli.options import Options
-from gearlink.cli.views.figures.gears.mesh import Mesh, mesh_figure
+from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.figures.write import write_plot
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
