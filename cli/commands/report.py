@@ -237,7 +237,7 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
 def _section(part: Part | None, show: str | None) -> Section | None:
     """A command on the page; with the film where it is said what that shows."""
     from gearlink.cli.views.page import sections
-    from gearlink.cli.views.page.sheets import sheet
+    from gearlink.cli.views.page.sections import sheet
 
     if part is None:
         return None

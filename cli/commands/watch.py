@@ -27,7 +27,7 @@ from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.kind import FileDesigns
 
 if TYPE_CHECKING:
-    from gearlink.cli.views.page.sheets import Remembered
+    from gearlink.cli.views.page.sections import Remembered
     from gearlink.core.base.design import Design
     from gearlink.core.base.report import Check, Report
 
@@ -246,8 +246,7 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         port : int - 0 takes a free one
         show : bool - open the page in the browser
     """
-    from gearlink.cli.views.page.sections import watch_script, whole_page
-    from gearlink.cli.views.page.sheets import Remembered
+    from gearlink.cli.views.page.sections import Remembered, watch_script, whole_page
 
     if source == "-":
         error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])

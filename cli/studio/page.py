@@ -14,7 +14,7 @@ from nicegui import ui
 
 from gearlink.cli.render.numbers import drawn
 from gearlink.cli.views.films.page import part
-from gearlink.cli.views.page.sheets import as_script
+from gearlink.cli.views.page.sections import as_script
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

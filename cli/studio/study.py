@@ -265,7 +265,7 @@ def changes(old: str, new: str, file: str) -> str:
 
 def sheet(text: str, file: str, command: str) -> str:
     """The sheet of a command as HTML; empty where it has none."""
-    from gearlink.cli.views.page.sheets import sheet as drawn
+    from gearlink.cli.views.page.sections import sheet as drawn
 
     study = _study(text, file)
     with refusals_located(study.loaded):

@@ -14,7 +14,7 @@ from sheets import placed_sheet, sheet
 from sweeps import mostly_slow
 
 from gearlink.cli.views.figures.drawing import time_axes
-from gearlink.cli.views.page import sheets as page_sheets
+from gearlink.cli.views.page import sections
 
 GIVEN = {"input_speed": 75.0}
 CASES: list[tuple[str, str, dict[str, Any]]] = [
@@ -65,7 +65,7 @@ def test_a_turn_of_the_axis_is_a_turn_in_time() -> None:
     for axes in charts:
         (row,) = rows(axes)
         np.testing.assert_allclose(row.get_xlim(), np.array(axes.get_xlim()) * 60_000.0 / 75.0 / 360.0, rtol=1e-12)
-    assert next(chart["ms"] for chart in page_sheets.charts(figure)) == pytest.approx([0.0, 800.0], rel=1e-12)
+    assert next(chart["ms"] for chart in sections.charts(figure)) == pytest.approx([0.0, 800.0], rel=1e-12)
 
 
 def test_the_crank_of_a_linkage_that_stands_in_between_has_no_time() -> None:

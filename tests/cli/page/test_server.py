@@ -26,8 +26,7 @@ from gearlink.cli.commands import watch
 from gearlink.cli.commands.watch import Board, _make, run_watch, served
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
-from gearlink.cli.views.page.sections import whole_page
-from gearlink.cli.views.page.sheets import Remembered, sheet
+from gearlink.cli.views.page.sections import Remembered, sheet, whole_page
 
 
 def test_news_are_what_has_changed() -> None:
