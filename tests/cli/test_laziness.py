@@ -113,10 +113,9 @@ def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str],
 
 _SEARCHES = {"studies.explore", "studies.study", "studies.tolerance", "studies.tolerance_study"}
 _DATA = {
-    "parts.gears.measures.backlash",
+    "parts.gears.measures.allowances",
     "parts.gears.mesh.ring_cutter",
     "parts.gears.drawing",
-    "parts.gears.measures.allowances",
 }
 _RINGS = {
     "parts.gears.mesh.ring_cutter",
@@ -156,7 +155,9 @@ _GENERAL = {"machines.three_gear.families", "machines.three_gear.register"}
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (
             "gear designs/ty460_input_gears.yaml",
-            _RINGS | _RATED | {"parts.gears.measures.backlash", "parts.gears.drawing", "parts.linkages", "parts.cams"},
+            _RINGS
+            | _RATED
+            | {"parts.gears.measures.allowances", "parts.gears.drawing", "parts.linkages", "parts.cams"},
         ),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "parts.cams"}),
         ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"parts.gears.mesh.pair", "studies.loads.machine"}),

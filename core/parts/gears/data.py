@@ -19,7 +19,7 @@ from gearlink.core.parts.gears.rating.root_stress import RootStress
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.measures.backlash import Backlash
+    from gearlink.core.parts.gears.measures.allowances import Backlash
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
     from gearlink.core.parts.gears.rating.conditions import Conditions
     from gearlink.core.parts.gears.rating.rated import Rated
@@ -207,7 +207,7 @@ class GearData:
         if self.allowances is None and self.distance_allowance is None and not both_given:
             return None
         one, other = self.allowances or ((0.0, 0.0), (0.0, 0.0))
-        from gearlink.core.parts.gears.measures.backlash import Backlash
+        from gearlink.core.parts.gears.measures.allowances import Backlash
 
         return Backlash(
             pair=self.pair,

@@ -18,7 +18,7 @@ from matplotlib.path import Path
 from sweeps import examples
 
 from gearlink.core.parts.gears.data import GearData
-from gearlink.core.parts.gears.measures.backlash import MeshPlay
+from gearlink.core.parts.gears.measures.allowances import MeshPlay
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference

@@ -15,7 +15,7 @@ from factory import design
 from matplotlib.path import Path
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.measures.backlash import Backlash
+from gearlink.core.parts.gears.measures.allowances import Backlash
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
 from gearlink.core.parts.gears.rack.geometry import RackGeometry
