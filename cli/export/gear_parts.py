@@ -12,10 +12,10 @@ from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.rack_profile import RackProfile, straight
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
 from gearlink.core.parts.gears.outline.tooth_profile import Curve, ToothProfile
-from gearlink.core.parts.gears.rack.mesh import RackMesh
-from gearlink.core.parts.gears.rack.profile import RackProfile, straight
+from gearlink.core.parts.gears.rack import RackMesh
 
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
 SENSES = {"right": 1.0, "left": -1.0}

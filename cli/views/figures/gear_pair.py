@@ -30,14 +30,14 @@ from gearlink.cli.views.figures.gears import (
 from gearlink.cli.views.scenes.gears import rack_body, rack_scene
 from gearlink.cli.views.scenes.scene import Body, Scene, placed
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from gearlink.core.machines.gear_pair.design import GearPairDesign
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 
 Panel = Callable[["Axes"], None]

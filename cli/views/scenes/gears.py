@@ -25,13 +25,12 @@ from gearlink.cli.views.scenes.scene import (
 )
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry, RackProfile
 from gearlink.core.parts.gears.outline.ring_profile import RingProfile
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
-from gearlink.core.parts.gears.rack.profile import RackProfile
 from gearlink.core.parts.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)

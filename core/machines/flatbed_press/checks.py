@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.compensation import Joint
     from gearlink.core.machines.flatbed_press.design import FlatbedPress
     from gearlink.core.parts.gears.data import GearData
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 
 _TURN = 2.0 * math.pi

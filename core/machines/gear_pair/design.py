@@ -29,7 +29,7 @@ from gearlink.core.parts.gears.strength_checks import rests_on
 
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.spec import GearPairSpec
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
     from gearlink.core.parts.gears.shifts.contour import BlockingContour
 
 _SHIFTS = (
@@ -168,7 +168,7 @@ class GearPairDesign(GearQuantities, Design):
         """The mesh of a gear on a rack; None for two gears."""
         if not self.spec.rack:
             return None
-        from gearlink.core.parts.gears.rack.mesh import RackData, RackMesh
+        from gearlink.core.parts.gears.rack import RackData, RackMesh
 
         data = self.data
         assert isinstance(data, RackData)

@@ -20,7 +20,7 @@ from gearlink.core.parts.gears.keys.pair import PairKeys
 if TYPE_CHECKING:
     from gearlink.core.mechanism.joints import Connection
     from gearlink.core.mechanism.links import Link
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 NAMES = ("fixed_rack", "moving_rack")
 

@@ -10,7 +10,7 @@ from gearlink.core.base.report import Table
 from gearlink.core.parts.gears.data import GearData
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 Row = tuple[str, str, Any, Any, str]
 

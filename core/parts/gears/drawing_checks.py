@@ -35,7 +35,7 @@ from gearlink.core.parts.gears.mesh.tip_corner import CornerGap, TipCorner
 
 if TYPE_CHECKING:
     from gearlink.core.parts.gears.mesh.ring_cutter import InternalInterference
-    from gearlink.core.parts.gears.rack.mesh import RackMesh
+    from gearlink.core.parts.gears.rack import RackMesh
 
 
 _DEEPEST = "the gears deepest in mesh"

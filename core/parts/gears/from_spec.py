@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from gearlink.core.parts.gears.keys.pair import PairKeys
     from gearlink.core.parts.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
     from gearlink.core.parts.gears.keys.types import MaterialSpec
-    from gearlink.core.parts.gears.rack.mesh import RackData, RackMesh
+    from gearlink.core.parts.gears.rack import RackData, RackMesh
     from gearlink.core.parts.gears.rating.conditions import Conditions
 
 _MOST_SHIFT = 5.0
@@ -104,7 +104,7 @@ def rack_at(given: PairKeys, teeth: int) -> RackMesh:
     Raises
         NoSolution - where pinion and rack cannot mesh
     """
-    from gearlink.core.parts.gears.rack.mesh import RackMesh, beside_a_rack
+    from gearlink.core.parts.gears.rack import RackMesh, beside_a_rack
 
     first, second = given.profile_shift or (0.0, 0.0)
     if second != 0.0:
@@ -129,7 +129,7 @@ def rack_at(given: PairKeys, teeth: int) -> RackMesh:
 
 def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
     """The gear on a rack, as gear 1 of a pair; x_1 = (a - r_1)/m where the distance to the datum line is given."""
-    from gearlink.core.parts.gears.rack.mesh import beside_a_rack
+    from gearlink.core.parts.gears.rack import beside_a_rack
 
     if spec.profile_shift is not None:
         return beside_a_rack(known, spec.profile_shift[0])
@@ -220,7 +220,7 @@ def required_of(limits: Any) -> Required:
 
 
 def _rack_data() -> type[RackData]:
-    from gearlink.core.parts.gears.rack.mesh import RackData
+    from gearlink.core.parts.gears.rack import RackData
 
     return RackData
 

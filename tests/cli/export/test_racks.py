@@ -20,7 +20,7 @@ from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.views.figures.gears import build, zone_size
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
 
 BENT = worked("rack_drive") | {"helix_angle": 12, "tool": {"addendum": 1.3, "rounding": 0.2}}
 

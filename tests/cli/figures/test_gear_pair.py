@@ -18,7 +18,7 @@ from gearlink.cli.views.figures.gears import Mesh, mesh_figure
 from gearlink.cli.views.figures.write import write_plot
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.outline.mesh_geometry import MeshGeometry
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
 
 DATA = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
 

@@ -11,8 +11,8 @@ import pytest
 import gearlink
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.mesh.pair import GearPair
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
-from gearlink.core.parts.gears.rack.mesh import CornerInRack, RackData, RackMesh
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
+from gearlink.core.parts.gears.rack import CornerInRack, RackData, RackMesh
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 

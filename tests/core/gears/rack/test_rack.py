@@ -17,9 +17,8 @@ from matplotlib.path import Path
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.parts.gears.measures.allowances import Backlash
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry, RackProfile
 from gearlink.core.parts.gears.outline.tooth_profile import ToothProfile, outline
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
-from gearlink.core.parts.gears.rack.profile import RackProfile
 from gearlink.core.parts.gears.tooth.tools import RackTool
 
 CHORD = 1e-4

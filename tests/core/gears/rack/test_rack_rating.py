@@ -16,7 +16,7 @@ from factory import design
 
 from gearlink.core.parts.gears.data import GearData
 from gearlink.core.parts.gears.drawing_names import RATING
-from gearlink.core.parts.gears.rack.geometry import RackGeometry
+from gearlink.core.parts.gears.outline.rack_profile import RackGeometry
 
 DATA: dict[str, Any] = {
     "kind": "gear-pair",

@@ -46,7 +46,7 @@ from gearlink.core.parts.gears.rating.root_stress import RootSection, RootStress
 from gearlink.core.parts.gears.tooth.tools import rack_tip_width
 
 if TYPE_CHECKING:
-    from gearlink.core.parts.gears.rack.profile import RackProfile
+    from gearlink.core.parts.gears.outline.rack_profile import RackProfile
 
 
 _MATE = 10_000
@@ -124,7 +124,7 @@ class RackMesh:
         Raises
             NoSolution - for a rack that no tool leaves
         """
-        from gearlink.core.parts.gears.rack.profile import RackProfile
+        from gearlink.core.parts.gears.outline.rack_profile import RackProfile
 
         pair = self.pair
         return RackProfile(
