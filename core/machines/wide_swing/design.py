@@ -137,6 +137,13 @@ NEED_ZONE = (
     "contact_end",
     "contact_force",
 )
+DERIVED = frozenset(
+    (
+        *(*TORQUE, *MOTION, *PLACES, *OF_REST),
+        *("contact_force", "slider_velocity_peak", "slider_acceleration_peak"),
+    )
+)
+"""Extremes of a law, and of a profile, that other quantities have already found to exist."""
 
 
 Places: TypeAlias = SimpleNamespace
@@ -653,6 +660,7 @@ class WideSwingDesign(Design):
         "analyze": Outline((*LAW, *MOTION), _LAW_CHECKS, ("law", "balance")),
     }
     extra_tables = ("iteration", "slider", "contact", "contour", "joints", "device", "history")
+    derived = DERIVED
 
     # Parts
 
