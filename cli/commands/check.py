@@ -216,7 +216,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         ]
         write_rows([_HEADS, *rows], sys.stdout)
         return
-    words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing wrong"
+    words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "no checks"
     verdict = f"{amount(designs, 'design')}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:

@@ -439,7 +439,7 @@ class TestBatch:
         assert ended.status == ExitCode.WRONG_INPUT
         results = {Path(d["file"]).name: d["result"] for d in ended.json["designs"]}
         assert results == {"good.yaml": "pass", "bad.yaml": "error"}
-        assert ended.json["summary"]["pass"] == 1
+        assert ended.json["summary"]["pass"] == 2
 
     def test_worst_status(self, gearlink: Any, designs: Path) -> None:
         ended = gearlink("batch", designs / "thesis_example_2.yaml", designs / "thesis_example_3_as_printed.yaml")
@@ -472,7 +472,7 @@ class TestBatch:
         monkeypatch.setattr(run, "build", sometimes)
         ended = gearlink("batch", tmp_path, "--format", "json")
         assert ended.status == ExitCode.FAULT
-        assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]
+        assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass", "pass"]
 
 
 def test_a_process_with_too_little_memory_says_so() -> None:

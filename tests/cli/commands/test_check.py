@@ -290,3 +290,11 @@ def test_parts_for_processes_hold_every_file_once_and_one_kind_each(tmp_path: Pa
     parts = check._parts([*files, str(tmp_path / "gone.yaml")], 8)
     assert sorted(k for part in parts for k in part) == list(range(41))
     assert all(len({[*kinds, ""][k] for k in part}) == 1 and len(part) <= 6 for part in parts)
+
+
+def test_a_slider_crank_is_checked_without_a_limit_in_its_file(gearlink: Any, tmp_path: Path) -> None:
+    """The transmission angle has a default limit, which `analyze` compares too."""
+    path = tmp_path / "short_rod.yaml"
+    path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\noffset: 300\n")
+    for command in ("check", "batch", "analyze"):
+        assert gearlink(command, path).status == 1

@@ -81,7 +81,7 @@ def test_table_shows_physical_units(gearlink: Any, two: Any) -> None:
     out = gearlink("diff", *two(CRANK, CRANK.replace("310", "341"))).out
     row = next(line for line in out.splitlines() if line.startswith("stroke"))
     assert row.split() == ["stroke", "310", "341", "mm", "+10", "%"]
-    assert out.splitlines()[-1].endswith(": 1 input, 6 quantities")
+    assert out.splitlines()[-1].endswith(": 1 input, 17 quantities, 1 check")
 
 
 def test_members_of_long_lists_stand_below_each_other(gearlink: Any, two: Any) -> None:
@@ -277,7 +277,7 @@ def test_results_of_a_batch(gearlink: Any, two: Any, tmp_path: Path) -> None:
         (folder / "pair.yaml").write_text(PAIR)
         texts.append(gearlink("batch", folder, "--format", "json").out)
     found = gearlink("diff", *two(*texts, ".json"), "--format", "json").json
-    assert {change["command"] for change in found["quantities"]} == {"crank: crank"}
+    assert {change["command"] for change in found["quantities"]} == {"crank: crank", "crank: analyze"}
     assert gearlink("diff", *two(texts[0], texts[0], ".json")).status == 0
 
 

@@ -162,7 +162,7 @@ def test_check_makes_a_study_ready_and_does_not_search(
 
     monkeypatch.setattr(exploration, "chunk_of", searched)
     ended = gearlink("check", written())
-    assert (ended.status, ended.out) == (0, "1 design: nothing wrong\n")
+    assert (ended.status, ended.out) == (0, "1 design: no checks\n")
     # nor is what the order of the designs refuses left to `explore`
     sampling = {"method": "grid", "budget": 5}
     ended = gearlink("check", written(sampling=sampling), "--format", "json")
