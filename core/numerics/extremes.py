@@ -189,33 +189,65 @@ def extremes_over(
         >>> [round(each.value, 12) for each in extremes_over([(np.sin, True), (np.cos, False)])]
         [1.0, -1.0]
     """
+    return extremes_of_parts(wanted, [(start, end)], joints=joints, samples=samples, fewest=fewest)[0]
+
+
+def extremes_of_parts(
+    wanted: Sequence[tuple[Function, bool]],
+    parts: Sequence[tuple[float, float]],
+    *,
+    joints: Sequence[float] = (),
+    samples: int = 2048,
+    fewest: int = 33,
+) -> list[list[Extreme]]:
+    """Extremes of several functions over each of several intervals, searched together.
+
+    Parameters
+        wanted, joints, samples, fewest : as of extremes_over; samples are those of each interval
+        parts : (start, end) of the intervals
+    Returns
+        extremes : those of extremes_over for each interval
+    Example
+        >>> [[each.value for each in found] for found in extremes_of_parts([(np.sin, True)], [(0.0, 2.0), (4.0, 7.0)])]
+        [[1.0], [0.6569865987187891]]
+    """
     if not wanted:
-        return []
+        return [[] for _ in parts]
     signs = [1.0 if greatest else -1.0 for _, greatest in wanted]
     functions = list(dict.fromkeys(f for f, _ in wanted))
     of = [functions.index(f) for f, _ in wanted]
 
-    def answered(asked: _Asked) -> Reals:
-        flat = asked.places.ravel()
-        wanted_now = list(dict.fromkeys(of[search] for search, _ in asked.parts))
-        values = dict(zip(wanted_now, values_of([functions[k] for k in wanted_now], flat), strict=True))
+    def answer(asked: _Asked, values: dict[int, Reals], rows: slice) -> Reals:
         if asked.places.ndim == 1:
-            return np.array([values[k] * sign for k, sign in zip(of, signs, strict=True)])
-        answer = np.empty(asked.places.shape)
+            return np.array([values[k][rows] * sign for k, sign in zip(of, signs, strict=True)])
+        found = np.empty(asked.places.shape)
         for search, part in asked.parts:
-            np.multiply(values[of[search]].reshape(answer.shape)[part], signs[search], out=answer[part])
-        return answer
+            np.multiply(values[of[search]][rows].reshape(found.shape)[part], signs[search], out=found[part])
+        return found
 
-    search = _maxima(len(wanted), start, end, joints, samples, fewest)
-    try:
-        asked = next(search)
-        while True:
-            asked = search.send(answered(asked))
-    except StopIteration as found:
-        tops: list[Extreme] = found.value
+    searches = [_maxima(len(wanted), start, end, joints, samples, fewest) for start, end in parts]
+    asked = dict(enumerate(map(next, searches)))
+    tops: list[list[Extreme]] = [[]] * len(parts)
+    while asked:
+        rounds = list(asked.items())
+        wanted_now = list(dict.fromkeys(of[search] for _, each in rounds for search, _ in each.parts))
+        places = [each.places.ravel() for _, each in rounds]
+        flat = places[0] if len(places) == 1 else np.concatenate(places)
+        values = dict(zip(wanted_now, values_of([functions[k] for k in wanted_now], flat), strict=True))
+        first = 0
+        for number, each in rounds:
+            rows = slice(first, first := first + each.places.size)
+            try:
+                asked[number] = searches[number].send(answer(each, values, rows))
+            except StopIteration as found:
+                tops[number] = found.value
+                del asked[number]
     return [
-        top if greatest else Extreme(0.0 - top.value, top.place)
-        for top, (_, greatest) in zip(tops, wanted, strict=True)
+        [
+            top if greatest else Extreme(0.0 - top.value, top.place)
+            for top, (_, greatest) in zip(found, wanted, strict=True)
+        ]
+        for found in tops
     ]
 
 

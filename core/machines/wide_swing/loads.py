@@ -30,7 +30,7 @@ from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path
 from gearlink.core.mechanism.rates import TURNING_BACK
-from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over, minimum_over
 from gearlink.core.studies.loads import codes, tables
 from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.cams.contact import LineContact, plane_modulus
@@ -61,8 +61,8 @@ Wanted: TypeAlias = "dict[str, tuple[Callable[[Reals], Reals], bool]]"
 
 
 def _extremes(wanted: Wanted, parts: Parts) -> dict[str, Extreme]:
-    """Maximum or minimum values of functions over parts of a stroke, each part searched in one go."""
-    found = [extremes_over(list(wanted.values()), *part, samples=128) for part in parts]
+    """Maximum or minimum values of functions over parts of a stroke."""
+    found = extremes_of_parts(list(wanted.values()), parts, samples=128)
     return {
         name: (max if greatest else min)((of_part[i] for of_part in found), key=lambda extreme: extreme.value)
         for i, (name, (_, greatest)) in enumerate(wanted.items())
