@@ -23,10 +23,10 @@ from gearlink.core.machines.wide_swing.law import ElasticLaw
 from gearlink.core.parts.cams.laws import law
 from gearlink.core.parts.cams.profile import oscillating, profile, translating
 from gearlink.core.parts.gears.mesh.pair import GearPair
+from gearlink.core.parts.linkages import slider_crank
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank import position as slider_crank
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank
 
 pytestmark = LONGER_NUMBERS
 

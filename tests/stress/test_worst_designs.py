@@ -39,7 +39,7 @@ from gearlink.core.parts.cams.profile import oscillating, profile, translating
 from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank
 
 pytestmark = pytest.mark.usefixtures("forty_digits")
 

@@ -35,7 +35,7 @@ from gearlink.cli.views.scenes.scene import (
     pale,
 )
 from gearlink.core.machines.slider_crank.mechanism import DEPTH
-from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
+from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -188,7 +188,7 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     part, crank = design.slider_crank, design.slider_crank.crank_length
     folded, extended = (math.degrees(angle) % 360.0 for angle in dead_centers(design))
     degrees = np.unique(np.append(np.arange(721) * 0.5, (folded, extended)))
-    depth, speed = slider_crank_sweep.slider(np.radians(degrees), crank, part.rod, part.offset, 1)
+    depth, speed = slider_sweep(np.radians(degrees), crank, part.rod, part.offset, 1)
     panels.turn_panel(travel, "travel of the\nslider [mm]")
     panels.heading(travel, f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}")
     travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel", label="slider")

@@ -16,11 +16,11 @@ from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
+from gearlink.core.parts.linkages import slider_crank
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar import position as fourbar
 from gearlink.core.parts.linkages.fourbar.loop import rocker_and_rate, rocker_rate
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank import position as slider_crank
 
 
 class Travel(NamedTuple):
@@ -181,11 +181,10 @@ class BedChain:
             own derivation: the chain rule once more
         """
         from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
 
         state = fourbar_sweep.solve(self.linkage, self.initial_crank_angle + input_angle, 3)
         psi = state.rocker_angle - self.crank_offset_angle
-        _, h1, h2, h3 = slider_crank_sweep.slider(psi, self.slider_crank_length, self.rod, self.offset, 3)
+        _, h1, h2, h3 = slider_crank.slider_sweep(psi, self.slider_crank_length, self.rod, self.offset, 3)
         c1, c2, c3 = state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk
         return -2.0 * (h3 * c1**3 + 3.0 * h2 * c1 * c2 + h1 * c3)
 
@@ -271,9 +270,8 @@ def _solver(angle: Any) -> Any:
 def _slider(angle: Any) -> Any:
     if isinstance(angle, (float, int)):
         return slider_crank.slider
-    from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
 
-    return slider_crank_sweep.slider
+    return slider_crank.slider_sweep
 
 
 def _require_drag_link(linkage: FourBar, chain: str) -> None:

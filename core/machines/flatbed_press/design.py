@@ -33,7 +33,12 @@ from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQ
 from gearlink.core.parts.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank.position import SLIDER_QUANTITIES, SliderCrank, SliderCrankQuantities
+from gearlink.core.parts.linkages.slider_crank import (
+    SLIDER_QUANTITIES,
+    SliderCrank,
+    SliderCrankQuantities,
+    slider_sweep,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.flatbed_press.spec import DoubleCrank, FlatbedPressSpec, PressCam
@@ -100,7 +105,6 @@ def chains_table(design: FlatbedPress, samples: int | None = None) -> Table:
 
     from gearlink.core.numerics.arrays import turn_degrees
     from gearlink.core.parts.linkages.fourbar import sweep as fourbar_sweep
-    from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
 
     motion, degrees = design.motion, turn_degrees(samples)
     phi, speed, bed, cylinder = np.radians(degrees), motion.input_speed, motion.bed, motion.cylinder
@@ -109,7 +113,7 @@ def chains_table(design: FlatbedPress, samples: int | None = None) -> Table:
     other = fourbar_sweep.solve(cylinder.linkage, cylinder.initial_angle - phi, 0)
     slider = one.rocker_angle - bed.crank_offset_angle
     crank, rod, offset = bed.slider_crank_length, bed.rod, bed.offset
-    slider_crank_sweep.slider(slider, crank, rod, offset)  # refuses where the rod does not reach
+    slider_sweep(slider, crank, rod, offset)  # refuses where the rod does not reach
     columns = {
         "input_angle": (degrees, "deg"),
         "time": (degrees / 360.0 * 3.6e6 / design.spec.speed, "ms"),

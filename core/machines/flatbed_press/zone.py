@@ -11,7 +11,7 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.wording import unlike
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
-from gearlink.core.parts.linkages.slider_crank.position import dead_center_extended, dead_center_folded
+from gearlink.core.parts.linkages.slider_crank import dead_center_extended, dead_center_folded
 
 _TURN = 2.0 * math.pi
 _STEP = math.radians(3.0)

@@ -24,8 +24,7 @@ from gearlink.core.numerics.elementary_sweep import ARRAYS
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 from gearlink.core.parts.linkages.checks import transmission_judged
 from gearlink.core.parts.linkages.codes import TRANSMISSION_ANGLE
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
-from gearlink.core.parts.linkages.slider_crank.sweep import slider
+from gearlink.core.parts.linkages.slider_crank import SliderCrank, slider_sweep
 from gearlink.core.parts.linkages.standstills import SLIDER_GRID, TURN, Turning
 
 _LENGTH = (1e-6, 1e9, 1.0)
@@ -181,7 +180,7 @@ class SliderCrankDesigns(SliderCrankDesign):
         crank, rod, offset = (
             self._spread(value)[some] for value in (self.crank_length, self.spec.rod, self.spec.offset)
         )
-        return lambda angle: slider(angle, crank, rod, offset, order)[order]
+        return lambda angle: slider_sweep(angle, crank, rod, offset, order)[order]
 
     def _brackets(self, order: int) -> tuple[Any, Any]:
         """Which designs, and steps of the grid, in which a derivative changes its sign."""

@@ -13,7 +13,7 @@ from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.parts.linkages.slider_crank.position import (
+from gearlink.core.parts.linkages.slider_crank import (
     SLIDER_QUANTITIES,
     SliderCrank,
     SliderCrankQuantities,

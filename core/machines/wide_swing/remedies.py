@@ -265,10 +265,10 @@ def even_middle_angle(section: SwingSlider) -> float | None:
     import numpy as np
 
     from gearlink.core.numerics.roots import bracketed_root
-    from gearlink.core.parts.linkages.slider_crank.sweep import slider
+    from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
     def bend(angle: float) -> float:
-        return float(slider(angle - 0.5 * math.pi, section.crank, section.rod, section.offset, 2)[2])
+        return float(slider_sweep(angle - 0.5 * math.pi, section.crank, section.rod, section.offset, 2)[2])
 
     given = math.radians(section.middle_angle)
     grid = (given + np.linspace(-math.pi, math.pi, 91)).tolist()

@@ -27,8 +27,8 @@ from gearlink.core.numerics.elliptic import complete_integral, incomplete_integr
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, RisingTable, cosine_series
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.linkages.slider_crank.position import slider as slider_place
-from gearlink.core.parts.linkages.slider_crank.sweep import slider
+from gearlink.core.parts.linkages.slider_crank import slider as slider_place
+from gearlink.core.parts.linkages.slider_crank import slider_sweep
 
 _NEWTON_STEPS = 60
 _TOO_SHARP = (
@@ -98,7 +98,7 @@ class SliderDrive:
 
     def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
         """Slider position at rocker angles phi from mid-swing, with derivatives with respect to phi up to 2 [mm]."""
-        return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
+        return slider_sweep(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
 
     def least_transmission(self, swing: float) -> float:
         """Minimum angle between the rod and the normal of the slide line over a swing [rad].

@@ -1,7 +1,7 @@
 """Involute gears: single tooth, pair, mesh, true profile, checks and remedies.
 
-A package a subject: `tooth`, `mesh`, `outline`, `rating`, `measures`, `shifts`, `rack`, `train`, and the `keys` of
-design files. Begin with `mesh.pair` (a gear pair as a record) and `design` (the kind `gear-pair`).
+A package a subject: `tooth`, `mesh`, `outline`, `rating`, `measures`, `shifts`, `train`, and the `keys` of design
+files; `rack` is a gear on a rack. Begin with `mesh.pair` (a gear pair as a record).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Linkages of any machine: four-bar, slider-crank, dyad, standstills, mobility.
 
-Begin with `fourbar`. The kinds `slider-crank` and `gear-train-mobility`, which are bare linkages, stand here too.
+Begin with `fourbar`.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gearlink.core.parts.linkages.fourbar.position import FourBar as FourBar
-    from gearlink.core.parts.linkages.slider_crank.position import SliderCrank as SliderCrank
+    from gearlink.core.parts.linkages.slider_crank import SliderCrank as SliderCrank
 
-_PLACES = {"FourBar": "fourbar.position", "SliderCrank": "slider_crank.position"}
+_PLACES = {"FourBar": "fourbar.position", "SliderCrank": "slider_crank"}
 
 
 def __getattr__(name: str) -> Any:

@@ -24,7 +24,7 @@ from sweeps import examples
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]

@@ -27,7 +27,7 @@ from gearlink.core.machines.flatbed_press.zone import (
     zone_end,
 )
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXACT = REFERENCE["flatbed_press"][0]["expect"]["sync_exact"]

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from scipy.optimize import brentq, minimize_scalar
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.parts.linkages.slider_crank.position import quick_return
+from gearlink.core.parts.linkages.slider_crank import quick_return
 
 ASKED: dict[str, Any] = {"kind": "slider-crank", "name": "asked", "stroke": 310.0, "quick_return_ratio": 1.1}
 

@@ -21,9 +21,8 @@ from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.parts.linkages.slider_crank import position as slider_crank
-from gearlink.core.parts.linkages.slider_crank import sweep as slider_crank_sweep
-from gearlink.core.parts.linkages.slider_crank.position import SliderCrank
+from gearlink.core.parts.linkages import slider_crank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank, slider_sweep
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -169,7 +168,7 @@ def exact_depth(psi, crank, rod, offset):
 )
 def test_position_and_derivatives_against_many_digits(crank, rod, offset):
     psi = np.linspace(-7.0, 7.0, 41)
-    sweep = slider_crank_sweep.slider(psi, crank, rod, offset, 3)
+    sweep = slider_sweep(psi, crank, rod, offset, 3)
     for i, angle in enumerate(psi.tolist()):
         scalar = slider_crank.slider(angle, crank, rod, offset, 2)
         w = math.sqrt(rod**2 - (crank * math.cos(angle) + offset) ** 2)
@@ -183,7 +182,7 @@ def test_position_and_derivatives_against_many_digits(crank, rod, offset):
 def test_orders_and_shapes():
     for order in range(3):
         assert len(slider_crank.slider(0.3, 50.0, 200.0, 10.0, order)) == order + 1
-        values = slider_crank_sweep.slider(np.zeros((3, 4)), 50.0, 200.0, 10.0, order)
+        values = slider_sweep(np.zeros((3, 4)), 50.0, 200.0, 10.0, order)
         assert [v.shape for v in values] == [(3, 4)] * (order + 1)
         full = slider_crank.slider(0.3, 50.0, 200.0, 10.0, 2)
         assert slider_crank.slider(0.3, 50.0, 200.0, 10.0, order) == full[: order + 1]
@@ -219,8 +218,8 @@ def test_mirror_of_the_position(psi, drawn):
         (lambda: SliderCrank.of_crank(-1.0, 100.0), "crank -1 mm"),
         (lambda: slider_crank.slider(0.0, 96.0, 100.0, 5.0), r"limit > 101 mm, .* at crank direction 0 deg"),
         (lambda: slider_crank.slider(0.0, 95.0, 100.0, 5.0, 1), "does not reach"),
-        (lambda: slider_crank_sweep.slider([-1.5, 0.0], 96.0, 100.0, 5.0), "at crank direction 0 deg"),
-        (lambda: slider_crank_sweep.slider([-1.5, 0.0], 95.0, 100.0, 5.0, 1), "at crank direction 0 deg"),
+        (lambda: slider_sweep([-1.5, 0.0], 96.0, 100.0, 5.0), "at crank direction 0 deg"),
+        (lambda: slider_sweep([-1.5, 0.0], 95.0, 100.0, 5.0, 1), "at crank direction 0 deg"),
     ],
 )
 def test_refusals_name_the_limit(call, message):

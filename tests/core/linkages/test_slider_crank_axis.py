@@ -14,7 +14,7 @@ from axes import agree, bits_stand_alone, by_path, sampled
 from factory import design
 
 from gearlink.core.machines.slider_crank.axis import axis
-from gearlink.core.parts.linkages.slider_crank.sweep import slider
+from gearlink.core.parts.linkages.slider_crank import slider_sweep
 from gearlink.core.studies.explore.preparing import problem
 from gearlink.core.studies.study.spec import StudySpec
 
@@ -90,7 +90,7 @@ def test_acceleration_that_peaks_on_both_sides_of_the_dead_centre() -> None:
     assert not many.unsure.any()
     phi = np.linspace(0.5 * np.pi - 0.6, 0.5 * np.pi + 0.6, 600_001)
     for rod, value in zip(rods, many.quantities["acceleration_max"], strict=True):
-        greatest = slider(phi, 150.0, rod, 0.0, 2)[2].max()
+        greatest = slider_sweep(phi, 150.0, rod, 0.0, 2)[2].max()
         alone = design({**BASE, "rod": rod, "offset": 0}, command="analyze").quantity("acceleration_max")
         assert alone is not None
         assert (value, alone.value) == pytest.approx((greatest, greatest), rel=1e-12)

@@ -1,4 +1,4 @@
-"""The offset slider-crank, with `math` alone: crank length from stroke, dead centres, position; stroke with time ratio.
+"""The offset slider-crank: crank length from stroke, dead centres, position; stroke with time ratio; many positions.
 
 Frame: crank pivot D = (0, 0), crank pin E = r (cos psi, sin psi), slider F below on the line x = -e (the offset e
 is positive where the line passes to the left of D); the depth of the slider is h = -y_F.
@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from gearlink.core.base.design import placed
 from gearlink.core.base.errors import NoSolution
@@ -25,6 +25,12 @@ from gearlink.core.base.report import safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.numerics.elementary import SCALARS, Elementary
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from gearlink.core.numerics.arrays import Reals
+
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
 
@@ -416,3 +422,76 @@ def _require_within(key: str, length: float, low: float, high: float, ratio: flo
         text = f"{key}: {unlike(length, low)} mm (limit > {least} mm with this stroke and time ratio)"
         fix = f"set {key} above {least} mm"
     raise NoSolution(text, key=key, fix=fix)
+
+
+def slider_sweep(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[Reals, ...]:
+    """Depths of the slider below the crank pivot, with derivatives with respect to the crank direction.
+
+    h = w - r sin(psi),  w = sqrt(L^2 - u^2),  u = r cos(psi) + e
+
+    Parameters
+        psi : float array of any shape [rad] - directions of the crank from +x, counter-clockwise
+        crank, rod, offset : float [mm] - r, L, e (signed)
+        order : 0..3 - derivatives wanted
+    Returns
+        h, h', h'', h''' up to the order : tuple of arrays of that shape [mm, mm/rad ... mm/rad^3]
+    Raises
+        NoSolution - when the rod does not reach the slide line at one of the positions
+    Example
+        >>> import numpy as np
+        >>> slider_sweep([0.0, -np.pi / 2], 50.0, 200.0)[0].round(6)
+        array([193.649167, 250.      ])
+
+    Source
+        TY-460 report 2.1; own derivation
+    """
+    import numpy as np
+
+    angles = np.asarray(psi, dtype=np.float64)
+    return slider_at(np.cos(angles), np.sin(angles), crank, rod, offset, order)
+
+
+def slider_at(
+    cosine: Reals, sine: Reals, crank: float, rod: float, offset: float = 0.0, order: int = 0
+) -> tuple[Reals, ...]:
+    """The same as `slider_sweep` for crank directions given as unit vectors.
+
+    Parameters
+        cosine, sine : float arrays of one shape [1] - the unit vector along the crank
+        crank, rod, offset : float [mm] - r, L, e (signed)
+        order : 0..3 - derivatives wanted
+    Returns
+        h, h', h'', h''' up to the order : tuple of arrays [mm, mm/rad ... mm/rad^3]
+    Raises
+        NoSolution - when the rod does not reach the slide line at one of the positions
+    Example
+        >>> import numpy as np
+        >>> slider_at(np.array([0.6]), np.array([-0.8]), 50.0, 200.0, 10.0)[0].round(6)
+        array([235.959179])
+
+    Source
+        TY-460 report 2.1; own derivation
+    """
+    import numpy as np
+
+    along, across = crank * cosine, crank * sine
+    u = along + offset
+    square = (rod - u) * (rod + u)
+    reached = square >= 0.0 if order == 0 else square > 0.0
+    if not np.all(reached):
+        first = int(np.argmin(reached))
+        psi = float(np.arctan2(np.ravel(sine)[first], np.ravel(cosine)[first]))
+        raise NoSolution(not_reached(psi, crank, rod, offset))
+    w = np.sqrt(square)
+    depth = w - across
+    if order == 0:
+        return (depth,)
+    w1 = u * across / w
+    if order == 1:
+        return depth, w1 - along
+    w2 = -(across * across - u * along + w1 * w1) / w
+    if order == 2:
+        return depth, w1 - along, across + w2
+    # w w' = -u u' twice more, with u' = -r sin(psi), u'' = -r cos(psi), u''' = r sin(psi)
+    w3 = -(3.0 * across * along + u * across + 3.0 * w1 * w2) / w
+    return depth, w1 - along, across + w2, along + w3

@@ -1,4 +1,0 @@
-"""The offset slider-crank, and the kind `slider-crank`.
-
-Begin with `position` (`math` alone) or `design` (the kind).
-"""
