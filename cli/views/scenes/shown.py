@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism
     from gearlink.core.mechanism.motion import Input, Motion
     from gearlink.core.numerics.arrays import Mask
-    from gearlink.core.studies.clearance.bodies import Clearance, Layout
+    from gearlink.core.studies.clearance import Clearance, Layout
 
 
 _WAYS = np.exp(1j * TURN * np.arange(24) / 24)
@@ -765,7 +765,7 @@ class _Failing:
 
     def _clashes(self) -> Told:
         """Gears and shafts that are too near, at the positions at which they are."""
-        from gearlink.core.studies.clearance.bodies import Shaft, gaps
+        from gearlink.core.studies.clearance import Shaft, gaps
 
         places = {mark.text: np.asarray(mark.point) for mark in self.scene.marks}
         least = getattr(self.design.spec.limits, "gear_gap", 0.0)

@@ -6,8 +6,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING
 
-from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
-from gearlink.core.studies.clearance.reach import constant
+from gearlink.core.studies.clearance import Gear, Layout, constant, least_shaft, ring_gear, shafts_at
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell

@@ -32,8 +32,7 @@ from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import transmission_check
-from gearlink.core.studies.clearance.bodies import Layout
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec

@@ -31,8 +31,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, transmission_chec
 from gearlink.core.parts.linkages.codes import TARGET
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot, rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
-from gearlink.core.studies.clearance.bodies import Layout
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_spec import MutilatedGearDwellSpec

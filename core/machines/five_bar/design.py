@@ -31,9 +31,20 @@ from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Me
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import target_check, transmission_check
 from gearlink.core.parts.linkages.codes import CLOSURE, POSE_ORDER
-from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
-from gearlink.core.studies.clearance.reach import Reach, constant, crank_pin
+from gearlink.core.studies.clearance import (
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    Reach,
+    collision_check,
+    constant,
+    crank_pin,
+    least_shaft,
+    ring_gear,
+    shaft_checks,
+    shaft_seat,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.fit import Fit, TimedFit

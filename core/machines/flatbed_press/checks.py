@@ -43,7 +43,7 @@ from gearlink.core.parts.gears.drawing_names import DRAWING_QUANTITIES
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.parts.linkages.slider_crank import SliderCrank
-from gearlink.core.studies.clearance.bodies import LEAST_SHAFT_MODULES
+from gearlink.core.studies.clearance import LEAST_SHAFT_MODULES
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy

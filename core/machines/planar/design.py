@@ -26,9 +26,17 @@ from gearlink.core.mechanism import courses
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import ASSEMBLY, CLOSURE
-from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_shaft
-from gearlink.core.studies.clearance.checks import collision_check, seat_checks, shaft_checks
-from gearlink.core.studies.clearance.reach import reaches
+from gearlink.core.studies.clearance import (
+    FULL_HEIGHT,
+    Gear,
+    Layout,
+    Shaft,
+    collision_check,
+    least_shaft,
+    reaches,
+    seat_checks,
+    shaft_checks,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

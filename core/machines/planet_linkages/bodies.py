@@ -4,8 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gearlink.core.studies.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
-from gearlink.core.studies.clearance.reach import constant, coupler_joint, crank_pin
+from gearlink.core.studies.clearance import (
+    Gear,
+    Layout,
+    constant,
+    coupler_joint,
+    crank_pin,
+    least_shaft,
+    ring_gear,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker

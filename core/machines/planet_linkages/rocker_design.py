@@ -25,8 +25,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, target_check, tra
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
-from gearlink.core.studies.clearance.bodies import Layout
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_spec import GearedRockerSpec

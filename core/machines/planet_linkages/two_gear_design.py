@@ -27,8 +27,7 @@ from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.standstills import BackStep, OutputRates, Turning
-from gearlink.core.studies.clearance.bodies import Layout
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
+from gearlink.core.studies.clearance import SHAFT_WAYS, Layout, shaft_checks, shaft_seat
 
 if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.two_gear_family import Family

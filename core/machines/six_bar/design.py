@@ -31,9 +31,21 @@ from gearlink.core.parts.gears.mesh.pair import GearPair
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning, standing
-from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, seat_checks, shaft_checks
-from gearlink.core.studies.clearance.reach import Reach, constant, reaches
+from gearlink.core.studies.clearance import (
+    FULL_HEIGHT,
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    Reach,
+    collision_check,
+    constant,
+    least_shaft,
+    reaches,
+    ring_gear,
+    seat_checks,
+    shaft_checks,
+    shafts_at,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.spec import GearedSixBarSpec, SixTrain

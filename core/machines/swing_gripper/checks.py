@@ -27,7 +27,7 @@ from gearlink.core.parts.cams import codes as cam_codes
 from gearlink.core.parts.cams.checks import AS_THICK_AS_ROLLER, HUB, ROLLER_SHARE, over_axis_check
 from gearlink.core.parts.linkages.checks import transmission_check
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
-from gearlink.core.studies.clearance.bodies import beside_line, beside_turning_arm, beside_turning_pin
+from gearlink.core.studies.clearance import beside_line, beside_turning_arm, beside_turning_pin
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy

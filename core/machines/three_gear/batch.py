@@ -41,8 +41,16 @@ from gearlink.core.parts.linkages.codes import (
     TRANSMISSION_ANGLE,
 )
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
-from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES, Gear, Shaft, gaps, shaft_meetings
-from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
+from gearlink.core.studies.clearance import (
+    FULL_HEIGHT,
+    LEAST_SHAFT_MODULES,
+    Gear,
+    Shaft,
+    collision_judged,
+    gaps,
+    shaft_judged,
+    shaft_meetings,
+)
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
 LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dwell_window")

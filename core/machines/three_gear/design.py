@@ -30,9 +30,21 @@ from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 from gearlink.core.parts.linkages.standstills import BackStep, Turning, turnings
-from gearlink.core.studies.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
-from gearlink.core.studies.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
-from gearlink.core.studies.clearance.reach import constant, coupler_joint, crank_pin
+from gearlink.core.studies.clearance import (
+    FULL_HEIGHT,
+    SHAFT_WAYS,
+    Gear,
+    Layout,
+    Shaft,
+    collision_check,
+    constant,
+    coupler_joint,
+    crank_pin,
+    least_gap,
+    least_shaft,
+    shaft_checks,
+    shaft_seat,
+)
 
 if TYPE_CHECKING:
     from gearlink.core.machines.three_gear.families import Room, Uniform

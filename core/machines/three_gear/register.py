@@ -36,8 +36,7 @@ from gearlink.core.parts.linkages.checks import check_linkage, transmission_judg
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import least_transmission_angle
 from gearlink.core.parts.linkages.standstills import zeros_over_turn
-from gearlink.core.studies.clearance.bodies import Clearance, gaps
-from gearlink.core.studies.clearance.checks import collision_judged, shaft_judged
+from gearlink.core.studies.clearance import Clearance, collision_judged, gaps, shaft_judged
 from gearlink.core.studies.register.design import RegisterDesign, no_such_place
 from gearlink.core.studies.register.gains import turning
 from gearlink.core.studies.tolerance.budget import Contribution

@@ -18,7 +18,7 @@ import numpy as np
 from gearlink.core.base.report import NO_NUMBER, Check, Shown, safely_above
 from gearlink.core.numerics.extremes import minimum_over
 from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
-from gearlink.core.studies.clearance.bodies import beside_line, beside_turning_arm
+from gearlink.core.studies.clearance import beside_line, beside_turning_arm
 
 if TYPE_CHECKING:
     from gearlink.core.machines.wide_swing.design import WideSwingDesign

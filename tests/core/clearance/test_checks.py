@@ -16,9 +16,17 @@ from pydantic import ValidationError
 
 from gearlink.core.base.codes import rules
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.studies.clearance.bodies import Gear, Layout, Shaft, least_gap
-from gearlink.core.studies.clearance.checks import shaft_checks
-from gearlink.core.studies.clearance.reach import Reach, constant, coupler_joint, crank_pin
+from gearlink.core.studies.clearance import (
+    Gear,
+    Layout,
+    Reach,
+    Shaft,
+    constant,
+    coupler_joint,
+    crank_pin,
+    least_gap,
+    shaft_checks,
+)
 
 IDLER = {
     "kind": "geared-five-bar",

@@ -9,7 +9,7 @@ import pytest
 
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar_motion
 from gearlink.core.parts.linkages.fourbar.position import FourBar
-from gearlink.core.studies.clearance.reach import reaches
+from gearlink.core.studies.clearance import reaches
 
 BAR = FourBar(18.0, 50.0, 100.0, 121.4)
 AXES = {"A": ("frame", 0j), "B": ("crank", "B"), "C": ("rocker", "C"), "D": ("rocker", "D")}

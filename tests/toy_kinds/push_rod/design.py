@@ -8,7 +8,7 @@ from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.real_speed import RealSpeed
 from gearlink.core.base.report import Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.studies.clearance.reach import reaches
+from gearlink.core.studies.clearance import reaches
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 
 

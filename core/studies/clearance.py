@@ -1,4 +1,6 @@
-"""Bodies in the plane of the gears, and the minimum gap of every two that could meet; links near axes of the frame.
+"""Whether bodies in the plane of the gears keep clear of each other, links of axes of the frame, axes of each other.
+
+A machine lists its gears, its shafts and how near their axes come; GL301 and GL302 judge every pair.
 
 All gears of a train lie in one plane, and the shafts of the frame pass through it unless they end before it (are
 overhung). Two bodies cannot meet that share an axis, are one rigid body, or are gears in mesh. Links and the pins
@@ -11,17 +13,24 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, combinations, product
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from gearlink.core.base.judged import Judged
+from gearlink.core.base.remedies.ways import down
+from gearlink.core.base.report import Check
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.wording import short
+from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
+from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.parts.linkages.fourbar.position import FourBar
 
 if TYPE_CHECKING:
+    from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.parts.gears.mesh.pair import GearPair
-    from gearlink.core.studies.clearance.reach import Reach
 
 
 LEAST_SHAFT_MODULES = 2.0
@@ -117,7 +126,7 @@ def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance
         Beside each other at the nearest, or one within the other's ring at the farthest: a body that passes from
         within a ring to without meets its teeth, so that none of the three is positive.
     Example
-        >>> from gearlink.core.studies.clearance.reach import Reach
+        >>> from gearlink.core.studies.clearance import Reach
         >>> ring = Gear("the ring gear", "A", outer=81.5, inner=73.0)
         >>> least_gap(ring, Shaft("shaft at D", "D", 5.0, ""), Reach(60.0, 60.0)).gap
         8.0
@@ -293,3 +302,236 @@ def _ahead(place: complex, arm: complex, sweep: float) -> complex:
 
 def _beside(seen: complex, length: float) -> float:
     return abs(seen - min(max(seen.real, 0.0), length))
+
+
+SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", *"ADEOW")), down("gears.rim"))
+"""How a file may be changed where a shaft is not clear."""
+
+
+def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Check:
+    """GL301: two gears that do not mesh.
+
+    Parameters
+        pair : Clearance - of two gears
+        limit : float [mm] - minimum gap
+        why, remedy : str - which lengths make the gap, and what would give the gears room
+    Notes
+        A limit below 0 allows gears that overlap, which is a warning: they do not turn in one plane.
+    """
+    gap, names = pair.gap, f"{pair.one.name} and {pair.other.name}"
+    judged = collision_judged(gap, limit)
+    note = "the gears need planes of their own, as limits.gear_gap allows" if judged.warns else ""
+    fix = "put the gears in planes of their own" if judged.warns else remedy
+    return judged.check(
+        f"gap between the tips of {names}",
+        fix,
+        at=_place(pair),
+        aside=why,
+        overlap=f"interference of {names}",
+        note=note,
+    )
+
+
+def collision_judged(gap: Any, limit: Any) -> Judged:
+    """GL301 of gaps of gears that do not mesh [mm]."""
+    keeps = gap >= limit
+    return Judged(GEAR_COLLISION, gap, limit, keeps ^ True, keeps & (gap < 0.0), "mm")
+
+
+def shaft_checks(layout: Layout) -> Iterator[Check]:
+    """GL302: every gear against every shaft, and the shafts against each other.
+
+    Notes
+        A shaft of the file must be clear. Beside the axis of one that the file does not name there must be room for
+        the thinnest shaft that would be built; less is a warning, since that shaft may end before the gears.
+    """
+    for pair in layout.shaft_pairs:
+        bare = pair.bare
+        limit = layout.least_shaft * len(bare)
+        judged = shaft_judged(pair.gap, limit, bool(bare))
+        yield _shaft_check(judged, pair, bare)
+
+
+def shaft_judged(gap: Any, limit: Any, bare: Any) -> Judged:
+    """GL302 of gaps of gears and shafts [mm], at axes that are bare a warning."""
+    low = (gap >= limit) ^ True
+    return Judged(SHAFT_CLEARANCE, gap, limit, low & (bare ^ True), low & bare, "mm")
+
+
+class Placed(Protocol):
+    """A design with gears and shafts in one plane."""
+
+    @property
+    def layout(self) -> Layout: ...
+
+
+def shaft_seat(design: Placed) -> Iterator[Check]:
+    """GL302: the rims of gears round their own shafts; see `seat_checks`."""
+    return seat_checks(design.layout)
+
+
+def seat_checks(layout: Layout) -> Iterator[Check]:
+    """GL302: every gear whose own shaft leaves its teeth no rim that bears them; a warning, since they may be cut into
+    the shaft. Nothing where all have one."""
+    for seat in layout.seats:
+        if seat.rim < seat.least:
+            yield _thin_rim(seat)
+
+
+def _place(pair: Clearance) -> str:
+    """Where in the cycle; empty where the gap never changes."""
+    return "" if pair.angle is None else f"input angle {short(math.degrees(pair.angle))} deg"
+
+
+def _words(body: Gear | Shaft) -> str:
+    if isinstance(body, Gear):
+        return body.name
+    return f"the axis of the {body.name}" if body.radius is None else f"the {body.name}"
+
+
+def _shaft_check(judged: Judged, pair: Clearance, bare: tuple[Shaft, ...]) -> Check:
+    """GL302 of one body and one shaft."""
+    one, other = _words(pair.one), _words(pair.other)
+    named = [body for body in (pair.one, pair.other) if isinstance(body, Shaft) and body.radius is not None]
+    aside = ", ".join(f"{body.name} radius {body.radius:g} mm" for body in named)
+    fix = ""
+    if judged.fails:
+        fix = "end the shaft before the plane of the gears (overhung)"
+    elif judged.warns:
+        fix = f"end the {bare[0].name} before the plane of the gears (overhung)"
+        # In whole tenths that can be built; the last bit of a gap is rounding.
+        radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
+        if radius > 0.0 and len(bare) == 1:
+            fix = f"set {bare[0].key} to at most {radius:g} mm"
+        if pair.gap >= 0.0:
+            aside = f"{'two minimum shaft radii' if len(bare) > 1 else 'minimum shaft radius'}, limits.least_shaft"
+        else:
+            aside = f"axes {short(pair.distance)} mm apart"
+    overlap = f"overlap of {one} and {other}"
+    return judged.check(f"distance of {one} from {other}", fix, at=_place(pair), aside=aside, overlap=overlap)
+
+
+def _thin_rim(seat: Seat) -> Check:
+    what, name = f"rim of {seat.gear.name} between its teeth and {_words(seat.shaft)}", SHAFT_CLEARANCE.checks[1]
+    overlap = f"overlap of the teeth of {seat.gear.name} and {_words(seat.shaft)}"
+    return SHAFT_CLEARANCE.check(
+        "warn",
+        what,
+        seat.rim,
+        seat.least,
+        "mm",
+        name=name,
+        overlap=overlap,
+        aside="half the tooth height" if seat.rim >= 0.0 else "",
+        fix=f"lower {seat.shaft.key}, or cut the teeth into the shaft",
+    )
+
+
+_TURN = 2.0 * math.pi
+
+
+class Reach(NamedTuple):
+    """Minimum and maximum distance of two axes [mm] and the input angles [rad] where they occur.
+
+    Notes
+        The angles are None where the distance never changes.
+    """
+
+    nearest: float
+    farthest: float
+    nearest_at: float | None = None
+    farthest_at: float | None = None
+
+
+def constant(distance: float) -> Reach:
+    """Two axes on one link, or both in the frame.
+
+    Parameters
+        distance : float [mm]
+    """
+    return Reach(distance, distance)
+
+
+def crank_pin(crank: float, frame: float, start: float = 0.0, end: float = _TURN) -> Reach:
+    """The pin of a turning link against an axis of the frame.
+
+    |BD|^2 = (d - a)^2 + 4 a d sin^2(phi/2)
+
+    Parameters
+        crank : float [mm] - a, the link AB that turns about A
+        frame : float [mm] - d = AD; phi counts from A->D
+        start, end : float [rad] - the input angles that are passed
+    Returns
+        reach : Reach - |d - a| and d + a where the range passes them, else the distances at its ends
+    Example
+        >>> crank_pin(18.0, 121.4).nearest, round(crank_pin(10.0, 61.0, math.radians(60.0), math.pi).nearest, 9)
+        (103.4, 56.665686266)
+    """
+    ends = [
+        (math.hypot(frame - crank, 2.0 * math.sqrt(crank * frame) * math.sin(0.5 * phi)), phi) for phi in (start, end)
+    ]
+    folded, stretched = _first_passed(0.0, start, end), _first_passed(math.pi, start, end)
+    near = min(ends) if folded is None else (abs(frame - crank), folded)
+    far = max(ends) if stretched is None else (frame + crank, stretched)
+    return Reach(near[0], far[0], near[1], far[1])
+
+
+def _first_passed(angle: float, start: float, end: float) -> float | None:
+    """The first input angle of a range that is the given one up to whole revolutions."""
+    place = angle + _TURN * math.ceil((start - angle) / _TURN)
+    return place if place <= end else None
+
+
+def coupler_joint(linkage: FourBar) -> Reach:
+    """The coupler joint C against the crank pivot A over a revolution of the crank.
+
+    Parameters
+        linkage : FourBar - its crank turns fully
+    Raises
+        NoSolution - as `joint_to_crank_pivot`
+    Example
+        >>> coupler_joint(FourBar(18.0, 50.0, 100.0, 121.4)).nearest
+        32.0
+    """
+    near, far = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
+    return Reach(near.distance, far.distance, near.crank_angle, far.crank_angle)
+
+
+def reaches(
+    motion: Motion, axes: Mapping[str, tuple[str, complex | str]], pairs: Iterable[str] = (), *, samples: int = 2048
+) -> dict[str, Reach]:
+    """Reaches of axes over all inputs of a motion, searched together.
+
+    Parameters
+        motion : Motion
+        axes : by letter - the link that an axis stands on, "frame" among them, and the point of it [mm]
+        pairs : two letters each; without them every two axes
+        samples : int - places over the inputs that are looked at first
+    Returns
+        reaches : by pair - the places within the period or range of the input
+    Raises
+        NoSolution - where the mechanism does not close
+    """
+    import numpy as np
+
+    from gearlink.core.numerics.extremes import extremes_over
+    from gearlink.core.numerics.together import kept_last
+
+    def places(phi: Reals) -> dict[str, Points]:
+        links = motion.at(phi, 0).links
+        return {
+            name: np.full(phi.shape, at, dtype=np.complex128) if link == "frame" else links[link].at(at).value
+            for name, (link, at) in axes.items()
+        }
+
+    placed, asked = kept_last(places), [*pairs] or ["".join(pair) for pair in combinations(axes, 2)]
+
+    def distance(one: str, other: str) -> Callable[[Reals], Reals]:
+        return lambda phi: np.asarray(np.abs(placed(phi)[one] - placed(phi)[other]))
+
+    given = motion.input
+    distances = [distance(pair[0], pair[1]) for pair in asked]
+    wanted = [(each, greatest) for each in distances for greatest in (False, True)]
+    found = iter(extremes_over(wanted, given.start, given.end, joints=given.joints, samples=samples))
+    near_far = {pair: (next(found), next(found)) for pair in asked}
+    return {pair: Reach(near.value, far.value, near.place, far.place) for pair, (near, far) in near_far.items()}
