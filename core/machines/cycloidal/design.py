@@ -171,7 +171,7 @@ class CycloidalReducer(RealSpeed, Design):
         """
         import numpy as np
 
-        from gearlink.core.studies.loads.cams.contact import plane_modulus
+        from gearlink.core.studies.loads.contact import plane_modulus
 
         assert self.worst_torque is not None
         assert self.spec.width is not None

@@ -586,7 +586,7 @@ class Closing:
         material = None if section is None else section.material
         if material is None or material.allowed_pressure is None or self.spec.closure != "spring":
             return None
-        from gearlink.core.studies.loads.cams.contact import plane_modulus
+        from gearlink.core.studies.loads.contact import plane_modulus
 
         modulus = plane_modulus(material.modulus, material.poisson)
         worst = self._most(lambda phi: np.maximum(self.contact_force(phi), 0.0) / self.relative_radius(phi)).value

@@ -13,7 +13,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, fixed, standing, steady
-from gearlink.core.studies.loads.cams.contact import RollerOnCam
+from gearlink.core.studies.loads.contact import RollerOnCam
 from gearlink.core.studies.register.movable import Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 

@@ -13,8 +13,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import mechanism
 from gearlink.core.machines.flatbed_press.codes import PLACE
 from gearlink.core.machines.flatbed_press.design import FlatbedPress
-from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
-from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.mechanism.rates import Turn
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.loads.cams.contact import RollerOnCam
+    from gearlink.core.studies.loads.contact import RollerOnCam
     from gearlink.core.studies.loads.design import Wanted
 
 
@@ -215,7 +214,7 @@ class PressLoads(CamLoadsDesign):
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
-        from gearlink.core.studies.loads.cams.contact import RollerOnCam
+        from gearlink.core.studies.loads.contact import RollerOnCam
 
         cams, links = self.design.cams, self.machine.at(phi)
         cam = mechanism.follower_lift(links)
@@ -234,7 +233,7 @@ class PressLoads(CamLoadsDesign):
         """Out of the reactions: the main cam pushes, the return cam pulls back; with a preload both press."""
         import numpy as np
 
-        from gearlink.core.studies.loads.cams.contact import positive_drive
+        from gearlink.core.studies.loads.contact import positive_drive
 
         net = self.side_force(phi)
         if not self._preload:

@@ -13,8 +13,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.machines.swing_gripper.design import SwingGripper
 from gearlink.core.machines.swing_gripper.mechanism import roller_on
 from gearlink.core.machines.swing_gripper.motion import require
-from gearlink.core.studies.loads.cams.checks import CAM_CHECKS
-from gearlink.core.studies.loads.cams.design import CONTACT, CamLoadsDesign
+from gearlink.core.studies.loads.cams import CAM_CHECKS, CONTACT, CamLoadsDesign
 from gearlink.core.studies.loads.design import loads_outline
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.mechanism.motion import Motion
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.parts.cams.disc_cam import DiscCam
-    from gearlink.core.studies.loads.cams.contact import RollerOnCam
+    from gearlink.core.studies.loads.contact import RollerOnCam
     from gearlink.core.studies.loads.machine import Machine
     from gearlink.core.studies.loads.spec import CamLoads
 

@@ -15,7 +15,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
-from gearlink.core.studies.loads.cams.contact import RollerOnCam
+from gearlink.core.studies.loads.contact import RollerOnCam
 
 if TYPE_CHECKING:
     from gearlink.core.machines.swing_gripper.design import SwingGripper

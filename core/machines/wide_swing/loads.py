@@ -32,9 +32,9 @@ from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, 
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over, minimum_over
 from gearlink.core.studies.loads import codes, tables
-from gearlink.core.studies.loads.cams.checks import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
-from gearlink.core.studies.loads.cams.contact import LineContact, plane_modulus
+from gearlink.core.studies.loads.cams import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.checks import resonance
+from gearlink.core.studies.loads.contact import LineContact, plane_modulus
 from gearlink.core.studies.loads.design import LoadsDesign, loads_outline
 from gearlink.core.studies.loads.joints import BALL, ROLLER
 from gearlink.core.studies.loads.names import PIN

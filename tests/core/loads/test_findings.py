@@ -11,7 +11,7 @@ import factory
 import pytest
 
 from gearlink.core.studies.loads import checks
-from gearlink.core.studies.loads.cams import checks as cam_checks
+from gearlink.core.studies.loads.cams import CamLoadsDesign
 
 FEED = "loaded_feed"
 
@@ -138,11 +138,11 @@ def test_forces_grow_as_one_over_the_sine_of_the_transmission_angle(angle: float
 def test_a_preload_holds_both_rollers_or_says_what_would(given: float, status: str) -> None:
     roller = SimpleNamespace(preload=given)
     design = SimpleNamespace(preload_needed=1234.56, section=SimpleNamespace(roller=roller))
-    (check,) = cam_checks.preload(design)
+    (check,) = CamLoadsDesign.check_preload(design)
     assert (check.code, check.status, check.value, check.limit) == ("GL613", status, given, 1234.56)
     assert (check.fix == "set loads.roller.preload to 1235") == (status == "warn")
     roller.preload = None
-    assert list(cam_checks.preload(design)) == []
+    assert list(CamLoadsDesign.check_preload(design)) == []
 
 
 def test_a_jump_of_speed_is_an_impact() -> None:

@@ -14,7 +14,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.studies.loads.cams.contact import (
+from gearlink.core.studies.loads.contact import (
     SHEAR_DEPTH,
     LineContact,
     RollerOnCam,

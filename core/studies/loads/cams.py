@@ -1,22 +1,49 @@
-"""What `loads` adds for a machine with cams: contact forces, pressures, rollers, torque, table `contact`."""
+"""What `loads` adds for a machine with cams: contact forces, pressures, rollers, torque, table `contact`, checks."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.base.report import Table
+from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
-from gearlink.core.studies.loads.cams import checks
+from gearlink.core.base.wording import amount, short
+from gearlink.core.studies.loads.checks import listed, load_reversal
+from gearlink.core.studies.loads.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.design import LoadsDesign
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.studies.loads.cams.contact import LineContact, RollerOnCam
+    from gearlink.core.studies.loads.contact import LineContact, RollerOnCam
     from gearlink.core.studies.loads.design import Wanted
+
+
+CAM_CHECKS = ("contact-pressure", "contact-loss", "roller-skid", "preload")
+_NEAR = 0.9
+_LEAST_SHARE = 0.1
+
+
+def no_width(allowed: float) -> Check:
+    """GL607 of a file that allows a pressure, and gives no width."""
+    what, fix = "no contact pressure without the width of the roller", "give loads.roller: {width: mm}"
+    return CONTACT_PRESSURE.check("warn", what, None, allowed, "N/mm^2", fix=fix)
+
+
+def pressed_where_undercut(words: str, allowed: float) -> Check:
+    """GL607 of a roller that would press where its profile is cut away."""
+    what, fix = f"{words} is undercut: no contact pressure", "enlarge the cam, or take a smaller roller"
+    return CONTACT_PRESSURE.check("fail", what, None, allowed, "N/mm^2", fix=fix)
+
+
+def pressure_check(what: str, found: float, allowed: float, at: str) -> Check:
+    """GL607 of a contact pressure [N/mm^2]."""
+    status: Status = "fail" if found > allowed else "warn" if found > _NEAR * allowed else "pass"
+    fix = "take a wider roller"
+    most = _NEAR * allowed
+    return CONTACT_PRESSURE.check(status, what, found, allowed, "N/mm^2", recommended=most, at=at, fix=fix)
 
 
 _RPM = 2.0 * math.pi / 60.0
@@ -118,7 +145,7 @@ class CamLoadsDesign(LoadsDesign):
         return self.machine.at(phi).once(f"contact {name}", lambda: self._contact_at(name, phi))
 
     def _contact_at(self, name: str, phi: Reals) -> LineContact:
-        from gearlink.core.studies.loads.cams.contact import LineContact, plane_modulus
+        from gearlink.core.studies.loads.contact import LineContact, plane_modulus
         from gearlink.core.studies.loads.spec import Material
 
         material = self.section.material or Material()
@@ -308,9 +335,92 @@ class CamLoadsDesign(LoadsDesign):
 
     table_contact: Any = contact_table
 
-    check_contact_pressure, check_contact_loss = checks.contact_pressure, checks.contact_loss
-    check_roller_skid, check_preload = checks.roller_skid, checks.preload
-    check_load_reversal = checks.load_reversal
+    def check_contact_pressure(self) -> Iterator[Check]:
+        """GL607, where the file gives an allowed pressure."""
+        material = self.section.material
+        allowed = None if material is None else material.allowed_pressure
+        found = self.pressure_extremes
+        if allowed is None:
+            return
+        if found is None:
+            yield no_width(allowed)
+            return
+        for name, extreme in zip(self.own_rollers, found, strict=True):
+            if extreme is None:
+                yield pressed_where_undercut(f"the {name} roller presses where its cam", allowed)
+                continue
+            at = f"{short(math.degrees(extreme.place))} deg"
+            yield pressure_check(f"contact pressure of the {name} roller", extreme.value, allowed, at)
+
+    def check_contact_loss(self) -> Iterator[Check]:
+        """GL608: rollers that something presses to their cams."""
+        if self.on_two_sides:
+            return
+        for name, (low, _) in zip(self.own_rollers, self.force_extremes, strict=True):
+            import numpy as np
+
+            mean = self.machine.mean(lambda phi, name=name: np.abs(self.contact_force(name, phi)))  # type: ignore[misc]
+            status: Status = "fail" if low.value < 0.0 else "warn" if low.value < _LEAST_SHARE * mean else "pass"
+            yield CONTACT_LOSS.check(
+                status,
+                f"minimum contact force of the {name} roller",
+                low.value,
+                0.0,
+                "N",
+                overlap=f"contact force lacking: the {name} roller leaves its cam",
+                recommended=_LEAST_SHARE * mean,
+                at=f"{short(math.degrees(low.place))} deg",
+                fix=self.closing_remedy,
+            )
+
+    def check_roller_skid(self) -> Iterator[Check]:
+        """GL609, where the file gives a roller."""
+        found = self.traction_needed
+        if found is None:
+            return
+        limit = self.section.roller.friction
+        for name, share in zip(self.own_rollers, found, strict=True):
+            if share is None:
+                what, fix = f"the {name} roller leaves its cam, where nothing drives it round", "press it harder"
+                yield ROLLER_SKID.check("warn", what, None, limit, fix=fix)
+                continue
+            what = f"friction that drives the {name} roller round, over its contact force"
+            status: Status = "warn" if share > limit else "pass"
+            yield ROLLER_SKID.check(status, what, share, limit, fix="take a lighter roller, or press it harder")
+
+    def check_preload(self) -> Iterator[Check]:
+        """GL613, of a positive drive with preload."""
+        needed = self.preload_needed
+        if needed is None or not self.section.roller.preload:
+            return
+        given = self.section.roller.preload
+        status: Status = "warn" if given < needed else "pass"
+        fix = f"set loads.roller.preload to {safely_above(needed)}"
+        yield PRELOAD.check(status, "preload that holds both rollers on their cams", given, needed, "N", fix=fix)
+
+    def check_load_reversal(self) -> Iterator[Check]:
+        """GL602: each mesh, and a follower between two cams that no preload holds to both."""
+        yield from load_reversal(self)
+        roller = self.section.roller
+        if not self.on_two_sides or (roller is not None and roller.preload):
+            return
+        from gearlink.core.studies.loads.joints import places
+
+        size = max(abs(high.value) for _, high in self.force_extremes)
+        found = [math.degrees(place) for place in places(self.side_force, self.machine, size)]
+        if found:
+            what, fix = "the follower changes cams", "press both rollers on (loads.roller.preload)"
+            yield LOAD_REVERSAL.check(
+                "warn",
+                f"{what} {amount(len(found), 'time')} over the period and strikes there",
+                float(len(found)),
+                0.0,
+                shown=NO_NUMBER,
+                at=f"{listed(found)} deg",
+                fix=fix,
+            )
+        else:
+            yield LOAD_REVERSAL.check("pass", "the follower stays on one cam", 0.0, 0.0, shown=NO_NUMBER)
 
 
 def _values(found: list[Extreme | None] | None) -> list[float | None] | None:
