@@ -20,7 +20,7 @@ from gearlink.core.base.wording import short
 from gearlink.core.mechanism.motion import TURN, Course, Motion
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
-from gearlink.core.studies.loads.zeros import zeros_of
+from gearlink.core.numerics.roots_sweep import zeros_of
 
 if TYPE_CHECKING:
     from gearlink.core.base.design import Design

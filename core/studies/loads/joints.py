@@ -13,9 +13,9 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.mechanism.joints import Pin, ToothDrive, meshes_of
 from gearlink.core.mechanism.links import rates
 from gearlink.core.numerics.arrays import BLOCK, Reals
+from gearlink.core.numerics.roots_sweep import zeros, zeros_of
 from gearlink.core.studies.loads.machine import Machine
 from gearlink.core.studies.loads.panels import Panels
-from gearlink.core.studies.loads.zeros import zeros, zeros_of
 
 if TYPE_CHECKING:
     from gearlink.core.mechanism.links import Mechanism

@@ -22,9 +22,9 @@ from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.mechanism.motion import Motion
 from gearlink.core.mechanism.rates import TURNING_BACK, dot
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.roots_sweep import zeros_of
 from gearlink.core.studies.loads.panels import APART, Panels
 from gearlink.core.studies.loads.sources import Sources
-from gearlink.core.studies.loads.zeros import zeros_of
 
 TURN = 2.0 * math.pi
 _KEPT = 24

@@ -24,7 +24,7 @@ from gearlink.core.mechanism.dual import Chain
 from gearlink.core.mechanism.joints import Contact, Pin, SharedContact, Toothed
 from gearlink.core.mechanism.motion import Course
 from gearlink.core.numerics.arrays import Reals, turn_degrees
-from gearlink.core.studies.loads.zeros import zeros
+from gearlink.core.numerics.roots_sweep import zeros
 from gearlink.core.studies.register.gains import Gains, Moves, Output
 from gearlink.core.studies.register.movable import Errors
 from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.roots_sweep import zeros, zeros_of
 from gearlink.core.studies.loads.machine import TURN
-from gearlink.core.studies.loads.zeros import zeros, zeros_of
 
 _NEAR = 4.0 * float(np.spacing(TURN))
 
