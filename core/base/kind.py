@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _SHARED = {
     "explore": "studies.explore.exploration:Exploration",
     "tolerance": "studies.tolerance_study.design:ToleranceStudy",
-    "register": "studies.register.design:MotionRegister",
+    "register": "studies.register:MotionRegister",
 }
 """Commands that are no kind's own."""
 
@@ -106,7 +106,7 @@ class Kind(NamedTuple):
         """What the sizes, gears and pins of a design move: a `Movable`."""
         if self.errors:
             return self._own(self.errors)(design, mechanism)
-        return load("core.studies.register.movable:Movable")()
+        return load("core.studies.movable:Movable")()
 
     def axis_maker(self) -> Maker | None:
         """What makes the kind's array form, where it has one."""

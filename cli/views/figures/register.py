@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.studies.register.design import RegisterDesign
+    from gearlink.core.studies.register import RegisterDesign
     from gearlink.core.studies.tolerance.budget import Budget, Row
 
 _LINES = ("-", style.DASHED)
@@ -32,7 +32,7 @@ def draw(design: RegisterDesign) -> Figure:
 
 def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
     """The budgets to draw, each with its name: one where the flank does not matter."""
-    from gearlink.core.studies.register.design import are_alike
+    from gearlink.core.studies.register import are_alike
 
     one, other = design.budgets
     return [("", one)] if are_alike(one, other) else [(" torque +1", one), (" torque −1", other)]

@@ -14,7 +14,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, fixed, mixed, standing, steady
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.crank_rocker.design import CrankRocker

@@ -14,7 +14,7 @@ from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, steady
 from gearlink.core.numerics.arrays import units
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.cycloidal.design import CycloidalReducer

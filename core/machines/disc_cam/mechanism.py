@@ -14,7 +14,7 @@ from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, fixed, standing, steady
 from gearlink.core.studies.loads.contact import RollerOnCam
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 
 if TYPE_CHECKING:

@@ -15,13 +15,13 @@ from gearlink.core.mechanism.rates import fixed, standing, steady
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.hypocycloid_design import HypocycloidDwell
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
 
 def errors(design: HypocycloidDwell, mechanism: Mechanism) -> Movable:
     """The rod, the carrier, which is the centre distance of planet and ring, and the planet's teeth."""
     from gearlink.core.mechanism.dual import longer
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     gears, arm = design.spec.gears, design.carrier_length

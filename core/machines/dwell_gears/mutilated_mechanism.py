@@ -19,13 +19,13 @@ from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pi
 if TYPE_CHECKING:
     from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
     from gearlink.core.numerics.arrays import Mask, Reals
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
 
 def errors(design: MutilatedGearDwell, mechanism: Mechanism) -> Movable:
     """The links of the four-bar, the angle at which it starts, and the runout of the driven gear."""
     from gearlink.core.mechanism.dual import Shift, longer
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     bar, gears = design.linkage, design.spec.gears

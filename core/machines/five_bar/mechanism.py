@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
     from gearlink.core.machines.five_bar.path_motion import PathFiveBar
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
 
 
 _DEGREE = math.radians(1.0)
@@ -35,7 +35,7 @@ _LINKS = ("input", "coupler", "follower", "output")
 def errors(design: GearedFiveBar, mechanism: Mechanism) -> Movable:
     """Links, phase, the coupler point of a path, and the runout of the gears; an output that turns at its pin."""
     from gearlink.core.mechanism.dual import Shift, longer
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
     bar = design.path_bar if design.is_path else design.function_bar
     sizes = longer(
@@ -62,7 +62,7 @@ def _across(way: complex) -> Course:
 
 
 def _gears(design: GearedFiveBar) -> dict[str, Turned]:
-    from gearlink.core.studies.register.movable import Turned
+    from gearlink.core.studies.movable import Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     gears, alpha = design.spec.gears, math.radians(design.spec.gears.pressure_angle)

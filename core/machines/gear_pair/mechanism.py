@@ -14,13 +14,13 @@ from gearlink.core.mechanism.rates import fixed, steady
 if TYPE_CHECKING:
     from gearlink.core.machines.gear_pair.design import GearPairDesign
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
 
 def errors(design: GearPairDesign, _mechanism: Mechanism) -> Movable:
     """The centre distance, and the runout of both gears; measured at the reference circle of gear 2."""
     from gearlink.core.mechanism.dual import Shift
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     pair = design.gear_pair

@@ -16,7 +16,7 @@ from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Turn, fixed, steady
 from gearlink.core.numerics.arrays import Mask, Reals, units
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.geneva.design import GenevaDrive

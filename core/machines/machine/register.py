@@ -17,7 +17,7 @@ from gearlink.core.machines.machine.speeds import speed_changes
 if TYPE_CHECKING:
     from gearlink.core.machines.machine.loads import MachineLoads
     from gearlink.core.machines.machine.spec import MachineRegister, MachineSpec
-    from gearlink.core.studies.register.design import RegisterDesign
+    from gearlink.core.studies.register import RegisterDesign
     from gearlink.core.studies.tolerance.budget import Budget
 
 _ROOT_2 = math.sqrt(2.0)
@@ -193,7 +193,7 @@ class RegisterOfMachine(Design):
 
     def check_register_budget(self) -> Iterator[Check]:
         """GL520 where the file names what may be lost."""
-        from gearlink.core.studies.register.design import budget_check
+        from gearlink.core.studies.register import budget_check
 
         limit = self.section.tolerance
         if limit is None:

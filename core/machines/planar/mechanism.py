@@ -16,7 +16,7 @@ from gearlink.core.mechanism.joints import Connection, Contact, Coupling, Feed, 
 from gearlink.core.mechanism.links import FRAME, Later, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn
-from gearlink.core.studies.register.movable import Movable, Turned
+from gearlink.core.studies.movable import Movable, Turned
 from gearlink.core.studies.tolerance.sources import GearOfSource
 
 if TYPE_CHECKING:

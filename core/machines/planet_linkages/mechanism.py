@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gearlink.core.machines.planet_linkages.rocker_design import GearedRocker
     from gearlink.core.machines.planet_linkages.two_gear_design import TwoGearFourBar
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
 
 def two_gear_errors(design: TwoGearFourBar, mechanism: Mechanism) -> Movable:
@@ -35,7 +35,7 @@ def _movable(
     design: Any, mechanism: Mechanism, carrier: str, coupler_gear: str, output_gear: str, coupler_teeth: int
 ) -> Movable:
     from gearlink.core.mechanism.dual import longer
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     bar, gears = design.linkage, design.spec.gears

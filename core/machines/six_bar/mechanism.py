@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from gearlink.core.machines.six_bar.spec import SixTrain
     from gearlink.core.mechanism.rates import Point
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.studies.register.movable import Movable
+    from gearlink.core.studies.movable import Movable
 
 
 def errors(design: GearedSixBar, mechanism: Mechanism) -> Movable:
     """Links, where they carry a mesh its centre distance, and the runout of free gears; measured at the pin E."""
     from gearlink.core.mechanism.dual import longer
-    from gearlink.core.studies.register.movable import Movable, Turned
+    from gearlink.core.studies.movable import Movable, Turned
     from gearlink.core.studies.tolerance.sources import GearOfSource
 
     ends = {f"links.{name}": (name, length) for name, length in zip(LINKS[1:], design.lengths[1:], strict=True)}

@@ -25,7 +25,7 @@ from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import TURN, Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, Turn, carried, fixed, standing, steady
 from gearlink.core.numerics.extremes import share_of
-from gearlink.core.studies.register.movable import Errors, Movable
+from gearlink.core.studies.movable import Errors, Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE, RETURN_ARM, ROLLER_ARM
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import pytest
 from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.kinds import KINDS
 from gearlink.core.base.spec_paths import changed, number_at
-from gearlink.core.studies.register.design import MotionRegister
+from gearlink.core.studies.register import MotionRegister
 from gearlink.core.studies.study.faults import WrongStudy
 from tests import factory
 

@@ -10,7 +10,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.studies.register.design import sampled_share
+from gearlink.core.studies.register import sampled_share
 from gearlink.core.studies.tolerance.budget import Contribution, budget, normal_band
 from gearlink.core.studies.tolerance.sampling import COMPUTED_BY
 

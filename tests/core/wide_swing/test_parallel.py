@@ -20,7 +20,7 @@ from gearlink.core.machines.wide_swing.design import WideSwingDesign
 from gearlink.core.machines.wide_swing.mechanism import motion
 from gearlink.core.machines.wide_swing.spec import WideSwingSpec
 from gearlink.core.mechanism.joints import SharedContact
-from gearlink.core.studies.register.design import MotionRegister
+from gearlink.core.studies.register import MotionRegister
 
 CYLINDER = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0, "reserve": 0.24}
 CAM = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}

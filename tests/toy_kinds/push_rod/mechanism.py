@@ -11,7 +11,7 @@ from gearlink.core.mechanism.joints import Connection, Guide, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import fixed, standing, steady
-from gearlink.core.studies.register.movable import Movable
+from gearlink.core.studies.movable import Movable
 
 SLIDER = coordinate("slider")
 
