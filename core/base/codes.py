@@ -8,7 +8,7 @@ from importlib import import_module
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.report import Rule
 
-_LIBRARIES = ("parts.cams", "parts.linkages", "parts.gears", "studies.loads", "studies.tolerance")
+_LIBRARIES = ("parts.cams", "parts.linkages", "parts.gears", "studies")
 
 
 @cache

@@ -541,6 +541,7 @@ STUDY = Kind(
     "studies.study",
     "spec:StudySpec",
     {"explore": ""},
+    codes="",
     picture="cli.views.figures.study:draw",
 )
 FILES: dict[str, Kind] = {**KINDS, STUDY.name: STUDY}

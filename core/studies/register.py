@@ -26,9 +26,9 @@ from gearlink.core.mechanism.links import Mechanism
 from gearlink.core.mechanism.motion import Course
 from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.numerics.roots_sweep import zeros
+from gearlink.core.studies.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.studies.movable import Errors
 from gearlink.core.studies.tolerance.budget import Budget, Contribution, budget, counted
-from gearlink.core.studies.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.studies.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.studies.tolerance.laws import Law
 from gearlink.core.studies.tolerance.sampling import is_shared, of_replications, replication, rounded_up

@@ -31,7 +31,8 @@ from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path
 from gearlink.core.mechanism.rates import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over, minimum_over
-from gearlink.core.studies.loads import codes, tables
+from gearlink.core.studies import codes
+from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.cams import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
 from gearlink.core.studies.loads.checks import resonance
 from gearlink.core.studies.loads.contact import LineContact, plane_modulus

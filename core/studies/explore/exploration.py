@@ -9,12 +9,12 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount
+from gearlink.core.studies.codes import FEASIBLE, RANGE_END
 from gearlink.core.studies.explore.chunks import Miss, chunk_of, together
 from gearlink.core.studies.explore.front import SHOWN, Found
 from gearlink.core.studies.explore.order import Variable
 from gearlink.core.studies.explore.preparing import problem
 from gearlink.core.studies.explore.problem import Problem
-from gearlink.core.studies.study.codes import FEASIBLE, RANGE_END
 from gearlink.core.studies.study.spec import StudySpec
 
 _FEW = 0.01

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import amount, short
+from gearlink.core.studies.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.checks import listed, load_reversal
-from gearlink.core.studies.loads.codes import CONTACT_LOSS, CONTACT_PRESSURE, LOAD_REVERSAL, PRELOAD, ROLLER_SKID
 from gearlink.core.studies.loads.design import LoadsDesign
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from gearlink.core.base.report import NO_NUMBER, Check, Shown, Side, Status, saf
 from gearlink.core.base.wording import amount, short
 from gearlink.core.mechanism.joints import Pin
 from gearlink.core.mechanism.links import FRAME
-from gearlink.core.studies.loads import codes
+from gearlink.core.studies import codes
 from gearlink.core.studies.loads.names import RPM
 
 if TYPE_CHECKING:

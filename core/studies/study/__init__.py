@@ -1,4 +1,4 @@
-"""The study file: its keys, the expressions in it, what can be wrong with it, and the rules of its result.
+"""The study file: its keys, the expressions in it, and what can be wrong with it.
 
 Begin with `spec`; `gearlink.core.studies.explore` computes what a study asks for.
 """

@@ -21,8 +21,8 @@ from gearlink.core.base.errors import MissingSection, NoSolution
 from gearlink.core.base.report import Check, Shown, Table, safely_above, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.studies.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
 from gearlink.core.studies.study.faults import WrongStudy
-from gearlink.core.studies.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
 from gearlink.core.studies.tolerance.correlation import groups, pairs, together
 from gearlink.core.studies.tolerance.iso_286 import standard_tolerance
 from gearlink.core.studies.tolerance.laws import Law

@@ -1,8 +1,34 @@
-"""Codes of the checks of `loads`, each with what it says and what to do."""
+"""The rules of what is asked of any design: studies, tolerances and register, loads."""
 
 from __future__ import annotations
 
 from gearlink.core.base.report import Rule
+
+FEASIBLE = Rule(
+    "GL161",
+    "few designs satisfy everything",
+    "Less than one in a hundred of a study's designs satisfies all checks and conditions (a warning), or none does (a "
+    "failure).",
+    "A front of few designs says more of the conditions than of the objectives.",
+    "Look at the table why: which check or condition alone removes the most, and how near the nearest design comes.",
+    "designs that satisfy everything over all designs, 1 %",
+    "own choice",
+    ("feasible-designs",),
+    ("where", "checks", "variables"),
+)
+RANGE_END = Rule(
+    "GL162",
+    "best designs at the end of a range",
+    "Designs of the front have a variable at an end of its range.",
+    "Beyond it there may be better ones.",
+    "Widen the range, unless the end is one that the machine sets.",
+    "the variable equals from or to",
+    "own choice",
+    ("range-end",),
+    ("variables",),
+    side="",
+)
+
 
 POWER_IDENTITY = Rule(
     "GL601",
@@ -202,4 +228,65 @@ RESONANCE = Rule(
     "linear vibration of one degree of freedom",
     checks=("resonance",),
     keys=("loads.vibration",),
+)
+
+
+NO_MECHANISM = Rule(
+    "GL177",
+    "some designs as manufactured do not exist",
+    "With the sizes of some samples the mechanism does not close, or its crank does not turn (a warning).",
+    "Such a design counts as one that fails.",
+    "Tighten the sizes that contribute most, or keep further away from the change point.",
+    "share of samples without a mechanism",
+    "own choice",
+    ("no-mechanism",),
+    ("tolerance.sources", "tolerance"),
+)
+NOT_LINEAR = Rule(
+    "GL178",
+    "sensitivities do not explain the variation",
+    "The variance by the sensitivities at the nominal design is less than nine tenths of the sampled one (a warning).",
+    "Linear shares then point at the wrong part: the quantity has a kink, or bends within the tolerances.",
+    "Request Sobol' indices (--sobol), which need no linear response.",
+    "sum (sensitivity sigma)^2 >= 0.9 variance of the samples",
+    "own choice",
+    ("linear-shares",),
+    ("tolerance.sources", "tolerance"),
+)
+TARGET_YIELD = Rule(
+    "GL179",
+    "yield below its target",
+    "The lower end of the yield's interval lies below tolerance.target_yield.",
+    "More of the machines than allowed would not do what is required of them.",
+    "Tighten what contributes most (table contributions), or let --allocate choose the grades.",
+    "lower end of the 95 % interval >= target_yield",
+    "own choice",
+    ("target-yield",),
+    ("tolerance.target_yield", "tolerance"),
+)
+REGISTER_BUDGET = Rule(
+    "GL520",
+    "register budget exceeded",
+    "The errors of the parts add up to more than register.tolerance over the stretch that prints or holds: 99.73 % of "
+    "the machines do not keep it, or at worst one does not (a warning).",
+    "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
+    "Improve first what is listed first in the table budget.",
+    "what 99.73 % keep over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
+    "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
+    ("register-budget",),
+    ("register.tolerance", "register"),
+    side="<=",
+)
+BACKLASH_IN_DWELL = Rule(
+    "GL521",
+    "torque turns within the dwell",
+    "The torque on the output (of a press the force on racks and cylinder) changes its sign while the output should "
+    "stand or print (a warning).",
+    "There the output jumps by the backlash of all meshes on its way.",
+    "Brake the output with more friction than its inertia requires, or preload the gears.",
+    "sign of J W' w^2 + T_f sign(W) + T_load over the stretch; of a press sign of q''",
+    "own derivation",
+    ("backlash-in-dwell",),
+    ("register.friction", "register"),
+    side="<=",
 )
