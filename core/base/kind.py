@@ -30,7 +30,7 @@ class Kind(NamedTuple):
         spec : str - the model of the design file
         commands : dict - class of the design by command; "": one that serves all kinds
         motion : str - what gives the motion of a design, of which all that is generic is made; "": nothing moves
-        codes : str - module of the rules of its checks; "": those of the libraries are enough
+        codes : str - module of the rules that its checks alone judge by; "": it has none
         array : str - its array form, which computes many designs at once; "": none
         samples : str - array form of the designs as manufactured, for `tolerance`; "": each is computed alone
         outputs : dict - columns of the output over the cycle, by table; the first that a design shows counts
@@ -50,7 +50,7 @@ class Kind(NamedTuple):
     spec: str
     commands: Mapping[str, str]
     motion: str = ""
-    codes: str = "codes"
+    codes: str = ""
     array: str = ""
     samples: str = ""
     outputs: Mapping[str, tuple[str, ...]] = {}

@@ -22,7 +22,6 @@ RECORD = Kind(
     "spec:PushRodSpec",
     {"analyze": "design:PushRod", "loads": "design:PushRodLoadsDesign", "register": "", "tolerance": ""},
     motion="mechanism:motion",
-    codes="",
     errors="mechanism:errors",
     register_at="range",
     outputs={"motion": ("displacement",)},

@@ -16,9 +16,9 @@ from gearlink.core.base.remedies.ways import down, either
 from gearlink.core.base.report import Check, safely_above
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
-from gearlink.core.machines.crank_rocker.codes import FULL_TURN
 from gearlink.core.machines.crank_rocker.design import LENGTHS, MOTION, CrankRocker, DeadCenters, inner_places
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.parts.linkages.codes import FULL_TURN
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Shown, Status, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, within
-from gearlink.core.machines.cycloidal.codes import INTERFERENCE, SHORTENING
-from gearlink.core.parts.gears.codes import PITTING, UNDERCUT
+from gearlink.core.parts.gears.codes import DISC_INTERFERENCE, PITTING, SHORTENING, UNDERCUT
 from gearlink.core.parts.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 
 if TYPE_CHECKING:
@@ -350,7 +349,7 @@ class CycloidalReducer(RealSpeed, Design):
         what, overlap = "minimum gap between disc and pins", "interference of disc and pins"
         fix = "raise modification.offset"
         status: Status = "fail" if gap < 0.0 else "pass"
-        yield INTERFERENCE.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
+        yield DISC_INTERFERENCE.check(status, what, gap, 0.0, "mm", overlap=overlap, fix=fix)
 
     def check_shortening(self) -> Check:
         """GL343."""

@@ -26,9 +26,9 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import changed
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.dwell_gears.bodies import hypocycloid_layout
-from gearlink.core.machines.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
+from gearlink.core.parts.gears.codes import DWELL_QUALITY
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages.checks import transmission_check

@@ -21,9 +21,8 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short
 from gearlink.core.machines.dwell_gears.bodies import mutilated_layout
-from gearlink.core.machines.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.parts.gears.checks import GEAR_CHECKS
-from gearlink.core.parts.gears.codes import TRUE_FILLET
+from gearlink.core.parts.gears.codes import GAP, START_SHOCK, TRUE_FILLET
 from gearlink.core.parts.gears.drawing_names import BESIDE_ROOT
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH

@@ -13,8 +13,7 @@ from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Status, Table, safely_below
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
-from gearlink.core.machines.geneva.codes import LOCKING, PIN_ENTRY, STEP_RATE
-from gearlink.core.parts.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.parts.linkages.codes import LOCKING, PIN_ENTRY, SHAFT_CLEARANCE, STEP_RATE
 
 if TYPE_CHECKING:
     from gearlink.core.machines.geneva.bodies import Outlines

@@ -15,13 +15,13 @@ from gearlink.core.base.report import Check, Remedy, Shown, Table, safely_above,
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.planet_linkages.bodies import two_gear_layout
-from gearlink.core.machines.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.machines.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.gears.train.meshed import MESH_CHECKS, TRAIN_CHECKS, Meshed, train_ways
 from gearlink.core.parts.gears.train.meshed import QUANTITIES as OF_MESH
 from gearlink.core.parts.linkages import standstills
 from gearlink.core.parts.linkages.checks import check_linkage, dwell_window_check, transmission_check
+from gearlink.core.parts.linkages.codes import DWELL_CONDITION
 from gearlink.core.parts.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.parts.linkages.fourbar.loop import rates_of
 from gearlink.core.parts.linkages.fourbar.nearest_passes import rocker_swing

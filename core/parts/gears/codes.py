@@ -1,4 +1,4 @@
-"""The rules that the checks of a pair of gears judge by."""
+"""The rules that the checks of gears judge by."""
 
 from __future__ import annotations
 
@@ -265,3 +265,66 @@ TRUE_FILLET = Rule(
 )
 OF_RATING = (RATING_RANGE, RESONANCE, SCUFFING, DAMAGE, FACE_LOAD)
 """What is judged of a file with `rating`."""
+
+
+DISC_INTERFERENCE = Rule(
+    "GL342",
+    "interference of disc and pins",
+    "The modification of the profile leaves less than no gap between disc and pins somewhere on the flank.",
+    "The disc cannot be put into the ring, or jams in it.",
+    "Grind off more (modification.offset), or raise the pin circle that it is ground for less.",
+    "gap = dr - dR (1 - K cos u)/Q >= 0 for 0 < u < 180 deg, Q = sqrt(1 + K^2 - 2 K cos u)",
+    "own derivation",
+    ("interference",),
+    ("modification.offset", "modification"),
+)
+SHORTENING = Rule(
+    "GL343",
+    "shortening coefficient out of the usual range",
+    "The eccentricity is small or large for this pin circle (a warning).",
+    "Below 0.4 the pressure angles are large and so are pin and bearing forces; above 0.8 the flanks bend sharply and "
+    "are near to undercut.",
+    "Choose the eccentricity so that K = e Z/R lies between 0.4 and 0.8.",
+    "K = e Z/R, 0.4 <= K <= 0.8",
+    "usual practice of pin-gear drives",
+    ("shortening",),
+    ("eccentricity", "pin_circle_radius", "pins"),
+    side="",
+)
+
+
+START_SHOCK = Rule(
+    "GL310",
+    "impact at start and stop of the driven gear",
+    "A mutilated gear takes its mating gear to full speed at once (always a warning).",
+    "The model ends at the pitch circles: the cut tips of the first and last tooth and the locking arcs change "
+    "where exactly motion begins and ends, and the blow limits the speed.",
+    "Let the crank be at a dead centre (omit start_angle), keep the speed low, add entry cams.",
+    "speed ratio in motion Z_M/(Z_F i_r)",
+    "own derivation; thesis figure 2-6 gives no formula",
+    ("start-shock",),
+    ("start_angle", "reduction", "gears"),
+    side="<=",
+)
+GAP = Rule(
+    "GL316",
+    "gap of the driving gear too short",
+    "Between the last tooth of a group and the first of the next, some tooth stays in contact, or nearly so.",
+    "The driven gear is held by its locking arc only while no tooth drives it: without that time both fight.",
+    "Take fewer teeth in a group or more full teeth.",
+    "Z_M/g - n + 1 - eps pitches without contact; fails below 0, warns below 1",
+    "own derivation: each tooth is in contact for eps pitches, the teeth next to a gap are Z_M/g - n + 1 apart",
+    ("gap",),
+    ("gears.group_teeth", "gears"),
+)
+DWELL_QUALITY = Rule(
+    "GL311",
+    "dwell shorter than required",
+    "The slider leaves the band of +- dwell.tolerance before the carrier has turned through the dwell.",
+    "The slider is not where it should be: the ripple of the arc about the rod's circle is too large.",
+    "Allow a larger tolerance, specify a smaller dwell.angle, or let target find the rod.",
+    "widest carrier angle about mid-dwell with max s - min s <= 2 tolerance",
+    "own derivation; thesis 2.2.2, figure 2-5",
+    ("dwell-quality",),
+    ("dwell.tolerance", "dwell.angle", "rod", "target"),
+)

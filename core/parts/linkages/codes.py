@@ -178,3 +178,81 @@ ASSEMBLY = Rule(
     ("start",),
     side="<=",
 )
+
+
+FULL_TURN = Rule(
+    "GL330",
+    "crank does not turn fully",
+    "The linkage that was found for three pairs of angles goes through them, but its crank cannot make a full "
+    "revolution.",
+    "A drive that turns on stops or breaks the linkage; one that swings within the range is enough for the pairs.",
+    "Drive the crank to and fro within `range`, or specify other pairs: a smaller swing of the rocker, or another "
+    "crank angle at one of them.",
+    "shortest + longest link below the sum of the other two, crank or frame the shortest",
+    "F. Grashof's rule",
+    ("full-turn",),
+    ("function.pairs", "function", "links"),
+    side="",
+)
+
+
+DWELL_CONDITION = Rule(
+    "GL306",
+    "output does not make the required motion",
+    "The output of a two-gear four-bar dwells where coupler and crank have a certain speed ratio; the links "
+    "reach it, or do not, against what `target.motion` says.",
+    "With a sun on a crank-rocker the output never dwells: the coupler would have to turn faster than the crank.",
+    "Change z5/z2 beyond the limit named, take a ring gear, or a drag link; a momentary dwell has one frame: `synth "
+    "momentary-dwell` finds it.",
+    "w2/w1 = 1 + z5/z2 (sun), 1 - z5/z2 (ring gear): the line CD passes through the pitch point on AB",
+    "thesis 2.2.1; the limit for a crank-rocker is an own derivation",
+    ("dwell-condition",),
+    ("target.motion", "gears", "links"),
+    side="",
+)
+
+
+LOCKING = Rule(
+    "GL344",
+    "locking disc and slots leave too little metal",
+    "The lip of the wheel between the locking arc and the end of a slot has no thickness, two slots run into each "
+    "other at their bottoms, or the locking disc is so small that it does not reach the wheel or that the lips hit its "
+    "edge on their way past.",
+    "The lip takes the shock of the entering pin. In the dwell no pin is in a slot: the arc alone holds the wheel, and "
+    "where the disc does not reach it the wheel turns freely, so that the pin meets no slot at its next entry.",
+    "Take a smaller locking disc (locking_radius) or a thinner pin where metal lacks, a larger disc where it does not "
+    "hold; a larger center_distance leaves more of both. If a brake or a detent holds the wheel, omit locking_radius: "
+    "then nothing of the disc is checked.",
+    "r - b/2 - locking_radius - locking_clearance > 0, b = 2 r_pin + slot_clearance; locking_radius > a - tip_radius; "
+    "between the bottoms of two slots (a - r) sin(pi/n) > b/2 (external)",
+    "thesis 4.2.1; own derivation",
+    ("locking",),
+    ("locking_radius", "pin_radius", "center_distance"),
+)
+STEP_RATE = Rule(
+    "GL345",
+    "step rate too high for a Geneva drive",
+    "The drive makes more steps in a minute than limits.steps_per_minute (a warning).",
+    "The acceleration jumps at both ends of every step, and its peak is high: above 100 to 200 steps in a minute such "
+    "drives are loud and wear.",
+    "Run slower, take more slots, or a drive without the jump: `compare` compares it with a geared linkage and a cam.",
+    "input_speed x pins",
+    "thesis 4.2.1: 100 to 200 steps in a minute",
+    ("step-rate",),
+    ("input_speed", "pins", "limits.steps_per_minute"),
+    side="<=",
+)
+PIN_ENTRY = Rule(
+    "GL347",
+    "the play of the locked wheel is larger than that of the pin in its slot",
+    "When the pin comes to its slot, the wheel may stand off by half of locking_play; at the mouth of the slot that is "
+    "more than half of slot_clearance (a warning).",
+    "The pin then strikes the corner of the slot and does not run in: noise, wear, and a step that starts with a blow.",
+    "Take a smaller locking_clearance or a larger slot_clearance, or chamfer the mouths of the slots by more than the "
+    "difference.",
+    "wheel_radius sin(locking_play/2) <= slot_clearance/2",
+    "own derivation",
+    ("pin-entry",),
+    ("locking_clearance", "slot_clearance"),
+    side="<=",
+)
