@@ -339,6 +339,18 @@ class Design:
             self._benches[commands] = Bench(self, command)
         return self._benches[commands]
 
+    at_once: ClassVar[int] = 16
+    """Designs that are computed one after the other before anything is said of them."""
+
+    @classmethod
+    def find_together(cls, _designs: Sequence[Any], _names: Sequence[str], /) -> None:
+        """Let designs of this class keep what is found for all of them at once; of most kinds nothing is.
+
+        Parameters
+            designs : made, nothing of them asked for yet
+            names : quantities that will be asked for, beside what the checks need
+        """
+
     def varied(self, spec: Any) -> Design:
         """The design of another file, with the results of this one that the change leaves as they are."""
         return type(self)(spec)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.together import Function, Search, together, values_of
+from gearlink.core.numerics.together import Function, Search, values_of
 
 POINTS = 17
 """Samples of a bracket."""
@@ -147,13 +147,14 @@ def maximum_over(
     """Largest value of a function of arrays over an interval.
 
     Parameters
-        f : function of a float64 array, returning one like it
+        f : function of a float64 array, returning one like it; or a row for each of N functions that are sought
+            together, of (M,) places for all of them, and of (N, M) places, a row for each
         start, end : float - the interval, one revolution by default
         joints : floats - places where the function or a derivative may jump; both one-sided values count
         samples : int - points over the interval; two humps closer than four steps may be taken for one
         fewest : int - points between two joints at least
     Returns
-        extreme : Extreme - value and place
+        extreme : Extreme - value and place; of N functions (N, 1) arrays
     Notes
         All segments between joints are sampled in one call of f, and all local maxima that could still be the
         largest are enlarged together, round the vertex of a quartic (up to 8192-fold) or a parabola (64-fold) or, where
@@ -164,7 +165,44 @@ def maximum_over(
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
-    return together([f], [_maximum(start, end, joints, samples, fewest)])[0]
+    search = _maximum(start, end, joints, samples, fewest)
+    v = f(next(search))
+    if v.ndim > 1:
+        return _maximum_of_rows(f, v, start, end, joints, samples, fewest)
+    try:
+        while True:
+            (v,) = values_of([f], search.send(v))
+    except StopIteration as found:
+        top: Extreme = found.value
+        return top
+
+
+def _maximum_of_rows(
+    f: Function, v: Reals, start: float, end: float, joints: Sequence[float], samples: int, fewest: int
+) -> Extreme:
+    """The search of maximum_over for each row of what a function gives; value and place are columns."""
+    search = _maxima(len(v), start, end, joints, samples, fewest)
+    grid = next(search)
+    try:
+        while True:
+            asked = search.send(v)
+            of = np.concatenate([np.full(part.stop - part.start, row) for row, part in asked.parts])
+            first = np.searchsorted(of, of)
+            within = np.arange(of.size) - first
+            places = np.full((len(grid.parts), int(within.max()) + 1, POINTS), grid.places[0])
+            places[of, within] = asked.places
+            v = f(places.reshape(len(places), -1)).reshape(places.shape)[of, within]
+    except StopIteration as found:
+        tops: list[Extreme] = found.value
+    values, where = (np.array(part)[:, None] for part in zip(*tops, strict=True))
+    return Extreme(values, where)  # type: ignore[arg-type]
+
+
+def greatest(values: Sequence[float]) -> float:
+    """The greatest of some extremes' values, of those of N functions row by row."""
+    if all(isinstance(value, float) for value in values):
+        return max(values)
+    return np.maximum.reduce(np.broadcast_arrays(*values))  # type: ignore[no-any-return]
 
 
 def extremes_over(

@@ -242,7 +242,7 @@ class FollowerCams:
         place, roller = Place(0.0, 0.0, distance, start), self.spec.return_roller
         found = [(self._rocking_path(place), self._least_radius())]
         if roller is not None:
-            path = self._rocking_path(place, roller.arm or 0.0, math.radians(roller.angle or 0.0))
+            path = self._rocking_path(place, roller.arm, math.radians(roller.angle or 0.0))
             found.append((path, self._least_radius(roller.radius)))
         return min(
             DiscCam("cam", path, self.sense, 0.0, self.motion.joints).min_curvature_radius.value - least
@@ -309,7 +309,9 @@ class FollowerCams:
     @cached_property
     def start_height(self) -> float:
         """y_0 of a translating roller [mm]."""
-        return math.sqrt((self.place.radius - self.place.offset) * (self.place.radius + self.place.offset))
+        radius, offset = self.place.radius, self.place.offset
+        height: float = ((radius - offset) * (radius + offset)) ** 0.5
+        return height
 
     @cached_property
     def pivot(self) -> complex:
@@ -323,10 +325,12 @@ class FollowerCams:
         start = math.radians(follower.pivot_direction) + math.pi
         return [start - follower.side * (place.start + s), *(-follower.side * rate for rate in rates)]
 
-    def _rocking_path(self, place: Place, arm: float = 0.0, ahead: float = 0.0) -> Callable[[Reals, int], RollerPath]:
+    def _rocking_path(
+        self, place: Place, arm: float | None = None, ahead: float = 0.0
+    ) -> Callable[[Reals, int], RollerPath]:
         follower = self.follower
         pivot = place.distance * cmath.exp(1j * math.radians(follower.pivot_direction))
-        length = arm or follower.arm
+        length = follower.arm if arm is None else arm
 
         def path(phi: Reals, order: int) -> RollerPath:
             psi, *rates = self.arm_angle(place, phi, max(order, 1))
@@ -373,7 +377,7 @@ class FollowerCams:
         if roller is None:
             return None
         if self.spec.oscillates:
-            path = self._rocking_path(self.place, roller.arm or 0.0, math.radians(roller.angle or 0.0))
+            path = self._rocking_path(self.place, roller.arm, math.radians(roller.angle or 0.0))
         else:
             path = self._sliding_path(self.roller_distance)
         return DiscCam("return cam", path, self.sense, roller.radius, self.motion.joints, "return_roller")
@@ -383,7 +387,7 @@ class FollowerCams:
         """Distance of both rollers of a slide [mm]; by default that of cams which reach equally far."""
         roller = self.spec.return_roller
         assert roller is not None
-        return roller.distance or 2.0 * self.start_height + sum(self.lifts)
+        return 2.0 * self.start_height + sum(self.lifts) if roller.distance is None else roller.distance
 
     @cached_property
     def outer_wall(self) -> DiscCam:
@@ -398,19 +402,29 @@ class FollowerCams:
 
     def hollow_of(self, cam: DiscCam) -> tuple[float, float] | None:
         """Minimum hollow radius of a cam's profile, 1/max(-kappa) + r_g [mm], and its cam angle [rad]."""
-        lowest = minimum_over(cam.curvature, joints=self.motion.joints, samples=SAMPLES)
+        lowest = cam.most_hollow
         if lowest.value >= -1e-12 / self.place.radius:
             return None
         return cam.roller_radius - 1.0 / lowest.value, lowest.place
 
-    def most_in_strokes(self, sense: int) -> float | None:
-        """Maximum magnitude of the pressure angle in rises (+1), returns (-1) or dwells (0) [rad]."""
+    @cached_property
+    def steepest_rise(self) -> float | None:
+        """Maximum magnitude of the pressure angle in rises [rad]; None without one."""
+        return self._most_in_strokes(1)
+
+    @cached_property
+    def steepest_return(self) -> float | None:
+        """The same in returns."""
+        return self._most_in_strokes(-1)
+
+    @cached_property
+    def steepest_dwell(self) -> float | None:
+        """The same in dwells."""
+        return self._most_in_strokes(0)
+
+    def _most_in_strokes(self, sense: int) -> float | None:
         cams = (self.flat,) if self.spec.is_flat else tuple(c for c in (self.main, self.back) if c)
-        found = [
-            most_in_strokes(self.motion, lambda phi, cam=cam: np.abs(cam.pressure_angle(phi)), sense)  # type: ignore[misc]
-            for cam in cams
-        ]
-        return max((value for value in found if value is not None), default=None)
+        return most_in_strokes(self.motion, [cam.size_of_pressure_angle for cam in cams], sense)
 
 
 _TURN = 2.0 * math.pi

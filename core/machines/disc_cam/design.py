@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from gearlink.core.base.design import Design, Outline, in_unit, placed
+from gearlink.core.base.design import Design, Found, Outline, in_unit, placed
 from gearlink.core.base.errors import MissingSection
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.report import NO_NUMBER, Check, Quantity, Status, Table, safely_above, safely_below
@@ -142,6 +142,34 @@ class DiscCamDesign(OfFollower, Design):
 
         return Making(self.spec, self.cams)
 
+    at_once = 256
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Cams of one motion are sought together."""
+        from gearlink.core.machines.disc_cam.together import found_together
+
+        found_together(designs, names)
+
+    def as_found(self) -> Iterator[Found]:
+        """The size and the preload that the limits of the file give, which cams as manufactured keep."""
+        yield from self.completion()
+        size, follower, spring = self.spec.cam.size, self.spec.follower, self.spec.spring
+        if spring is not None and spring.preload is None:
+            yield Found("spring.preload", self.closing.preload, "found for spring.least_force")
+            yield Found("spring.least_force", None)
+        if size is None:
+            return
+        place = self.cams.place
+        yield Found("cam.size", None)
+        yield Found("cam.base_radius" if self.spec.is_flat else "cam.prime_radius", place.radius, "found for cam.size")
+        if getattr(follower, "offset", None) == "best":
+            yield Found("follower.offset", place.offset, "found for cam.size")
+        if self.spec.oscillates and getattr(follower, "center_distance", None) is None:
+            yield Found("follower.center_distance", place.distance, "found for cam.size")
+        if size.pressure_angle is not None and self.spec.limits.pressure_angle is None:
+            yield Found("limits.pressure_angle", size.pressure_angle, "of cam.size")
+
     def outline(self, command: str) -> Outline:
         """Without the table of a return cam where there is none."""
         found = super().outline(command)
@@ -220,15 +248,8 @@ class DiscCamDesign(OfFollower, Design):
         """Maximum pressure angle [rad]."""
         return self._one_or_both([cam.max_pressure_angle.value for cam in self.profiles])
 
-    @cached_property
-    def pressure_angle_rise(self) -> float | None:
-        """Maximum pressure angle of the rises [rad]."""
-        return self.cams.most_in_strokes(1)
-
-    @cached_property
-    def pressure_angle_return(self) -> float | None:
-        """Maximum pressure angle of the returns [rad]."""
-        return self.cams.most_in_strokes(-1)
+    pressure_angle_rise: float | None = placed("cams.steepest_rise")
+    pressure_angle_return: float | None = placed("cams.steepest_return")
 
     @property
     def min_curvature_radius(self) -> Any:
@@ -339,8 +360,8 @@ class DiscCamDesign(OfFollower, Design):
     def check_pressure_angle(self) -> Iterator[Check]:
         """GL401 of the stroke that is nearest to its limit."""
         rise, back = self.spec.pressure_limits()
-        found = [(self.pressure_angle_rise, rise, "rise"), (self.pressure_angle_return, back, "return")]
-        found.append((self.cams.most_in_strokes(0), max(rise, back), "dwell"))
+        found = [(self.cams.steepest_rise, rise, "rise"), (self.cams.steepest_return, back, "return")]
+        found.append((self.cams.steepest_dwell, max(rise, back), "dwell"))
         known = [(math.degrees(value), limit, stroke) for value, limit, stroke in found if value is not None]
         value, limit, stroke = max(known, key=lambda each: each[0] - each[1])
         over = value > limit + _FIT
@@ -525,21 +546,29 @@ class Closing:
             return None
         if spring.preload is not None:
             return spring.preload
-        least = spring.least_force or 0.0
+        return max(0.0, self.lacking.value)
+
+    @cached_property
+    def lacking(self) -> Extreme:
+        """What the minimum force lacks at rest or at speed without a preload [N, or N m], and its cam angle."""
+        assert self.spec.spring is not None, "needed with a spring alone"
+        least = self.spec.spring.least_force
+        assert least is not None, "needed where no preload is given"
 
         def lacking(phi: Reals) -> Reals:
             s, _, s2 = self.cams.motion.evaluate(phi, 2)
             still = least - self.rate * s - self.outside(phi)
             return np.maximum(still, still - self.inertia * s2 * self.speed**2)
 
-        return max(0.0, self._most(lacking).value)
+        return self._most(lacking)
 
     def _most(self, course: Callable[[Reals], Reals]) -> Extreme:
         return maximum_over(course, joints=self.cams.motion.joints, samples=SAMPLES)
 
     def static(self, phi: Reals) -> Reals:
         """T without the inertia [N, or N m]."""
-        found: Reals = (self.preload or 0.0) + self.rate * self.cams.motion.evaluate(phi, 0)[0] + self.outside(phi)
+        preload = 0.0 if self.preload is None else self.preload
+        found: Reals = preload + self.rate * self.cams.motion.evaluate(phi, 0)[0] + self.outside(phi)
         return found
 
     def force(self, phi: Reals) -> Reals:
@@ -555,9 +584,18 @@ class Closing:
         if self.spec.spring is None or not self.inertia:
             return None
 
-        least = self._most(lambda phi: -self.static(phi))
-        if least.value >= 0.0:  # the spring alone does not hold it there
-            return Extreme(math.inf, least.place)
+        if self.loosest.value >= 0.0:  # the spring alone does not hold it there
+            return Extreme(math.inf, self.loosest.place)
+        return self.lightest
+
+    @cached_property
+    def loosest(self) -> Extreme:
+        """Maximum of -T_static [N, or N m] and its cam angle."""
+        return self._most(lambda phi: -self.static(phi))
+
+    @cached_property
+    def lightest(self) -> Extreme:
+        """Maximum -m s''/T_static and its cam angle, of a spring that holds the follower on the cam at rest."""
 
         def share(phi: Reals) -> Reals:
             return np.asarray(-self.inertia * self.cams.motion.evaluate(phi, 2)[2] / self.static(phi))

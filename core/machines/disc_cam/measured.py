@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.base.design import Outline
+from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.report import Table, safely_below
 from gearlink.core.base.results import cached_property
@@ -561,6 +561,12 @@ class MeasuredCamDesign(DiscCamDesign):
     outlines = {"analyze": Outline(QUANTITIES, _CHECKS, ("law", "phases"))}
     extra_tables = ("profile_fit", "main_cam", "radius")
     extreme_names = ()
+
+    at_once = Design.at_once
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Each is computed by itself."""
 
     @property
     def law_definitions(self) -> Mapping[str, Any]:

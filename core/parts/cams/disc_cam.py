@@ -17,7 +17,6 @@ from gearlink.core.numerics.extremes import (
     Extreme,
     convex_radius,
     extremes_over,
-    least_convex_radius,
     maximum_over,
     minimum_over,
 )
@@ -28,7 +27,7 @@ from gearlink.core.parts.cams.undercut import Undercut, undercut
 
 _TURN = 2.0 * math.pi
 SAMPLES = 512
-FOUND_TOGETHER = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
+FOUND_TOGETHER = ("max_pressure_angle", "most_convex", "max_radius", "min_radius")
 
 
 @cache
@@ -53,7 +52,7 @@ def seek_together(cams: Sequence[DiscCam]) -> None:
     found = iter(extremes_over(functions, joints=cams[0].bounds, samples=SAMPLES))
     for cam in cams:
         angle, curvature, greatest, least = next(found), next(found), next(found), next(found)
-        extremes = angle, convex_radius(curvature), greatest.value, least.value
+        extremes = angle, curvature, greatest.value, least.value
         vars(cam).update(zip(FOUND_TOGETHER, extremes, strict=True))
 
 
@@ -145,9 +144,19 @@ class DiscCam:
         return maximum_over(self.size_of_pressure_angle, joints=self.bounds, samples=SAMPLES)
 
     @cached_property
+    def most_convex(self) -> Extreme:
+        """Maximum curvature of the pitch curve [1/mm] and its place."""
+        return maximum_over(self.curvature, joints=self.bounds, samples=SAMPLES)
+
+    @cached_property
+    def most_hollow(self) -> Extreme:
+        """Minimum curvature of the pitch curve [1/mm], negative where it is hollow, and its place."""
+        return minimum_over(self.curvature, joints=self.bounds, samples=SAMPLES)
+
+    @property
     def min_curvature_radius(self) -> Extreme:
         """Minimum convex radius of the pitch curve [mm] and its place."""
-        return least_convex_radius(self.curvature, joints=self.bounds, samples=SAMPLES)
+        return convex_radius(self.most_convex)
 
     @cached_property
     def max_radius(self) -> float:
@@ -168,14 +177,17 @@ class DiscCam:
             that neither has a cusp nor crosses itself is the true one; the search for far cuts is left to the
             others.
         """
-        if self.roller_radius < self.min_curvature_radius.value and self._star_shaped():
+        if self.roller_radius < self.min_curvature_radius.value and self.star_shaped:
             return Undercut(0.0, 0.0, 0.0)
         return undercut(self.points, self.roller_radius)
 
-    def _star_shaped(self) -> bool:
+    @cached_property
+    def star_shaped(self) -> bool:
+        """Whether the polar angle of the profile runs one way."""
         profile = self.points(_whole_turn())[1]
-        turn = -self.sense * np.imag(np.conj(profile[:-1]) * profile[1:])
-        return bool(np.all(turn > 0.0))
+        turn = -self.sense * np.imag(np.conj(profile[..., :-1]) * profile[..., 1:])
+        found: bool = np.all(turn > 0.0, axis=-1)
+        return found
 
     def table(self, name: str, samples: int | None = None) -> Table:
         """The cam as a table over the cam angle, as many rows as asked for."""

@@ -126,10 +126,14 @@ class FlatCam:
         """Signed pressure angle [rad]."""
         return self.touch(phi).pressure_angle
 
+    def size_of_pressure_angle(self, phi: Reals) -> Reals:
+        """Its magnitude."""
+        return np.abs(self.touch(phi).pressure_angle)
+
     @cached_property
     def max_pressure_angle(self) -> Extreme:
         """Maximum magnitude [rad] and its place."""
-        return self._most(lambda phi: np.abs(self.touch(phi).pressure_angle))
+        return self._most(self.size_of_pressure_angle)
 
     @cached_property
     def min_curvature_radius(self) -> Extreme:

@@ -187,11 +187,14 @@ class FollowerMotion:
 
     def steps(self, order: int) -> list[tuple[str, float]]:
         """Jumps of a derivative of the lift at the joints of the segments, by the place's words."""
-        phi = self._starts
-        after, before = self.evaluate(phi, order)[order], self.evaluate(phi, order, side=-1)[order]
-        return [
-            (f"{math.degrees(place):.5g} deg", float(jump)) for place, jump in zip(phi, after - before, strict=True)
-        ]
+        places = [f"{math.degrees(place):.5g} deg" for place in self._starts]
+        return list(zip(places, self._jumps[order].tolist(), strict=True))
+
+    @cached_property
+    def _jumps(self) -> list[Reals]:
+        """Jumps of the lift and its derivatives at the starts of the pieces."""
+        sides = (self.evaluate(self._starts, self.highest, side=side) for side in (1, -1))
+        return [after - before for after, before in zip(*sides, strict=True)]
 
 
 def motion_of(

@@ -181,7 +181,7 @@ def normals(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Points:
 
 def _contact(path: RollerPath, d1: Points, reach: Reals) -> Points:
     # B - i reach D1
-    contact = np.empty(d1.shape, dtype=np.complex128)
+    contact = np.empty(np.broadcast_shapes(d1.shape, reach.shape), dtype=np.complex128)
     np.add(path.position.real, reach * d1.imag, out=contact.real)
     np.subtract(path.position.imag, reach * d1.real, out=contact.imag)
     return contact

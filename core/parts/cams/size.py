@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import TURN, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import TURN, greatest, maximum_over, minimum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.cams.follower_motion import FollowerMotion
 
@@ -195,15 +195,16 @@ class Placed(NamedTuple):
         return math.hypot(self.offset, self.height)
 
 
-def most_in_strokes(motion: FollowerMotion, course: Callable[[Reals], Reals], sense: int) -> float | None:
-    """Maximum value of a course over the strokes of one sense; None where there are none."""
+def most_in_strokes(motion: FollowerMotion, courses: Sequence[Callable[[Reals], Reals]], sense: int) -> float | None:
+    """Maximum value of courses over the strokes of one sense; None where there are none."""
     found = []
     for stroke in motion.strokes:
         if stroke.sense == sense:
             inner = [joint for joint in motion.joints if stroke.start < joint < stroke.end]
             samples = max(33, math.ceil(_SAMPLES * (stroke.end - stroke.start) / TURN))
-            found.append(maximum_over(course, stroke.start, stroke.end, joints=inner, samples=samples).value)
-    return max(found, default=None)
+            for course in courses:
+                found.append(maximum_over(course, stroke.start, stroke.end, joints=inner, samples=samples).value)
+    return greatest(found) if found else None
 
 
 def wedge(motion: FollowerMotion, limits: Sequence[float], sense: int) -> list[Line]:
@@ -225,7 +226,7 @@ def wedge(motion: FollowerMotion, limits: Sequence[float], sense: int) -> list[L
                 s, s1 = motion.evaluate(phi, 1)
                 return sign * sense * s1 / slope - s
 
-            if (height := most_in_strokes(motion, course, stroke)) is not None:
+            if (height := most_in_strokes(motion, [course], stroke)) is not None:
                 lines.append(Line(height, -sign / slope))
     return lines
 
@@ -345,7 +346,7 @@ class Rocking(NamedTuple):
                 s, angle = apart(phi)
                 return s - angle - limit
 
-            found = most_in_strokes(self.motion, lower, stroke), most_in_strokes(self.motion, upper, stroke)
+            found = most_in_strokes(self.motion, [lower], stroke), most_in_strokes(self.motion, [upper], stroke)
             least += [each for each in found[:1] if each is not None]
             most += [-each for each in found[1:] if each is not None]
         low, high = max(least), min(most)

@@ -33,8 +33,8 @@ from gearlink.core.studies.tolerance.sampling import (
 from gearlink.core.studies.tolerance_study.problem import ARRAY_SAMPLES, Problem, problem
 
 Columns = Mapping[str, Reals | Points]
-_BLOCK = 8192  # of the array form; of one by one, from the fewest up to what takes so many seconds
-_FEWEST, _SECONDS = 16, 0.05
+_BLOCK = 8192  # of the array form; of one by one, from `at_once` up to what takes so many seconds
+_SECONDS = 0.05
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def judged(made: Problem, points: Reals) -> Judged:
         designs computed one by one depend on nothing, and their blocks are such as take a tenth of a second.
     """
     blocks: list[Judged] = []
-    first, size = 0, _BLOCK if made.is_quick else _FEWEST
+    first, size = 0, _BLOCK if made.is_quick else made.nominal.at_once
     while first < len(points):
         start = perf_counter()
         block = points[first : first + size]
@@ -107,10 +107,18 @@ def evaluated(made: Problem, columns: Columns) -> Evaluated:
         found = made.axis.evaluate(columns, made.quick_names)
         if found.unsure is None or not found.unsure.any():
             return found
-        rows = list(rows_of({key: value[found.unsure] for key, value in columns.items()}))
-        few = as_arrays([_single(made, row) for row in rows], made.names, list(made.base.codes))
+        few = _one_by_one(made, {key: value[found.unsure] for key, value in columns.items()})
         return put_in(found, found.unsure, few)
-    return as_arrays([_single(made, row) for row in rows_of(columns)], made.names, list(made.base.codes))
+    return _one_by_one(made, columns)
+
+
+def _one_by_one(made: Problem, columns: Columns) -> Evaluated:
+    """Designs of given sizes, each by its class; what that seeks for all of them at once is sought first."""
+    designs = [_tried(made, row) for row in rows_of(columns)]
+    there = [design for design in designs if not isinstance(design, Single)]
+    if there:
+        type(there[0]).find_together(there, made.names)
+    return as_arrays([_single(made, design) for design in designs], made.names, list(made.base.codes))
 
 
 def rows_of(columns: Columns) -> Iterator[dict[str, Any]]:
@@ -132,16 +140,23 @@ def design_of(made: Problem, row: Mapping[str, Any]) -> Any:
     return made.axis.design(own, cut)
 
 
-def _single(made: Problem, row: Mapping[str, Any]) -> Single:
+def _tried(made: Problem, row: Mapping[str, Any]) -> Any:
+    """A design as manufactured; a `Single` that is refused where there is none."""
     try:
-        design = design_of(made, row)
+        return design_of(made, row)
+    except (Refused, NoSolution) as error:
+        return Single({}, (), error.key or "kind", str(error))
+
+
+def _single(made: Problem, design: Any) -> Single:
+    if isinstance(design, Single):
+        return design
+    try:
         own = _extra(made)
         values = made.base.values(design, [name for name in made.names if name not in own])
         values |= {name: in_unit(design.raw(name), term(name).unit) for name in made.names if name in own}
         return Single(values, tuple(findings_of(made.base, design, list(made.base.codes))))
-    except Refused as error:
-        return Single({}, (), error.key or "kind", str(error))
-    except NoSolution as error:
+    except (Refused, NoSolution) as error:
         return Single({}, (), error.key or "kind", str(error))
 
 

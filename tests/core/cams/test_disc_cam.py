@@ -73,7 +73,7 @@ def test_sense_of_rotation_mirrors_cam_and_pressure_angle():
 
 def test_axis_outside_the_profile_is_no_undercut():
     cam = eccentric(60.0, 50.0, 20.0)  # the axis stands 10 mm outside the profile, which is a plain circle
-    assert not cam._star_shaped()
+    assert not cam.star_shaped
     assert cam.undercut.depth <= 1e-10
     assert [check.status for check in undercut_checks([cam])] == ["pass"]
 
@@ -119,7 +119,7 @@ def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
     from gearlink.core.parts.cams.undercut import undercut
 
     cam = lobes(100.0, 20.0, 50.0)
-    assert cam._star_shaped()
+    assert cam.star_shaped
     assert cam.undercut.depth == 0.0
     assert undercut(cam.points, cam.roller_radius).depth <= 1e-11
 

@@ -204,7 +204,7 @@ def test_blocks_change_no_verdict(monkeypatch: pytest.MonkeyPatch, name: str, wi
     points = np.random.default_rng(4).random((40, made.coordinates))
     whole = judged(made, points)
     monkeypatch.setattr(samples, "_BLOCK", 7)
-    monkeypatch.setattr(samples, "_FEWEST", 1)
+    monkeypatch.setattr(made.nominal, "at_once", 1)
     told: list[int] = []
     token = SEEN.set(told.append)
     try:

@@ -1,0 +1,81 @@
+"""Designs that differ by some numbers as one whose numbers are columns: what all of them need is then sought at once.
+
+A search whose function gives a row for each design gives an extreme whose value and place are arrays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+
+Spec = Any
+
+
+class Unlike(Exception):
+    """Designs differ by more than numbers, or by numbers that no column may stand for."""
+
+
+def column(values: Sequence[Any]) -> Any:
+    """One value for all, or a column of them.
+
+    Returns
+        value : as it is where all are alike, else (N, 1) array
+    Raises
+        Unlike - for what differs and is no number
+    Example
+        >>> column([2.0, 2.0]), column([2.0, 3.0]).tolist()
+        (2.0, [[2.0], [3.0]])
+    """
+    first = values[0]
+    if all(value == first for value in values):
+        return first
+    if not all(isinstance(value, float | int) for value in values):
+        raise Unlike
+    return np.array(values, dtype=float)[:, None]
+
+
+def together(specs: Sequence[Spec], alike: Sequence[str] = ()) -> Spec:
+    """One spec with a column at each key by which some specs differ.
+
+    Parameters
+        specs : of one model
+        alike : keys, wherever they stand, by which they must not differ
+    Raises
+        Unlike
+    """
+    first, changed = specs[0], {}
+    for name in type(first).model_fields:
+        values = [getattr(spec, name) for spec in specs]
+        if all(value == values[0] for value in values):
+            continue
+        if name in alike:
+            raise Unlike
+        is_section = all(isinstance(value, BaseModel) and type(value) is type(values[0]) for value in values)
+        changed[name] = together(values, alike) if is_section else column(values)
+    return first.model_copy(update=changed) if changed else first
+
+
+def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
+    """Let each of the owners keep its own of the results that one found for all of them.
+
+    Parameters
+        found : of the class of the owners, with columns for their numbers
+        owners : whose results are asked for later
+        names : of kept results - numbers, None, or tuples of these
+    """
+    for name in names:
+        value = getattr(found, name)
+        for row, owner in enumerate(owners):
+            vars(owner)[name] = _of_row(value, row)
+
+
+def _of_row(value: Any, row: int) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.reshape(-1)[row].item()
+    if isinstance(value, tuple):
+        parts = [_of_row(part, row) for part in value]
+        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+    return value
