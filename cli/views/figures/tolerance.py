@@ -175,8 +175,8 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
     axes.set_xlim(0.0, 1.12 * axes.get_xlim()[1])
 
 
-_MOST_BARS, _MOST_BARS, _AROUND = 4, 12, 24
-"""Quantities and bars at most, and the directions in which the play of a pin is tried."""
+_MOST_BARS, _AROUND = 12, 24
+"""Bars of a quantity at most, and the directions in which the play of a pin is tried."""
 
 
 def study_of(design: Any) -> ToleranceStudy | None:
@@ -191,15 +191,19 @@ def draw_tornado(design: Any) -> Figure:
     """A panel for each quantity of the study: its change with each source at its lower and its upper limit."""
     study = study_of(design)
     assert study is not None, "asked for only where there is one"
-    names = list(study.problem.names)[:_MOST_BARS]
-    found, nominal = effects(study, names)
+    found, nominal = effects(study, list(study.problem.names))
+    names = [name for name, rows in found.items() if _is_moved(rows, nominal[name])][:_MOST]
     bars = min(_MOST_BARS, len(study.problem.sources))
-    share = min(1.0, 0.08 + len(names) * (0.05 + 0.022 * bars))
-    made = panels.page(f"{study.spec.name}: effect of each tolerance", share)
+    made = panels.page(f"{study.spec.name}: effect of each tolerance", 0.08 + len(names) * (0.05 + 0.022 * bars))
     grid = made.add_gridspec(max(len(names), 1), 1)
     for row, name in enumerate(names):
         _panel(made.add_subplot(grid[row, 0]), study, name, found[name], nominal[name])
     return made
+
+
+def _is_moved(rows: list[tuple[str, float, float]], nominal: float) -> bool:
+    """Whether some source changes a quantity."""
+    return max((abs(end) for _, *ends in rows for end in ends), default=0.0) > _NOTHING * abs(nominal)
 
 
 Effects: TypeAlias = dict[str, list[tuple[str, float, float]]]
@@ -238,7 +242,8 @@ def effects(study: ToleranceStudy, names: list[str]) -> tuple[Effects, dict[str,
 
 def _panel(axes: Axes, study: ToleranceStudy, name: str, rows: list[tuple[str, float, float]], nominal: float) -> None:
     unit = study.units[name]
-    shown = rows[:_MOST_BARS][::-1]
+    least = 1e-6 * max(abs(end) for _, *ends in rows for end in ends)
+    shown = [row for row in rows[:_MOST_BARS] if max(abs(row[1]), abs(row[2])) > least][::-1]
     words = name.replace("_", " ")
     style.curves(axes, f"change of {words}" + ("" if unit == "1" else f" [{unit}]"), "")
     panels.small_ticks(axes)

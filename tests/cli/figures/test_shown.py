@@ -366,6 +366,18 @@ def test_bars_of_a_tornado_are_designs_with_one_size_at_its_limit() -> None:
     assert [row[0] for row in found["stroke"]] == ["crank", "offset", "rod"]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["loaded_measured_cam", "ty460_register"])
+def test_a_tornado_shows_four_quantities_that_their_sources_move(name: str) -> None:
+    """Sixteen panels on one page had their words one on the other."""
+    figure = tolerance.draw_tornado(design(name))
+    assert len(figure.axes) == 4
+    for axes in figure.axes:
+        widths = [[abs(bar.get_width()) for bar in drawn] for drawn in axes.containers]
+        assert min(max(pair) for pair in zip(*widths, strict=True)) > 0.0
+        assert len(axes.get_yticks()) == len(widths[0])
+
+
 @pytest.mark.parametrize("name", ["ty460", "swing_gripper", "wide_swing_cycle"])
 def test_vectors_are_in_real_time_where_the_sheet_of_motion_is(name: str) -> None:
     """Those of a press, a gripper and a wide swing had been per rad of the input, although the file has a speed."""
