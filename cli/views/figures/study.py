@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from gearlink.cli.views.figures.drawing import style
+from gearlink.cli.views.figures.drawing import panels, style
 from gearlink.core.base.wording import amount
 
 if TYPE_CHECKING:
@@ -19,13 +19,16 @@ if TYPE_CHECKING:
 
     from gearlink.core.base.design import Design
     from gearlink.core.studies.explore.exploration import Exploration
+    from gearlink.core.studies.explore.order import Variable
 
 _FEASIBLE, _FEASIBLE_SCALAR = 5000, 150
 _MOST_LINES = 200
 _GREY = "#BBBBBB"
 _RING: dict[str, Any] = {"markerfacecolor": "none", "markeredgecolor": style.RED, "markersize": 10}
 _LEGEND: dict[str, Any] = {"fontsize": 8, "frameon": False}
-_LOW, _HIGH = "#CFE3F5", "#0B3C6F"
+_LOW, _HIGH = "#8FBBE3", "#0B3C6F"
+_NAMED = 16
+"""Kept designs at most whose numbers stand at their lines."""
 
 
 def draw(_command: str, design: Design) -> Figure:
@@ -37,9 +40,7 @@ def draw(_command: str, design: Design) -> Figure:
     count = len(requirements)
     pairs = [(i, j) for i in range(1, count) for j in range(i)]
     across = max(1, count - 1)
-    height = 2.9 * across + 3.6
-    made = style.figure(max(8.0, 2.6 * across), height, f"{study.spec.name}: {study.kept} kept designs")
-    made.get_layout_engine().set(rect=(0.0, 0.0, 1.0, 1.0 - 0.35 / height))  # type: ignore[union-attr, call-arg]
+    made = panels.page(f"{study.spec.name}: {study.kept} kept designs", 0.25 * across + 0.31)
     grid = made.add_gridspec(across + 1, across, height_ratios=[1.0] * across + [1.25])
     figures = _figures(study)
     grey = _feasible(study)
@@ -72,7 +73,7 @@ def row_names(study: Exploration) -> dict[str, str]:
 
 def _empty(study: Exploration) -> Figure:
     """That there is nothing to draw."""
-    made = style.figure(8.0, 2.0, f"{study.spec.name}: no kept designs")
+    made = panels.page(f"{study.spec.name}: no kept designs", 0.2)
     axes = made.add_subplot()
     axes.axis("off")
     words = f"nothing to draw: none of {amount(study.designs, 'design', spec=',')} satisfies {study.problem.asked}"
@@ -141,8 +142,7 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
     """A line a design across variables and objectives; of an objective better is up, colours are of the first one."""
     from matplotlib.colors import LinearSegmentedColormap
 
-    heads, columns, signs = _axes_of(study, figures)
-    ranges = [(min(column), max(column)) for column in columns]
+    heads, columns, ranges, signs = _axes_of(study, figures)
     shades = LinearSegmentedColormap.from_list("front", [_HIGH, _LOW])
     rows = study.found.rows[:_MOST_LINES]
     for place, row in enumerate(rows):
@@ -152,6 +152,9 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
             {"color": style.RED, "linewidth": 2.0, "zorder": 3} if row.index == study.knee else {"color": shades(share)}
         )
         axes.plot(range(len(heights)), heights, gid=f"row-{row.index}-line", **look)
+        if len(rows) <= _NAMED:
+            where: Any = {"textcoords": "offset points", "va": "center", "fontsize": 7, "gid": f"row-{row.index}-name"}
+            axes.annotate(str(row.index), (len(heights) - 1, heights[-1]), (5, 0), color=look["color"], **where)
     for i, ((low, high), sign) in enumerate(zip(ranges, signs, strict=True)):
         axes.plot([i, i], [0.0, 1.0], color=style.GREY, linewidth=0.8, zorder=0)
         ends = (low, high) if sign > 0.0 else (high, low)
@@ -160,14 +163,18 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
     axes.set_xticks(range(len(heads)), heads, fontsize=7)
     axes.tick_params(axis="x", pad=14, length=0)
     axes.set(ylim=(-0.12, 1.14), yticks=[])
-    axes.set_title("kept designs: variables and objectives (better is up), dark: first objective best", fontsize=8)
+    numbers = ", with their numbers" if len(rows) <= _NAMED else ""
+    words = f"kept designs{numbers}: variables as searched, objectives (better is up), dark: first objective best"
+    axes.set_title(words, fontsize=8)
     for spine in axes.spines.values():
         spine.set_visible(False)
 
 
-def _axes_of(study: Exploration, figures: Any) -> tuple[list[str], list[list[float]], list[float]]:
-    """Headings, values of the kept designs and the way up of each axis; variables of words are left out."""
-    heads, columns, signs = [], [], []
+def _axes_of(
+    study: Exploration, figures: Any
+) -> tuple[list[str], list[list[float]], list[tuple[float, float]], list[float]]:
+    """Headings, values of the kept designs, ends and the way up of each axis; variables of words are left out."""
+    heads, columns, ranges, signs = [], [], [], []
     units = study.problem.base.units
     for i, variable in enumerate(study.problem.variables):
         values = [row.variables[i][1] for row in study.found.rows]
@@ -175,12 +182,23 @@ def _axes_of(study: Exploration, figures: Any) -> tuple[list[str], list[list[flo
             unit = units.get(variable.path, "1")
             heads.append(_folded(variable.path.replace(".", " "), unit))
             columns.append([float(value) for value in values])
+            ranges.append(_searched(variable, columns[-1]))
             signs.append(1.0)
     for i, requirement in enumerate(study.problem.objectives):
         heads.append(_folded(requirement.name, requirement.unit))
         columns.append(figures[:, i].tolist())
+        ranges.append((min(columns[-1]), max(columns[-1])))
         signs.append(-requirement.sign)
-    return heads, columns, signs
+    return heads, columns, ranges, signs
+
+
+def _searched(variable: Variable, kept: list[float]) -> tuple[float, float]:
+    """Ends of a variable's range, which show whether kept designs stand at one; of a multiple of another that of the
+    kept ones."""
+    if variable.times:
+        return min(kept), max(kept)
+    given = [float(value) for value in variable.values] or [variable.low, variable.high]
+    return min(given), max(given)
 
 
 def _folded(name: str, unit: str) -> str:

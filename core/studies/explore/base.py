@@ -264,7 +264,8 @@ def _units(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
     def below(section: dict[str, Any], before: str) -> Iterator[tuple[str, str]]:
         for name, node in section.get("properties", {}).items():
             parts = (node, *node.get("anyOf", ()), *node.get("allOf", ()))
-            inner = [schema["$defs"][part["$ref"].rpartition("/")[2]] for part in parts if "$ref" in part]
+            named = [schema["$defs"][part["$ref"].rpartition("/")[2]] for part in parts if "$ref" in part]
+            inner = named + [part for part in parts if "properties" in part]
             if not inner:
                 unit = next((part["unit"] for part in parts if "unit" in part), "1")
                 yield before + name, "1" if unit == "teeth" else unit

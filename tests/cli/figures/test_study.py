@@ -49,6 +49,23 @@ def test_marks_and_lines_are_the_kept_designs(study: Exploration) -> None:
     assert scatter[0].get_xlabel() == "frame length [mm]"
 
 
+def test_axes_of_variables_have_their_searched_ends_and_lines_the_numbers_of_their_designs(study: Exploration) -> None:
+    """That a kept design stands at an end of a range (GL162) was not to be seen, nor which one to ask for."""
+    parallel = draw("explore", study).axes[-1]
+    found = {text.get_gid() or text.get_position(): text.get_text() for text in parallel.texts}
+    assert [found[x, y] for x in (0, 1) for y in (-0.04, 1.04)] == ["60", "90", "2", "3"]
+    heights = {line.get_gid(): line.get_ydata() for line in parallel.get_lines()}
+    for row in study.found.rows:
+        assert found[f"row-{row.index}-name"] == str(row.index)
+        idler, module = (float(value) for _, value in row.variables)
+        assert heights[f"row-{row.index}-line"][:2] == pytest.approx([(idler - 60.0) / 30.0, module - 2.0], abs=1e-12)
+
+
+def test_keys_of_a_section_for_one_command_have_their_units(study: Exploration) -> None:
+    """The axis and the JSON of a study over `dwell.angle` had the unit 1."""
+    assert study.problem.base.units["dwell.angle"] == "deg"
+
+
 def test_marks_are_explained_and_numbers_stand_free_of_their_axes() -> None:
     keys = KEYS | {"minimize": {"frame_length": "20 mm"}}
     figure = draw("explore", Exploration(StudySpec.model_validate_json(json.dumps(keys))))
