@@ -120,6 +120,12 @@ def labels(axes: Any) -> list[str]:
     return [text.get_text() for text in axes.get_legend().get_texts()]
 
 
+def fits_a_page(figure: Any) -> bool:
+    """Whether a figure is on A4 or A3, upright or lying: printers take it to scale."""
+    short, long = sorted(figure.get_size_inches() * 25.4)
+    return any(short < width + 0.2 and long < height + 0.2 for width, height in ((210.0, 297.0), (297.0, 420.2)))
+
+
 def meetings(figure: Any) -> list[str]:
     """Words of a placed figure that lie on other words, on a mark of their panel, or beside the page."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 Panel = Callable[["Axes"], None]
 Rows = tuple[list[str], list[list[str]]]
 
-_ROW = 0.0115
+_ROW = 0.0125
 """Share of a page's height that a row of a table takes."""
 _REMARK = 60
 """Letters of a remark in a row of the values, which has the width of its table to itself."""
@@ -85,7 +85,7 @@ def _sheet(
     most = max(len(shown[1]), len(drawing[1]))
     lines = _ROW * (most + 3)
     shares = [0.28, lines, 0.3, 0.06]
-    figure = panels.page(title, 0.1 + sum(shares))
+    figure = panels.page(title, 0.1 + sum(shares), large=False)
     grid = figure.add_gridspec(4, 2, height_ratios=shares, width_ratios=(1.3, 1.0))
     first, zone = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1])
     drawings[0](first)
@@ -110,7 +110,7 @@ def _drawing(design: GearPairDesign) -> Rows:
         return ["", "", "unit", "", ""], []
     columns: Any = table.data
     rows = [
-        [item, symbol, unit, gear_text(one), gear_text(other)]
+        [item, symbol, unit.replace("um", "µm"), gear_text(one), gear_text(other)]
         for item, symbol, one, other, unit in zip(*columns, strict=True)
     ]
     return ["", "", "unit", "gear 1", "gear 2"], rows

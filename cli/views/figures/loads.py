@@ -85,7 +85,6 @@ def _contact(axes: Axes, design: Any, title: str, ylabel: str) -> tuple[Any, dic
 
 def residual(axes: Axes, design: Any) -> None:
     """Vibration that is left in the dwell, over the speed, with the working speed and what is allowed."""
-    import numpy as np
 
     table = design.table("spectrum")
     speed, amplitude = table["speed"], table["residual"]
@@ -97,8 +96,7 @@ def residual(axes: Axes, design: Any) -> None:
     axes.plot(speed, amplitude, color=style.PURPLE, linewidth=1.4)
     at = float(speed[-1]) / 1.3
     axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=f"speed {at:.5g}")
-    allowed = design.section.vibration.allowed_residual
-    here = float(np.interp(at, speed, amplitude))
+    allowed, here = design.section.vibration.allowed_residual, float(design.residual_amplitude or 0.0)
     if allowed is not None and here > allowed:
         words = f"{here:.4g} {unit} at this speed"
         axes.plot([at], [here], "o", color=style.WRONG, markersize=6.0, zorder=7, label=words, gid="fails")
@@ -161,7 +159,7 @@ def stroke_sheet(design: Any) -> Figure:
     """The sheet of a wide-swing stroke: force, pressure, torque of the cam, residual vibration, and the cam."""
     has = {"pressure": design.section.roller is not None, "residual": design.section.vibration is not None}
     count = 2 + sum(has.values())
-    made = panels.page(f"{design.spec.name}: loads", min(1.0, 0.21 * count + 0.3 * has["pressure"]))
+    made = panels.page(f"{design.spec.name}: loads", 0.21 * count + 0.3 * has["pressure"], large=False)
     rows = made.add_gridspec(count + has["pressure"], 1, height_ratios=[1.0] * count + [1.5] * has["pressure"])
     grid = iter(made.add_subplot(rows[row, 0]) for row in range(count + has["pressure"]))
     stroke_forces(next(grid), design)
@@ -297,9 +295,7 @@ def draw(design: Any) -> Figure:
     large = layout.height > 1.0
     if large:
         layout = _Layout(len(curves), len(names), 2, 5, shown)
-    made = panels.page(
-        f"{design.spec.name}: loads", min(1.0, layout.height / (math.sqrt(2.0) if large else 1.0)), large=large
-    )
+    made = panels.page(f"{design.spec.name}: loads", layout.height, large=large)
     curve_rows, polar_rows = layout.rows
     parts = made.add_gridspec(
         3, 1, height_ratios=(max(shown, 1e-3), layout.row * curve_rows + 0.3, _POLAR * polar_rows)
@@ -307,13 +303,15 @@ def draw(design: Any) -> Figure:
     if shown:
         mechanism(made.add_subplot(parts[0]), design)
     grid: Any = parts[1].subgridspec(curve_rows, layout.across, height_ratios=[1.3, *(curve_rows - 1) * [1.0]])
-    drawn = [made.add_subplot(grid[divmod(i, layout.across)]) for i in range(len(curves))]
+    odd = -len(curves) % layout.across
+    cells = [grid[0, :]] * odd + [grid[divmod(i, layout.across)] for i in range(2 * odd, len(curves) + odd)]
+    drawn = [made.add_subplot(cell) for cell in cells]
     for axes, panel in zip(drawn, curves, strict=True):
         panel(axes, design)
         if large:
             panels.few_ticks(axes.yaxis, 4)
     for column in range(layout.across):
-        time_axes.once(drawn[column :: layout.across], 2e3 * math.pi / design.speed)
+        time_axes.once([*drawn[:odd], *drawn[odd + column :: layout.across]], 2e3 * math.pi / design.speed)
     if pins:
         made.supxlabel(_LOCI, fontsize=7.5)
     grid = parts[2].subgridspec(polar_rows, layout.beside)

@@ -158,7 +158,7 @@ def draw(command: str, design: Any) -> Figure:
         return _loads(design)
     if command == "register":
         return _register(design)
-    made = panels.page(f"{design.spec.name}: timing", min(1.5, 0.16 + 0.085 * len(design.spec.members)))
+    made = panels.page(f"{design.spec.name}: timing", 0.16 + 0.085 * len(design.spec.members))
     _line(made.add_subplot(), design)
     return made
 
@@ -421,7 +421,7 @@ def _register(design: Any) -> Figure:
         [f"{a}: {b}" for a, b in zip(found["member"], found["source"], strict=True)],
     )
     order = np.argsort(sigma)
-    made = panels.page(f"{design.spec.name}: register", min(1.2, 0.2 + 0.03 * len(order)))
+    made = panels.page(f"{design.spec.name}: register", 0.2 + 0.03 * len(order))
     axes = made.add_subplot()
     style.curves(axes, "standard deviation [mm]", "")
     panels.heading(axes, "What gives most to the register at the print")

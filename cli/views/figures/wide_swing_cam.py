@@ -89,7 +89,8 @@ def has_slots(design: WideSwingDesign) -> bool:
 def zone_words(axes: Axes, cam: AnyCam) -> None:
     """How much of the stroke the change of sides takes, in the corner of a drawing."""
     words = f"changes flank within ±{100.0 * cam.transition_zone:.3g} % of the stroke"
-    axes.text(0.5, 0.02, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=7.5, zorder=8)
+    axes.text(0.5, 0.02, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=7.5, zorder=8,
+              path_effects=style.outlined())  # fmt: skip
 
 
 def cam_panel(axes: Axes, design: WideSwingDesign, title: str, cam: AnyCam, mirror: float) -> None:
@@ -538,7 +539,7 @@ def draw_motion(command: str, design: WideSwingDesign) -> Figure:
     share = 0.95 if cams or moves else 0.62
     if design.spec.shaft is not None:
         share *= 1.0 + 1.0 / sum(heights)
-        heights.append(1.0)
+        heights = [*heights[:1], *(min(height, 1.4) for height in heights[1:]), 1.0]
     made = panels.page(title, share)
     grid = made.add_gridspec(len(heights), 1, height_ratios=heights)
     _law_panels(made, grid[0], design)
@@ -582,7 +583,7 @@ def _history_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     axes.plot(balance["speed"], balance["dynamic_coefficient"], color=style.BLUE, linewidth=1.6)
     axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="design speed")
     axes.set_xlim(0.0, float(balance["speed"][-1]))
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, 1.15 * float(np.max(balance["dynamic_coefficient"])))
     panels.legend_under_heading(axes, "Elastic over rigid torque", 1)
 
 

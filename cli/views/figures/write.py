@@ -59,7 +59,7 @@ def failures(checks: Iterable[Check]) -> str:
     for check in checks:
         if check.status == "fail":
             found.setdefault((check.code, check.name), check.brief)
-    return ", ".join(found.values()).replace("^2", "²")
+    return ", ".join(found.values()).replace("^2", "²").replace("<=", "≤").replace(">=", "≥")
 
 
 def panels(command: str, design: Design) -> Figure:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from factory import DESIGNS, each_kind, worked
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from sheets import meetings, placed_sheet
+from sheets import fits_a_page, meetings, placed_sheet
 from sweeps import mostly_slow
 
 from gearlink.cli.commands.sheet import sheets_of
@@ -84,9 +84,21 @@ def test_words_keep_clear_on_every_sheet_of_every_design(path: Any) -> None:
     kind = KINDS[data["kind"]]
     spec = kind.spec_model().model_validate(data)
     for command in spec.commands():
-        assert meetings(placed_sheet(data, command).figure) == [], command
+        figure = placed_sheet(data, command).figure
+        assert meetings(figure) == [], command
+        assert fits_a_page(figure), command
     for name, draw in sheets_of(whole_design(kind, spec)).items():
-        assert meetings(settled(draw())) == [], name
+        figure = settled(draw())
+        assert meetings(figure) == [], name
+        assert fits_a_page(figure), name
+
+
+@pytest.mark.parametrize(("share", "size"), [(0.5, (8.27, 5.845)), (1.2, (8.27, 11.69)), (1.6, (11.69, 16.54))])
+def test_a_page_is_a4_or_a3_and_no_longer(share: float, size: tuple[float, float]) -> None:
+    """Printers took the values of a gear pair, 336 mm long, to no scale."""
+    made = panels.page("page", share)
+    assert made.get_size_inches() == pytest.approx(size, rel=1e-12)
+    assert fits_a_page(made)
 
 
 def test_a_letter_that_is_hidden_counts_whole_under_a_long_word_too() -> None:

@@ -46,6 +46,23 @@ def test_gripper_shows_residual_over_speed_and_cams_by_pressure() -> None:
 
 
 @pytest.mark.slow
+def test_the_mark_of_a_residual_is_that_of_its_finding() -> None:
+    """It was read from the curve between two of its points."""
+    design, figure = sheet("loaded_wide_swing", "loads", speed=400.0)
+    (mark,) = [line for line in _axes(figure, "Residual vibration over the speed").lines if line.get_gid() == "fails"]
+    assert mark.get_ydata() == [design.residual_amplitude]
+
+
+@pytest.mark.slow
+def test_an_odd_curve_takes_the_width_of_a_page_of_two_columns() -> None:
+    """The last one alone had left half a row empty, and its axis in ms stood a row below that of its neighbour."""
+    _, figure = placed_sheet("loaded_press", "loads")
+    torque, left, right = (_axes(figure, title) for title in ("Input torque", "Contact forces", "Hertzian pressure"))
+    assert torque.get_position().x1 == pytest.approx(right.get_position().x1, abs=1e-3)
+    assert left.get_position().y0 == pytest.approx(right.get_position().y0, abs=1e-3)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_of_a_wide_swing_shows_both_strokes(layout: str) -> None:
     design, figure = sheet("wide_swing_cycle", "loads", layout=layout, loads=LOADS)

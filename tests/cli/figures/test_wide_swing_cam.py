@@ -37,6 +37,16 @@ def test_law_is_the_table_s(name: str) -> None:
     np.testing.assert_allclose(harmonic, 0.5 * math.pi * np.sin(math.pi * data[0]), rtol=0.0, atol=1e-14)
 
 
+@pytest.mark.slow
+def test_the_dynamic_coefficient_lies_within_its_panel() -> None:
+    """It hardly changes, and lay on the upper edge."""
+    made, figure = drawn("twin_cam", "swing")
+    axes = panel(figure, "Elastic over rigid torque")
+    values = made.table("balance")["dynamic_coefficient"]
+    assert np.array_equal(axes.lines[0].get_ydata(), values)
+    assert axes.get_ylim()[1] > 1.1 * values.max()
+
+
 def test_balance_is_the_table_s() -> None:
     made, figure = drawn("twin_cam", "swing")
     axes, data = panel(figure, "Torque on the rocker axis"), made.table("balance").data

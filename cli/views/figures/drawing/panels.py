@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 
 _A4, _A3 = (8.27, 11.69), (11.69, 16.54)
+_SQUEEZED = 1.25
+"""Pages of A4 that still are drawn on one."""
 
 CAM_COLORS = (style.BLUE, style.RED)
 CAM_LINES: tuple[Any, Any] = ("-", style.LONG)
@@ -66,13 +68,18 @@ class Phase:
         return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
 
 
-def page(title: str, share: float = 1.0, *, large: bool = False) -> Figure:
-    """A figure as wide as a page of A4, or a large one of A3, and as high as a share of it."""
-    width, height = _A3 if large else _A4
+def page(title: str, share: float = 1.0, *, large: bool | None = None) -> Figure:
+    """A figure as wide as A4 or A3, and at most as high, so that printers take it to scale.
+
+    share : height that it needs, that of A4 being 1
+    large : whether it is on A3; by default where A4 would squeeze it too much
+    """
+    width, most = _A3 if (share > _SQUEEZED if large is None else large) else _A4
+    height = min(share * _A4[1], most)
     letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
-    made = style.figure(width, share * height, fill(title.replace("$", r"\$"), letters))
+    made = style.figure(width, height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()
-    across, up = style.MARGIN / width, style.MARGIN / (share * height)
+    across, up = style.MARGIN / width, style.MARGIN / height
     engine.set(rect=(across, up, 1.0 - 2.0 * across, 1.0 - 2.0 * up), w_pad=0.03, h_pad=0.05)
     return made
 

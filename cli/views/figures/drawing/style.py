@@ -66,7 +66,7 @@ def stamp(made: Figure, words: str) -> None:
 
 def forbid(made: Figure, words: str) -> None:
     """Words in red across a drawing, larger than all else on it: nobody is to make the part by it."""
-    lines = fill(words, 44)
+    lines = fill(words, 36, break_on_hyphens=False)
     look: dict[str, Any] = {"fontsize": 20, "fontweight": "bold", "color": WRONG, "alpha": 0.75, "rotation": 24}
     made.text(0.5, 0.62, lines, ha="center", va="center", zorder=20, gid="forbidden", in_layout=False, **look)
 
