@@ -60,7 +60,7 @@ def test_drawings_name_points_that_are_there(page: str, block: str) -> None:
 @pytest.mark.parametrize(("page", "block"), list(_blocks("math")), ids=lambda x: x if "\n" not in x else "")
 def test_equations_are_typeset(page: str, block: str) -> None:
     made = typeset.display(block)
-    assert made.count("<math") == len(block.strip().split("\n")), page
+    assert made.count("<math") == sum(len(typeset.parts(line)) for line in block.strip().split("\n")), page
     left = re.sub(r"<[^>]*>", "", made)
     assert not re.search(r"\\[a-z]", left), f"{page}: {left}"
 
@@ -77,6 +77,19 @@ def test_keys_and_checks_that_pages_ask_for_exist() -> None:
         assert tables.keys(kind, sections).count("\n") > 2, page
     told = {code for text in WRITTEN.values() for code in re.findall(r"\bGL\d{3}\b", text)}
     assert [code for code in sorted(told) if not tables.known(code)] == []
+
+
+def test_keys_of_a_section_like_an_earlier_one_are_not_said_again() -> None:
+    table = tables.keys("swing-gripper", ["laws"])
+    assert "| `laws.decelerate` | rest-to-speed law, run backwards; keys as in `laws.accelerate` |" in table
+    assert "`laws.accelerate.start.speed`" in table
+    assert "`laws.decelerate." not in table
+
+
+def test_codes_of_checks_are_links_but_not_within_code() -> None:
+    page = blocks.Page(ROOT / "docs" / "x.md", "x.md", "GL301, `GL302`; `gearlink explain GL303`\n")
+    told = blocks.expanded(page, lambda _, target: target)
+    assert told == "[GL301](checks/GL301.md), [GL302](checks/GL302.md); `gearlink explain GL303`\n"
 
 
 def _unprinted() -> list[str]:

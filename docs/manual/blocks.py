@@ -29,7 +29,8 @@ _FENCE = re.compile(
 )
 _LINK = re.compile(r"(!?\[[^\]]*\])\(([^)\s]+)\)")
 _SOURCE = re.compile(r'(src|href)="([^"]+)"')
-_CODE = re.compile(r"(?<![\w/#.])`?(GL[1-6]\d\d)`?(?![\w.]|-\d)")
+_CODE = re.compile(r"`(GL[1-6]\d\d)`|`[^`]*`|(?<![\w/#.])(GL[1-6]\d\d)(?![\w.]|-\d)")
+"""A code of a check, or code in which none is looked for."""
 
 
 @dataclass(slots=True)
@@ -230,15 +231,17 @@ def _picture(page: Page, body: str) -> str:
     return page.image(runs.session_file(_session(page)[0], name.strip()), caption.strip())
 
 
+def _check_link(found: re.Match[str], page: Page) -> str:
+    code = found[1] or found[2]
+    return f"[{code}]({page.up}checks/{code}.md)" if code and tables.known(code) else found[0]
+
+
 def _prose(page: Page, text: str, map_link: Callable[[Page, str], str]) -> str:
     text = _LINK.sub(lambda found: f"{found[1]}({map_link(page, found[2])})", text)
     text = _SOURCE.sub(lambda found: f'{found[1]}="{map_link(page, found[2])}"', text)
     lines = []
     for line in text.split("\n"):
         if not line.startswith("#") and "](" not in line:
-            line = _CODE.sub(
-                lambda found: f"[{found[1]}]({page.up}checks/{found[1]}.md)" if tables.known(found[1]) else found[0],
-                line,
-            )
+            line = _CODE.sub(lambda found: _check_link(found, page), line)
         lines.append(typeset.inline(line))
     return "\n".join(lines)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 from gearlink.cli.texts import schema
@@ -39,7 +41,28 @@ def keys(kind: str, sections: list[str]) -> str:
     if not found:
         raise ValueError(f"{kind} has no section {' '.join(sections)}")
     rows = ["| key | meaning | unit | required | default | range |", "| --- | --- | --- | --- | --- | --- |"]
-    return "\n".join([*rows, *map(_row, found)]) + "\n"
+    return "\n".join([*rows, *_rows(found)]) + "\n"
+
+
+def _rows(found: list[SpecKey]) -> Iterator[str]:
+    """A row for each key; a section whose keys are those of an earlier one refers to it."""
+    known: dict[tuple[tuple[str, str], ...], str] = {}
+    told = ""
+    for key in found:
+        if told and key.path.startswith(told):
+            continue
+        told = ""
+        below = [each for each in found if each.path.startswith(f"{key.path}.")]
+        inner = tuple((each.path.removeprefix(key.path), each.words) for each in below)
+        if len(inner) >= _MANY and known.setdefault(inner, key.path) != key.path:
+            told = f"{key.path}."
+            yield _row(replace(key, words=f"{key.words.rstrip('.')}; keys as in `{known[inner]}`"))
+        else:
+            yield _row(key)
+
+
+_MANY = 4
+"""Keys of a section that are not said again."""
 
 
 _FEW = 4

@@ -10,9 +10,20 @@ _INLINE = re.compile(r"(?<![\\\w$`])\$(?=\S)([^$\n`]+?)(?<=\S)\$(?![\w$])")
 
 
 def display(tex: str) -> str:
-    """Equations of their own lines, one for each line of the block."""
+    """Equations of their own lines, one for each line of the block; those of a line wrap on a narrow screen."""
     lines = [line.strip() for line in tex.strip().split("\n") if line.strip()]
-    return "\n\n".join(f'<div class="equation">{convert(line, display="block")}</div>' for line in lines)
+    made = ["".join(f"<span>{convert(each, display='block')}</span>" for each in parts(line)) for line in lines]
+    return "\n\n".join(f'<div class="equation">{line}</div>' for line in made)
+
+
+def parts(line: str) -> list[str]:
+    r"""The equations of a line, which `\qquad` divides.
+
+    Example
+        >>> parts(r"a = b, \qquad c = d")
+        ['a = b,', 'c = d']
+    """
+    return [each.strip() for each in line.split(r"\qquad")]
 
 
 def inline(text: str) -> str:
