@@ -80,7 +80,7 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     axes.set_xlim(degrees[0], degrees[-1])
     _in_time(axes, design)
     _from_zero(axes)
-    shown = f", the {len(_COLORS)} maximum of {len(order)}" if len(order) > len(_COLORS) else ""
+    shown = f", the {len(_COLORS)} largest of {len(order)}" if len(order) > len(_COLORS) else ""
     dashed = "; dashed: torque −1" if len(costs) > 1 else ""
     panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
 
