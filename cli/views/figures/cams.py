@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.machines.cylindrical_cam.design import CylindricalCamDesign
+    from gearlink.core.machines.cylindrical_cam import CylindricalCamDesign
     from gearlink.core.machines.disc_cam.design import DiscCamDesign
     from gearlink.core.machines.disc_cam.measured import MeasuredCamDesign
     from gearlink.core.parts.cams.disc_cam import DiscCam

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.views.figures.drawing import linkage, panels, style
 from gearlink.core.base.wording import amount
-from gearlink.core.machines.mobility.design import GearTrainMobility, pin_names
+from gearlink.core.machines.mobility import GearTrainMobility, pin_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

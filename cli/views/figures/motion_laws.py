@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.cli.options import Options
-    from gearlink.core.machines.motion_law.design import MotionLawDesign
+    from gearlink.core.machines.motion_law import MotionLawDesign
     from gearlink.core.parts.cams.laws import Law
     from gearlink.core.parts.cams.shaped_design import Vibration
 

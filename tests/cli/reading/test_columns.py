@@ -9,7 +9,7 @@ import pytest
 from gearlink.cli.reading.columns import rows_of
 from gearlink.cli.reading.design_file import load, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Source
-from gearlink.core.machines.motion_law.spec import MotionLawSpec
+from gearlink.core.machines.motion_law import MotionLawSpec
 
 ROWS = [[0.0, 0.0], [0.25, 0.1], [1.0, 1.0]]
 

@@ -16,7 +16,7 @@ import pytest
 
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.spec_paths import changed
-from gearlink.core.machines.mobility.design import Constraints, common_links, linkage_mobility, pin_names, train_change
+from gearlink.core.machines.mobility import Constraints, common_links, linkage_mobility, pin_names, train_change
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

@@ -6,18 +6,63 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, count, islice, pairwise
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field
 
 from gearlink.core.base.design import Design, Outline
 from gearlink.core.base.errors import NoSolution, at_key
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec import DesignSpec, Length, Spec, Teeth
 from gearlink.core.base.wording import unlike
 from gearlink.core.parts.linkages.codes import MOBILITY, TRAIN_FIT
 
 if TYPE_CHECKING:
     from gearlink.core.base.report import Remedy
-    from gearlink.core.machines.mobility.spec import Gear, GearTrainMobilitySpec, Train
+
+
+Name = Annotated[str, Field(min_length=1, max_length=40)]
+
+
+class Link(Spec):
+    """A rigid link."""
+
+    pins: Annotated[list[Name], Field(min_length=1, max_length=20)] = Field(description="pins that the link carries")
+    length: Length | None = Field(None, description="distance of its two pins; then centre distances are checked")
+
+
+class Gear(Spec):
+    """A gear of a train."""
+
+    at: Name = Field(description="pin on which the gear sits")
+    fixed_to: Name | None = Field(None, description="link to which the gear is fixed; default: it turns freely")
+    teeth: Teeth | None = Field(None, description="teeth; with the train's module the centre distances are checked")
+    ring: bool = Field(False, description="an internal gear")
+
+
+class Train(Spec):
+    """Gears in mesh one after the other."""
+
+    gears: Annotated[list[Gear], Field(min_length=2, max_length=50)] = Field(description="in the order of the meshes")
+    module: Length | None = Field(None, description="module of the train")
+
+
+class GearTrainMobilitySpec(DesignSpec):
+    """A pin-jointed linkage and the gear trains on it."""
+
+    kind: Literal["gear-train-mobility"]
+    links: Annotated[dict[Name, Link], Field(min_length=2, max_length=50)] = Field(
+        description="every link by name, the frame among them"
+    )
+    trains: Annotated[list[Train], Field(max_length=20)] = Field(default_factory=list, description="the gear trains")
+    mobility: Annotated[int, Field(ge=0, le=20, json_schema_extra={"unit": "1"})] = Field(
+        1, description="required degrees of freedom"
+    )
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze",)
 
 
 MOST_FIXED_ENDS = 2

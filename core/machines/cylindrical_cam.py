@@ -3,25 +3,131 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import at_key
 from gearlink.core.base.report import NO_NUMBER, Check, Status, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.base.spec import Assembly, Distance, Length, Spec, TolerancedSpec
 from gearlink.core.base.wording import short
+from gearlink.core.mechanism.courses import coordinate
+from gearlink.core.mechanism.joints import Connection, Contact, Guide
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Input, Motion, Output
+from gearlink.core.mechanism.rates import Point, standing
+from gearlink.core.numerics.arrays import Reals
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
+from gearlink.core.parts.cams.follower_motion import FollowerMotion
+from gearlink.core.parts.cams.motion_spec import OfFollowerKeys, SteepAngle
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from gearlink.core.machines.cylindrical_cam.spec import CylindricalCamSpec
-    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
-    from gearlink.core.parts.cams.drum import Drum
-    from gearlink.core.parts.cams.follower_motion import FollowerMotion
+
+
+class DrumFollower(Spec):
+    """A roller whose axis is radial, on a slide along the drum."""
+
+    type: Literal["translating-roller"] = Field(description="how the follower moves, and what touches the cam")
+    roller_radius: Length = Field(description="radius of the roller")
+
+
+class DrumBody(Spec):
+    """The drum."""
+
+    radius: Length = Field(description="outside radius of the drum")
+    depth: Length = Field(description="depth of the track below it")
+    sense: Assembly = Field(1, description="+1: the cam turns counter-clockwise; -1: clockwise")
+
+
+class DrumLimits(Spec):
+    """Limits of the checks."""
+
+    pressure_angle: SteepAngle = Field(30.0, description="maximum pressure angle, at the bottom of the track")
+    jerk_step: Distance | None = Field(None, description="maximum jump of the jerk, mm per rad^3")
+
+
+class CylindricalCamSpec(OfFollowerKeys, TolerancedSpec):
+    """A cylindrical cam with its follower."""
+
+    kind: Literal["cylindrical-cam"]
+    follower: DrumFollower = Field(description="the roller")
+    cam: DrumBody = Field(description="the drum")
+    limits: DrumLimits = DrumLimits.model_construct()
+
+    @model_validator(mode="after")
+    def _has_a_track(self) -> CylindricalCamSpec:
+        if self.cam.depth >= self.cam.radius:
+            words = {"key": "cam.depth", "depth": f"{self.cam.depth:g}", "radius": f"{self.cam.radius:g}"}
+            raise PydanticCustomError(
+                "GL111", "depth: {depth} mm (limit < {radius} mm, radius)\nset cam.depth below {radius} mm", words
+            )
+        return self
+
+
+@dataclass(frozen=True)
+class Drum:
+    """A track on a drum.
+
+    Parameters
+        motion : FollowerMotion - along the axis [mm]
+        outside, bottom : float [mm] - radii of the drum and of the track's ground
+        roller_radius : float [mm] - r_g
+        sense : +1 or -1 - eps
+    Source
+        own derivation: the relative velocity of the roller's section at x is (-eps x, s')
+    """
+
+    motion: FollowerMotion
+    outside: float
+    bottom: float
+    roller_radius: float
+    sense: int
+
+    def pressure_angle(self, x: float, phi: Reals) -> Reals:
+        """Signed pressure angle at a radius [rad]: tan alpha = s'/x."""
+        return np.arctan(self.motion.evaluate(phi, 1)[1] / x)
+
+    def curvature(self, x: float, phi: Reals) -> Reals:
+        """Curvature of the developed pitch curve [1/mm]: kappa = x s''/(x^2 + s'^2)^(3/2)."""
+        _, s1, s2 = self.motion.evaluate(phi, 2)
+        return np.asarray(x * s2 / (x * x + s1 * s1) ** 1.5)
+
+    def wall_factor(self, x: float, side: int, phi: Reals) -> Reals:
+        """1 - side r_g kappa - r_g^2 s'^2/h^4, h^2 = x^2 + s'^2: a wall is regular where it is positive.
+
+        The last term is from the turning of the contact along x, which twists the walls; the development misses it.
+        """
+        _, s1, s2 = self.motion.evaluate(phi, 2)
+        square, roller = x * x + s1 * s1, self.roller_radius
+        return np.asarray(1.0 - side * roller * x * s2 / square**1.5 - (roller * s1 / square) ** 2)
+
+    def wall(self, x: float, side: int, phi: Reals) -> tuple[Reals, Reals, Reals]:
+        """A wall in the cam's frame, the cam's axis along the third coordinate [mm].
+
+        (x, side r_g s'/h, s + side r_g eps x/h) turned by -eps phi, h = sqrt(x^2 + s'^2)
+        """
+        s, s1 = self.motion.evaluate(phi, 1)
+        h = np.sqrt(x * x + s1 * s1)
+        across, along = side * self.roller_radius * s1 / h, s + side * self.roller_radius * self.sense * x / h
+        turned = (x + 1j * across) * np.exp(-1j * self.sense * phi)
+        return turned.real, turned.imag, along
+
+    def developed(self, x: float, side: int, phi: Reals) -> tuple[Reals, Reals]:
+        """A wall (side +1 or -1) or the pitch line (0) on the development of a radius: arc and place along the axis."""
+        s, s1 = self.motion.evaluate(phi, 1)
+        h = np.sqrt(x * x + s1 * s1)
+        return x * phi - side * self.roller_radius * s1 / h, s + side * self.roller_radius * x / h
+
 
 _TRACK = ("max_pressure_angle", "pressure_angle_outside", "min_curvature_radius", "least_wall_factor")
 _CHECKS = ("pressure-angle", "cam-undercut", "velocity-step", "acceleration-step", "jerk-step", *LAW_CHECKS)
@@ -65,7 +171,6 @@ class CylindricalCamDesign(OfFollower, Design):
     @cached_property
     def drum(self) -> Drum:
         """The track."""
-        from gearlink.core.parts.cams.drum import Drum
 
         cam = self.spec.cam
         return Drum(
@@ -159,3 +264,28 @@ class CylindricalCamDesign(OfFollower, Design):
             what, shown = "the wall of the track is undercut", NO_NUMBER
         fix = "take a smaller roller, or enlarge the drum"
         return CAM_UNDERCUT.check(status, what, value, 0.0, side=">=", shown=shown, recommended=_THIN, at=at, fix=fix)
+
+
+def motion(design: CylindricalCamDesign) -> Motion:
+    """Links and joints over the cam angle: the drum's surface runs along x, the follower along y at x 0."""
+    drum, law = design.drum, design.follower_motion
+
+    def make(phi: Reals, order: int, side: int) -> Mechanism:
+        still = np.zeros(phi.shape, dtype=np.complex128)
+        way = [np.asarray(still + drum.sense * drum.bottom * phi), still + drum.sense * drum.bottom, still, still]
+        lift = [np.asarray(1j * each, dtype=np.complex128) for each in law.evaluate(phi, order, side=side)]
+        links = {
+            "cam": Link(Point(*way[: order + 1]), standing(0.0, phi, order=order)),
+            "follower": Link(Point(*lift), standing(0.0, phi, order=order)),
+        }
+        rate = 1j * law.evaluate(phi, 1, side=side)[1] - drum.sense * drum.bottom
+        normal = np.asarray(-1j * drum.sense * rate / np.abs(rate), dtype=np.complex128)
+        joints: list[Connection] = [
+            Guide("drum", FRAME, "cam", links["cam"].origin.value, 1.0 + 0j),
+            Guide("guide", FRAME, "follower", links["follower"].origin.value, 1j),
+            Contact("roller", "cam", "follower", links["follower"].origin.value, normal),
+        ]
+        return Mechanism(links, joints, "cam", travel={"cam": 1.0 + 0j, "follower": 1j})
+
+    joints = tuple(joint for joint in law.joints if joint > 0.0)
+    return Motion(make, Input("cam_angle", joints=joints), (Output("Follower", coordinate("follower", along=1j)),))

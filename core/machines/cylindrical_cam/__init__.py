@@ -1,1 +1,0 @@
-"""A cylindrical cam whose roller slides along its axis; begin with `spec` and `design`."""
