@@ -24,8 +24,9 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short, unlike
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.together import kept_last
 
 
 class StrokeLaw(Protocol):
@@ -636,7 +637,17 @@ class WideSwingCam:
         Notes
             With a rocker radius below that of (18), (24) the contact lasts to mid-swing, where the angle is 90 deg.
         """
-        return maximum_over(lambda k: np.abs(self.pressure_angle(k)), *self.contact[0], samples=128).value
+        return self._tops[0].value
+
+    @cached_property
+    def _tops(self) -> list[Extreme]:
+        """Maximum pressure angle and bulge where the roller touches the profile, of one state of the curve."""
+        state = kept_last(self.curve.state)
+        wanted = [
+            (lambda k: np.abs(self.curve.pressure_angle(state(k))), True),
+            (lambda k: self._bulge(state(k)), True),
+        ]
+        return extremes_over(wanted, *self.contact[0], samples=128)
 
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
@@ -655,12 +666,15 @@ class WideSwingCam:
             In the transition zone the radius falls to zero at mid-swing whatever the design. Infinite where the
             curve bulges nowhere outside it.
         """
-        peak = maximum_over(self.bulge, *self.contact[0], samples=128).value
+        peak = self._tops[1].value
         return 1.0 / peak if peak > 0.0 else math.inf
 
     def bulge(self, k: Reals) -> Reals:
         """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
-        curvature: Reals = self.sense / self.center_distance * self.curve.curvature(self.curve.state(k))
+        return self._bulge(self.curve.state(k))
+
+    def _bulge(self, state: CurveState) -> Reals:
+        curvature: Reals = self.sense / self.center_distance * self.curve.curvature(state)
         return curvature
 
     def points(self, k: Reals) -> CamPoints:

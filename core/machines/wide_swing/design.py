@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 from operator import attrgetter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -185,11 +186,12 @@ def of_curvature(design: WideSwingDesign) -> float | None:
 
 def _greatest(design: WideSwingDesign, curve: Callable[[Reals], Reals]) -> Extreme:
     """The maximum value over the parts of the stroke in which the roller touches the profile."""
-    from gearlink.core.numerics.extremes import maximum_over
+    from gearlink.core.numerics.extremes import extremes_of_parts
 
     stop = 1e-3 if design.spec.drive is not None else 0.0
-    parts = ((max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam))
-    return max((maximum_over(curve, *part, samples=256) for part in parts), key=lambda found: found.value)
+    parts = [(max(first, stop), min(last, 1.0 - stop)) for first, last in design.contact_of(design.cam)]
+    found = extremes_of_parts([(curve, True)], parts, samples=256)
+    return max((each for (each,) in found), key=lambda each: each.value)
 
 
 def _k(samples: int | None) -> Any:
@@ -866,17 +868,17 @@ class WideSwingDesign(Design):
     @cached_property
     def contact_force(self) -> float:
         """Maximum force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
-        from gearlink.core.numerics.extremes import maximum_over
+        from gearlink.core.numerics.extremes import extremes_of_parts
 
-        found = [
-            maximum_over(lambda k, cam=cam: self.unloading.contact_force(cam, k), *part, samples=128).value  # type: ignore[misc]
-            for cam in self.cams.values()
-            if cam is self.cam or self.has_zone(cam)
-            for part in self.contact_of(cam)
-        ]
-        if self.spec.drive is not None:
-            found += [maximum_over(self._force_home, *part, samples=128).value for part in self.contact_of(self.cam)]
-        return max(found)
+        found = []
+        for cam in self.cams.values():
+            if cam is self.cam or self.has_zone(cam):
+                wanted: list[tuple[Callable[[Reals], Reals], bool]]
+                wanted = [(partial(self.unloading.contact_force, cam), True)]
+                if cam is self.cam and self.spec.drive is not None:
+                    wanted.append((self._force_home, True))
+                found += extremes_of_parts(wanted, self.contact_of(cam), samples=128)
+        return max(each.value for of_part in found for each in of_part)
 
     def _force_home(self, k: Reals) -> Reals:
         """The same on the way home, where an oscillating cam stands as at k."""

@@ -30,7 +30,7 @@ from gearlink.core.machines.wide_swing.mechanism import GEARS
 from gearlink.core.machines.wide_swing.remedies import side_changes, side_words
 from gearlink.core.machines.wide_swing.strokes import Parts, Stroke, middle_of, path
 from gearlink.core.mechanism.rates import TURNING_BACK
-from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, extremes_over
 from gearlink.core.studies import codes
 from gearlink.core.studies.loads import tables
 from gearlink.core.studies.loads.cams import CAM_CHECKS, no_width, pressed_where_undercut, pressure_check
@@ -168,12 +168,13 @@ class SwingStroke:
         """Whether the roller is somewhere as large as the bend of its path: there is no contact there."""
         if self.loads.spec.drive is None and self.parts:  # where it touches, its cam has been searched for the same
             return self.cam.min_curvature_radius <= self.cam.roller_radius
-        return any(minimum_over(self.relative_radius, *part, samples=128).value <= 0.0 for part in self.curved_parts)
+        radius = _extremes({"least": (self.relative_radius, False)}, self.curved_parts)["least"]
+        return radius.value <= 0.0
 
     def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
         """Maximum value where the roller touches; `curved`: of what depends on the curvature there."""
         parts = self.curved_parts if curved else self.parts
-        return max(maximum_over(f, *part, samples=128).value for part in parts)
+        return _extremes({"greatest": (f, True)}, parts)["greatest"].value
 
     @cached_property
     def pressed(self) -> dict[str, Extreme]:

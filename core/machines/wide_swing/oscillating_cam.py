@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +28,7 @@ from gearlink.core.machines.wide_swing.cam import (
 from gearlink.core.machines.wide_swing.law import MiddleView
 from gearlink.core.machines.wide_swing.slider import SliderLaw
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import Extreme, maximum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_of_parts, maximum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 from gearlink.core.parts.linkages.fourbar.sweep import solve
@@ -464,7 +465,7 @@ class OscillatingCam:
         """
         (first, start), (end, last) = self.contact
         parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
-        peak = max(maximum_over(self.bulge, *part, samples=128).value for part in parts)
+        peak = max(found[0].value for found in extremes_of_parts([(self.bulge, True)], parts, samples=128))
         return 1.0 / peak if peak > 0.0 else math.inf
 
     def bulge(self, k: Reals) -> Reals:
@@ -654,7 +655,7 @@ def greatest_need(cam: OscillatingCam) -> Extreme:
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
-    found = [maximum_over(lambda k: need_home(cam, k), *part, samples=128) for part in cam.contact]
+    found = [each for (each,) in extremes_of_parts([(partial(need_home, cam), True)], cam.contact, samples=128)]
     return max(*found, Extreme(1.0, 0.0), key=lambda extreme: extreme.value)
 
 
