@@ -178,7 +178,7 @@ def _as_pdf(
 
 
 def _commands(kind: Kind, spec: Any) -> tuple[str, ...]:
-    return (*spec.commands(), *_budgets(kind, spec))
+    return (*spec.pages(), *_budgets(kind, spec))
 
 
 def _built(

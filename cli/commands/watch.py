@@ -307,7 +307,7 @@ def _make(source: str, options: Options, board: Board, sheets: Remembered, uncha
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         designs = FileDesigns(kind, spec)
-        parts = [build(loaded, kind, command, spec, options, designs=designs) for command in spec.commands()]
+        parts = [build(loaded, kind, command, spec, options, designs=designs) for command in spec.pages()]
         for put in _pieces(board, sheets, loaded.text, spec, parts):
             if not unchanged():
                 return ""

@@ -79,6 +79,14 @@ class DesignSpec(Spec):
         json_schema_extra={"maxLength": MOST_NAME},
     )
 
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze",)
+
+    def pages(self) -> tuple[str, ...]:
+        """Commands that a report shows: those that the file asks for, less what another one of them contains."""
+        return self.commands()
+
     def sized_by(self, _command: str) -> str:
         """The synthesis that sizes the design before a command runs on it; empty where the file is complete for it."""
         return ""

@@ -60,10 +60,6 @@ class GearTrainMobilitySpec(DesignSpec):
         1, description="required degrees of freedom"
     )
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze",)
-
 
 MOST_FIXED_ENDS = 2
 

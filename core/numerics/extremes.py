@@ -246,8 +246,9 @@ def extremes_of_parts(
     Returns
         extremes : those of extremes_over for each interval
     Example
-        >>> [[each.value for each in found] for found in extremes_of_parts([(np.sin, True)], [(0.0, 2.0), (4.0, 7.0)])]
-        [[1.0], [0.6569865987187891]]
+        >>> found = extremes_of_parts([(np.sin, True)], [(0.0, 2.0), (4.0, 7.0)])
+        >>> [round(each.value, 6) for (each,) in found]
+        [1.0, 0.656987]
     """
     if not wanted:
         return [[] for _ in parts]

@@ -277,10 +277,16 @@ def test_ascii_terminal() -> None:
     done.stdout.decode("ascii")
 
 
+def bash(line: str) -> subprocess.CompletedProcess[bytes]:
+    """A line of the shell, in the one locale that every system has: of another bash warns."""
+    every = {**os.environ, "LC_ALL": "C"}
+    return subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, env=every, check=False)
+
+
 def test_closed_pipe_is_no_error() -> None:
     program = f"{TYPED} cam designs/ty460.yaml --format csv"
     command = f"{program} | head -n 1; exit ${{PIPESTATUS[0]}}"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, cwd=ROOT, check=False)
+    done = bash(command)
     assert done.stderr == b""
     assert done.returncode == 0
 
@@ -328,7 +334,7 @@ _FAILS = "designs/thesis_example_3_as_printed.yaml"
 )
 def test_a_reader_that_leaves_early_does_not_change_the_status(line: str, status: int) -> None:
     pipe = f"set -o pipefail; {TYPED} {line} | true"
-    ended = subprocess.run(["bash", "-c", pipe], capture_output=True, cwd=ROOT, check=False)
+    ended = bash(pipe)
     assert (ended.returncode, ended.stderr) == (status, b"")
 
 
@@ -414,7 +420,7 @@ def test_a_full_disk_is_said_without_traceback(line: str) -> None:
 )
 def test_closed_streams(line: str, status: int) -> None:
     shell = f"{TYPED} {line}"
-    ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
+    ended = bash(shell)
     assert ended.returncode == status
     assert b"fault" not in ended.stderr
 
@@ -478,7 +484,7 @@ class TestBatch:
 def test_a_process_with_too_little_memory_says_so() -> None:
     """Below the limit libraries would end the process with status 1, which says that a check failed."""
     line = f"ulimit -v 200000; {TYPED} check {_FAILS}"
-    ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)
+    ended = bash(line)
     assert (ended.returncode, ended.stdout) == (2, b"")
     assert ended.stderr.startswith(b"error: the memory of this process is limited to 195 MB")
 
@@ -488,7 +494,7 @@ def test_a_process_with_too_little_memory_says_so() -> None:
 def test_the_least_memory_suffices(line: str, tmp_path: Path) -> None:
     command = f"{TYPED} {line.replace('OUT', shlex.quote(str(tmp_path)))}"
     shell = f"ulimit -v {500 << 10}; {command}"
-    ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
+    ended = bash(shell)
     assert (ended.returncode, ended.stderr) == (0, b"")
 
 

@@ -210,7 +210,8 @@ def test_the_scripts_are_valid_and_those_that_are_installed(shell: str) -> None:
     script = shared.get_completion_script(prog_name="gearlink", complete_var="_GEARLINK_COMPLETE", shell=shell)
     assert ("nospace" in script) if shell == "bash" else ("funcstack" in script)
     if shutil.which(shell):
-        checked = subprocess.run([shell, "-n", "-c", script], capture_output=True, text=True, check=False)
+        every = {**os.environ, "LC_ALL": "C"}  # bash warns of a locale that is not there
+        checked = subprocess.run([shell, "-n", "-c", script], capture_output=True, text=True, env=every, check=False)
         assert (checked.returncode, checked.stderr) == (0, "")
 
 

@@ -11,7 +11,6 @@ from oracles.planar_zoo import FOUR_BAR, QUICK_RETURN, ZOO, made
 from sweeps import mostly_slow
 
 from gearlink.cli.opening import design
-from gearlink.core.base.design_axis import as_arrays
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.machines.planar.course import contact_row
 from gearlink.core.machines.planar.design import PlanarMechanism
@@ -19,7 +18,7 @@ from gearlink.core.machines.planar.samples import PlanarSamples
 from gearlink.core.machines.planar.spec import PlanarSpec
 from gearlink.core.machines.planar.system import Jets, System
 from gearlink.core.studies.tolerance_study.problem import problem
-from gearlink.core.studies.tolerance_study.samples import _single, design_of, evaluated, rows_of
+from gearlink.core.studies.tolerance_study.samples import _one_by_one, design_of, evaluated
 
 
 def planar(name: str, **more: Any) -> PlanarMechanism:
@@ -53,7 +52,7 @@ def test_samples_at_once_are_those_of_the_class(name: str) -> None:
     assert made_.is_quick
     columns = made_.sizes(np.random.default_rng(5).uniform(size=(2, made_.coordinates)))
     many = evaluated(made_, columns)
-    few = as_arrays([_single(made_, row) for row in rows_of(columns)], made_.names, list(made_.base.codes))
+    few = _one_by_one(made_, columns)
     assert len(made_.quick_names) >= 9
     for key in made_.quick_names:
         size = max(1.0, np.abs(few.quantities[key]).max())
@@ -200,7 +199,7 @@ def test_samples_of_a_cam_at_once_are_those_of_the_class(name: str) -> None:
     assert made_.is_quick
     columns = made_.sizes(np.random.default_rng(5).uniform(size=(2, made_.coordinates)))
     many = evaluated(made_, columns)
-    few = as_arrays([_single(made_, row) for row in rows_of(columns)], made_.names, list(made_.base.codes))
+    few = _one_by_one(made_, columns)
     assert len(made_.quick_names) >= 7
     for name_ in made_.quick_names:
         size = max(1.0, np.abs(few.quantities[name_]).max())
