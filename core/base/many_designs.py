@@ -5,13 +5,17 @@ A search whose function gives a row for each design gives an extreme whose value
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
 
+from gearlink.core.base.errors import NoSolution
+
 Spec = Any
+_FEWEST = 8
+"""Designs that are better computed one by one."""
 
 
 class Unlike(Exception):
@@ -58,13 +62,31 @@ def together(specs: Sequence[Spec], alike: Sequence[str] = ()) -> Spec:
     return first.model_copy(update=changed) if changed else first
 
 
+def sought(find: Callable[[Sequence[Any]], None], designs: Sequence[Any]) -> None:
+    """Let designs keep what a function finds for all of them; those among which one does not exist in halves.
+
+    Parameters
+        find : raises `Unlike` for designs that it leaves to themselves, NoSolution where one of them does not exist
+    """
+    if len(designs) < _FEWEST:
+        return
+    try:
+        find(designs)
+    except Unlike:
+        return
+    except NoSolution:
+        half = len(designs) // 2
+        sought(find, designs[:half])
+        sought(find, designs[half:])
+
+
 def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
     """Let each of the owners keep its own of the results that one found for all of them.
 
     Parameters
         found : of the class of the owners, with columns for their numbers
         owners : whose results are asked for later
-        names : of kept results - numbers, None, or tuples of these
+        names : of kept results - numbers, None, or tuples and lists of these
     """
     for name in names:
         value = getattr(found, name)
@@ -75,7 +97,7 @@ def hand_out(found: Any, owners: Sequence[Any], *names: str) -> None:
 def _of_row(value: Any, row: int) -> Any:
     if isinstance(value, np.ndarray):
         return value.reshape(-1)[row].item()
-    if isinstance(value, tuple):
+    if isinstance(value, tuple | list):
         parts = [_of_row(part, row) for part in value]
-        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+        return type(value)(*parts) if hasattr(value, "_fields") else type(value)(parts)
     return value

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -168,6 +169,24 @@ class CylindricalCamDesign(OfFollower, Design):
         with at_key("motion"):
             return motion_of(self.spec.motion, self.spec.initial_lift, spec=self.spec)
 
+    at_once = 256
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Tracks of one motion are sought together."""
+        from gearlink.core.base.many_designs import hand_out, sought, together
+
+        del names
+
+        def find(some: Sequence[Any]) -> None:
+            many = cls(together([design.spec for design in some], ("motion", "initial_lift", "speed")))
+            of_motion = {name: getattr(some[0], name) for name in ("follower_motion", "motion_extremes")}
+            for design in (many, *some):
+                vars(design).update(of_motion)
+            hand_out(many, some, "steepest", "pressure_angle_outside", "bends", "walls")
+
+        sought(find, designs)
+
     @cached_property
     def drum(self) -> Drum:
         """The track."""
@@ -199,20 +218,29 @@ class CylindricalCamDesign(OfFollower, Design):
         return self._most(lambda phi: abs(self.drum.pressure_angle(self.drum.outside, phi))).value
 
     @cached_property
+    def bends(self) -> tuple[Extreme, ...]:
+        """Maximum curvature of the developed pitch curve, of either sense, at both radii [1/mm]."""
+        return tuple(self._most(lambda phi, x=x: abs(self.drum.curvature(x, phi))) for x in self._radii)  # type: ignore[misc]
+
+    @property
     def min_curvature_radius(self) -> float:
         """Minimum radius of the developed pitch curve, of either sense, over both radii [mm]."""
-        bend = max(self._most(lambda phi, x=x: abs(self.drum.curvature(x, phi))).value for x in self._radii)  # type: ignore[misc]
+        bend = max(each.value for each in self.bends)
         return 1.0 / bend if bend > 0.0 else math.inf
 
     @cached_property
-    def thinnest(self) -> Extreme:
-        """Minimum wall factor over both walls and both radii, and its cam angle [rad]."""
-        found = [
+    def walls(self) -> tuple[Extreme, ...]:
+        """Minimum wall factor of both walls at both radii, as the maximum of its negative, and its cam angle [rad]."""
+        return tuple(
             self._most(lambda phi, x=x, side=side: -self.drum.wall_factor(x, side, phi))  # type: ignore[misc]
             for x in self._radii
             for side in (1, -1)
-        ]
-        worst = max(found, key=lambda each: each.value)
+        )
+
+    @property
+    def thinnest(self) -> Extreme:
+        """Minimum wall factor over both walls and both radii, and its cam angle [rad]."""
+        worst = max(self.walls, key=lambda each: each.value)
         return worst._replace(value=-worst.value)
 
     least_wall_factor: float = placed("thinnest.value")

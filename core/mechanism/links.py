@@ -37,7 +37,9 @@ class Link:
 
     def at(self, place: complex | str) -> Point:
         """A point given by its name or in link coordinates [mm], computed once."""
-        arm = self.points[place] if isinstance(place, str) else place
+        arm: Any = self.points[place] if isinstance(place, str) else place
+        if isinstance(arm, np.ndarray):  # of many designs
+            return carried(self.origin, self.turn, arm, self.unit)
         if arm not in self._points:
             self._points[arm] = carried(self.origin, self.turn, arm, self.unit)
         return self._points[arm]

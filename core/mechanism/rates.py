@@ -137,7 +137,7 @@ def from_start(turn: Turn, start: float) -> Turn:
     return Turn(turn.value - start, *turn[1:])
 
 
-def carried(origin: Point, turn: Turn, arm: complex, unit: Points | None = None) -> Point:
+def carried(origin: Point, turn: Turn, arm: complex | Points, unit: Points | None = None) -> Point:
     """A point that a link carries.
 
     P + s e,  P' + i t' s e,  P'' + (i t'' - t'^2) s e,  P''' + (i t''' - 3 t' t'' - i t'^3) s e,  e = e^(i t)
@@ -153,7 +153,7 @@ def carried(origin: Point, turn: Turn, arm: complex, unit: Points | None = None)
         >>> p.value[0], p.first[0], p.second[0]
         (np.complex128(4+0j), np.complex128(6j), np.complex128(-12+0j))
     """
-    if arm == 0.0:
+    if not isinstance(arm, np.ndarray) and arm == 0.0:
         return origin
     along, order = arm * (np.exp(1j * turn.value) if unit is None else unit), min(origin.order, turn.order)
     parts = [origin.value + along]

@@ -220,7 +220,7 @@ def extremes_over(
         wanted : functions as of maximum_over, and whether the largest value of each is wanted or the smallest
         start, end, joints, samples, fewest : as of maximum_over
     Returns
-        extremes : those that maximum_over and minimum_over give
+        extremes : those that maximum_over and minimum_over give, of functions with rows as well
     Notes
         Each function is asked where any search looks: what they share is computed once a round.
     Example
@@ -273,6 +273,9 @@ def extremes_of_parts(
         places = [each.places.ravel() for _, each in rounds]
         flat = places[0] if len(places) == 1 else np.concatenate(places)
         values = dict(zip(wanted_now, values_of([functions[k] for k in wanted_now], flat), strict=True))
+        if any(v.ndim > 1 for v in values.values()):  # a row for each of many: they share no round
+            of_rows = [(maximum_over if top else minimum_over, f) for f, top in wanted]
+            return [[one(f, *part, joints=joints, samples=samples) for one, f in of_rows] for part in parts]
         first = 0
         for number, each in rounds:
             rows = slice(first, first := first + each.places.size)
@@ -384,7 +387,11 @@ def convex_radius(curvature: Extreme) -> Extreme:
         >>> convex_radius(Extreme(0.025, 1.0))
         Extreme(value=40.0, place=1.0)
     """
-    return Extreme(1.0 / curvature.value if curvature.value > 0.0 else math.inf, curvature.place)
+    bend = curvature.value
+    if isinstance(bend, np.ndarray):
+        radius = np.divide(1.0, bend, out=np.full_like(bend, math.inf), where=bend > 0.0)
+        return Extreme(radius, curvature.place)
+    return Extreme(1.0 / bend if bend > 0.0 else math.inf, curvature.place)
 
 
 class _Grid(NamedTuple):

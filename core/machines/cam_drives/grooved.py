@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import NoSolution, in_section
@@ -32,6 +32,7 @@ _TEETH = (
     "undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance", "tooth-form", "sliding",
 )  # fmt: skip
 _IN_LINE = 1e-9
+_DEGREE = math.pi / 180.0
 
 
 class Grooved(RealSpeed, Design):
@@ -40,6 +41,31 @@ class Grooved(RealSpeed, Design):
     spec: CamGearSpec | CamLinkageSpec
     requirements = Design.requirements | {"motion", "limits.pressure_angle"}
     larger = "enlarge the drive against its roller"
+
+    at_once = 256
+    alike: ClassVar[tuple[str, ...]] = ()  # keys by which drives that are sought together do not differ
+    beside: ClassVar[tuple[str, ...]] = ()  # what they find together beside the groove
+
+    @classmethod
+    def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
+        """Grooves of one motion are sought together."""
+        from gearlink.core.base.many_designs import hand_out, sought, together
+        from gearlink.core.parts.cams.groove import Groove
+
+        del names
+
+        def find(some: Sequence[Any]) -> None:
+            spec = together([design.spec for design in some], ("motion", "input_speed", "loads", *cls.alike))
+            many, first = cls(spec), some[0]
+            of_motion = {"output_motion": first.output_motion, "_rates": first._rates}
+            for design in (many, *some):
+                vars(design).update(of_motion)
+            hand_out(many, some, *cls.beside)
+            grooves = [design.groove for design in some]
+            vars(many)["groove"] = Groove(many.path, spec.roller_radius, first.output_motion.joints)
+            hand_out(many.groove, grooves, "extremes", "sharpest", "hollow", "star_shaped")
+
+        sought(find, designs)
 
     @cached_property
     def output_motion(self) -> OutputMotion:
@@ -171,6 +197,8 @@ class CamGear(Grooved):
         "pressure-angle": (*either("lever.angle"), *either("lever.length", "gears.module")),
         "cam-undercut": (*either("roller_radius"), up("gears.module", step=0.25)),
     }
+    alike = ("gears",)
+    beside = ("_swing", "gear_data")
     larger = "shorten the lever, turn it (lever.angle), take fewer sun teeth, or give the motion more input angle"
 
     @cached_property
@@ -199,7 +227,7 @@ class CamGear(Grooved):
     def lever(self, theta: Reals, order: int, side: int = 1) -> list[Reals]:
         """Angle X of the lever from the direction sun to planet, and its derivatives by the input angle [rad]."""
         angle, *rates = self.output_motion.evaluate(theta, order, side=side)
-        found = [math.radians(self.spec.lever.angle) + self.share * (theta - angle)]
+        found = [self.spec.lever.angle * _DEGREE + self.share * (theta - angle)]
         found += [self.share * ((1.0 if k == 0 else 0.0) - each) for k, each in enumerate(rates)]
         return found
 
@@ -299,6 +327,7 @@ class CamLinkage(Grooved):
         "cam-undercut": either("roller_radius", "links.coupler", "links.follower"),
         "transmission-angle": either("links.output", "links.follower", "links.coupler", "phase"),
     }
+    beside = ("_span", "_leans")
     larger = "change coupler, follower or phase, or give the motion more input angle"
 
     @cached_property
@@ -309,7 +338,7 @@ class CamLinkage(Grooved):
         from gearlink.core.numerics.arrays import units
         from gearlink.core.numerics.extremes import extremes_over
 
-        links, phase = self.spec.links, math.radians(self.spec.phase)
+        links, phase = self.spec.links, self.spec.phase * _DEGREE
 
         def apart(theta: Reals) -> Reals:
             d = links.frame + links.output * units(phase + self.output_motion.evaluate(theta, 0)[0])
@@ -344,27 +373,39 @@ class CamLinkage(Grooved):
         place = links["coupler"].at("C")
         return Path(place.value, place.first, place.second, np.asarray(1j * links["coupler"].unit))
 
-    @cached_property
-    def _flattest(self) -> Extreme:
-        """Signed angle between the lines of follower and output where it is nearest to 0; 0 where they are in line."""
+    def _lean(self, theta: Reals) -> Reals:
+        """Signed angle between the lines of follower and output [rad]."""
         import numpy as np
 
         from gearlink.core.machines.cam_drives.mechanism import five_bar
-        from gearlink.core.numerics.extremes import Extreme, extremes_over
+
+        links = five_bar(self, theta, 0, 1)
+        apart = np.conj(links["follower"].unit) * links["output"].unit
+        return np.asarray(np.arctan2(apart.imag, np.abs(apart.real)))
+
+    @cached_property
+    def _leans(self) -> tuple[Extreme, Extreme]:
+        """Its maximum and minimum."""
+        from gearlink.core.numerics.extremes import extremes_over
+
+        wanted = [(self._lean, True), (self._lean, False)]
+        high, low = extremes_over(wanted, joints=self.output_motion.joints, samples=1024)
+        return high, low
+
+    @cached_property
+    def _flattest(self) -> Extreme:
+        """That angle where it is nearest to 0; 0 where both are in line."""
+        import numpy as np
+
+        from gearlink.core.numerics.extremes import Extreme
         from gearlink.core.numerics.roots import bracketed_root
 
-        def lean(theta: Reals) -> Reals:
-            links = five_bar(self, theta, 0, 1)
-            apart = np.conj(links["follower"].unit) * links["output"].unit
-            return np.asarray(np.arctan2(apart.imag, np.abs(apart.real)))
-
         self.require_closed()
-        joints = self.output_motion.joints
-        high, low = extremes_over([(lean, True), (lean, False)], joints=joints, samples=1024)
+        high, low = self._leans
         if low.value * high.value > 0.0:
             return min(high, low, key=lambda each: abs(each.value))
         ends = sorted((low.place, high.place))
-        return Extreme(0.0, bracketed_root(lambda place: float(lean(np.array([place]))[0]), *ends))
+        return Extreme(0.0, bracketed_root(lambda place: float(self._lean(np.array([place]))[0]), *ends))
 
     @property
     def min_transmission_angle(self) -> float:

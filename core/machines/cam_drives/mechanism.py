@@ -17,6 +17,8 @@ from gearlink.core.mechanism.rates import Point, Turn, fixed, mixed, standing, s
 from gearlink.core.studies.movable import Movable
 from gearlink.core.studies.tolerance.sources import CAM_PROFILE
 
+DEGREE = math.pi / 180.0
+
 if TYPE_CHECKING:
     from gearlink.core.machines.cam_drives.grooved import CamGear, CamLinkage, Grooved
     from gearlink.core.machines.cam_drives.linked import LinkedCams
@@ -80,7 +82,7 @@ def five_bar(design: CamLinkage, phi: Reals, order: int, side: int) -> dict[str,
     """Input, coupler, follower and output; A at 0, E on +x."""
     given = design.spec.links
     value, *rates = design.output_motion.evaluate(phi, order, side=side)
-    angle = Turn(value + math.radians(design.spec.phase), *rates)
+    angle = Turn(value + design.spec.phase * DEGREE, *rates)
     first = Link(fixed(0j, phi, order=order), steady(phi, order=order), {"A": 0.0, "B": given.input})
     last = Link(fixed(given.frame, phi, order=order), angle, {"E": 0.0, "D": given.output})
     coupler, follower = dyad(first.at("B"), last.at("D"), given.coupler, given.follower, design.spec.assembly)

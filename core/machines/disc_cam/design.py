@@ -147,9 +147,10 @@ class DiscCamDesign(OfFollower, Design):
     @classmethod
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
         """Cams of one motion are sought together."""
+        from gearlink.core.base.many_designs import sought
         from gearlink.core.machines.disc_cam.together import found_together
 
-        found_together(designs, names)
+        sought(lambda some: found_together(some, names), designs)
 
     def as_found(self) -> Iterator[Found]:
         """The size and the preload that the limits of the file give, which cams as manufactured keep."""

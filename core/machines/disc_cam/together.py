@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.base.errors import NoSolution
-from gearlink.core.base.many_designs import Unlike, column, hand_out, together
+from gearlink.core.base.many_designs import column, hand_out, together
 from gearlink.core.machines.disc_cam.cams import Place
 
 if TYPE_CHECKING:
     from gearlink.core.machines.disc_cam.design import DiscCamDesign
     from gearlink.core.machines.disc_cam.spec import DiscCamSpec
 
-_FEWEST = 8
-"""Designs that are better computed one by one."""
 _ALIKE = ("motion", "initial_lift", "speed", "loads", "direction", "pivot_direction", "side", "sense", "type", "angle")
 _MAKING = ("lift_error_worst", "lift_error_rss", "acceleration_error")
 
@@ -23,21 +20,15 @@ def found_together(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> No
     """Let designs keep what their checks and some of their quantities need.
 
     Parameters
-        designs : of files that differ by numbers of cam and follower; others are left to themselves
+        designs : of files that differ by numbers of cam and follower
         names : quantities that will be asked for
+    Raises
+        Unlike - for files that differ otherwise
+        NoSolution - where one of them does not exist
     """
-    if len(designs) < _FEWEST:
-        return
-    try:
-        spec = together([design.spec for design in designs], _ALIKE)
-        _shared_motion(designs, names)
-        _found(designs, spec, names)
-    except Unlike:
-        return
-    except NoSolution:  # of one of them: the others are found without it
-        half = len(designs) // 2
-        found_together(designs[:half], names)
-        found_together(designs[half:], names)
+    spec = together([design.spec for design in designs], _ALIKE)
+    _shared_motion(designs, names)
+    _found(designs, spec, names)
 
 
 def _shared_motion(designs: Sequence[DiscCamDesign], names: Sequence[str]) -> None:

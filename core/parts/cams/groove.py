@@ -98,7 +98,8 @@ class Groove:
         return np.asarray(path.place + inwards), np.asarray(path.place - inwards)
 
     @cached_property
-    def _extremes(self) -> list[Extreme]:
+    def extremes(self) -> list[Extreme]:
+        """Maximum pressure angle, maximum and minimum distance of the roller from the axis."""
         wanted: list[tuple[Function, bool]] = [
             (lambda theta: np.abs(self.pressure_angle(theta)), True),
             (self.radius, True),
@@ -109,17 +110,17 @@ class Groove:
     @property
     def steepest(self) -> Extreme:
         """Maximum pressure angle [rad] and its place."""
-        return self._extremes[0]
+        return self.extremes[0]
 
     @property
     def max_radius(self) -> float:
         """Maximum distance of the roller's centre from the axis [mm]."""
-        return self._extremes[1].value
+        return self.extremes[1].value
 
     @property
     def min_radius(self) -> float:
         """Minimum distance [mm]."""
-        return self._extremes[2].value
+        return self.extremes[2].value
 
     @cached_property
     def sharpest(self) -> Extreme:
@@ -145,6 +146,16 @@ class Groove:
         columns["curvature_radius"] = radius, "mm"
         return Table.of("main_cam", columns)
 
+    @cached_property
+    def star_shaped(self) -> tuple[bool, bool]:
+        """Whether the polar angle of inner and outer wall runs one way: without a cusp none then crosses itself."""
+        closed = np.radians(turn_degrees(2 * _SAMPLES))
+        found = []
+        for wall in self.walls(closed):
+            turn = self.sense * (np.conj(wall) * np.roll(wall, -1, axis=-1)).imag
+            found.append(np.all(turn > 0.0, axis=-1))
+        return found[0], found[1]
+
     def _wall(self, side: int) -> Callable[[Reals], tuple[Points, Points]]:
         return lambda theta: (self.path(theta).place, self.walls(theta)[side])
 
@@ -164,7 +175,7 @@ class Groove:
             status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
             what, at = f"roller radius, {name} wall", f"input angle {short(math.degrees(found.place))} deg"
             shown = against_curvature(self.roller_radius, found.value, status)
-            if status == "pass":
+            if status == "pass" and not self.star_shaped[side]:
                 cut = undercut(self._wall(side), self.roller_radius)
                 if cut.depth > _CUT * self.roller_radius:
                     status, what = "fail", f"cut of the roller into the {name} wall"
