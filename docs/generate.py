@@ -8,13 +8,17 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from gearlink.cli import glossary
+from gearlink.cli.commands.verify import computed_digits, difference, limit
+from gearlink.cli.render.markdown_report import inline, markdown_table
 from gearlink.cli.texts import schema
 from gearlink.cli.texts.schema import Index, known_keys, worked_design
-from gearlink.cli.verification import page
+from gearlink.cli.verification.cases import Case, Source, sources
+from gearlink.cli.verification.computing import Outcome, computed
 from gearlink.core.base.kind import Kind
 from gearlink.core.base.kinds import FILES
 from gearlink.core.base.nomenclature import ALIASES, TERMS
@@ -303,6 +307,98 @@ def _write(meaning: glossary.Meaning) -> str:
     return "; ".join(part for part in (meaning.says or keys, results) if part)
 
 
+_VALIDATION = """# Validation
+
+Published numbers, and what gearlink computes for them. `gearlink verify` computes all of them again where it is
+installed: {cases} cases with {numbers} numbers, of which {met} are met. This page is written by `make docs` from the
+files in cli/verification/cases, which go with the program.
+
+A number is met where the difference is at most half a unit of the last digit that its source prints. Where another
+limit is taken, the reason is given below the table. Computed values have a digit more than the published ones.
+
+| source | cases | numbers | met |
+| --- | --- | --- | --- |
+{sources}
+
+What is not published but was computed a second time, to 30 and 50 digits, is the subject of [accuracy.md](accuracy.md).
+"""
+_DIFFERS = """## Not met, and why
+
+These numbers are known to differ and are no cases of `gearlink verify`. What is wrong in the four source documents, and
+in other published material, is listed in [errata.md](errata.md).
+"""
+_NUMBERS = ("number", "unit", "published", "computed", "difference", "limit")
+
+
+def validation_text() -> str:
+    """The page "Validation": every published case with its numbers, and what is not met, with the reason."""
+    known = list(sources())
+    found = {source.name: list(computed(source.cases)) for source in known}
+    every = [outcome for outcomes in found.values() for outcome in outcomes]
+    rows = [
+        f"| {inline(source.source)} | {len(source.cases)} | {len(found[source.name])} | {_met(found[source.name])} |"
+        for source in known
+    ]
+    head = _VALIDATION.format(
+        cases=sum(len(source.cases) for source in known), numbers=len(every), met=_met(every), sources="\n".join(rows)
+    )
+    parts = [head, *(part for source in known for part in _of_source(source, found[source.name]))]
+    parts.append(_DIFFERS)
+    parts += [part for source in known for part in _case_tables(list(computed(source.differs)), source.source)]
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _met(outcomes: list[Outcome]) -> int:
+    return sum(each.met for each in outcomes)
+
+
+def _of_source(source: Source, outcomes: list[Outcome]) -> Iterator[str]:
+    yield f"## {inline(source.source)}\n\nRead at: {inline(source.read_at)}.\n"
+    yield from _case_tables(outcomes)
+
+
+def _case_tables(outcomes: list[Outcome], source: str = "") -> Iterator[str]:
+    for _, group in groupby(outcomes, key=lambda each: each.case.id):
+        own = list(group)
+        yield f"### {own[0].case.id}\n\n{_where(own[0].case, source)}\n"
+        rows = [
+            (
+                each.number.name,
+                "" if each.unit == "1" else each.unit,
+                each.number.published,
+                computed_digits(each),
+                difference(each),
+                limit(each),
+            )
+            for each in own
+        ]
+        yield markdown_table(_NUMBERS, rows) + "\n"
+        yield from _reasons(own)
+
+
+def _where(case: Case, source: str) -> str:
+    words = ". ".join(
+        part.strip().rstrip(".") for part in (source, case.place[:1].upper() + case.place[1:], case.note) if part
+    )
+    return inline(f"{words}.")
+
+
+def _reasons(outcomes: list[Outcome]) -> Iterator[str]:
+    """Why limits are wider, and why numbers are not met."""
+    reasons: dict[str, list[str]] = {}
+    for each in outcomes:
+        if each.number.because:
+            names = reasons.setdefault(each.number.because, [])
+            name = each.number.name.partition(" (")[0]
+            names += [name] if name not in names else []
+    whole = len({each.number.because for each in outcomes}) == 1
+    for reason, names in reasons.items():
+        of = "" if whole else f" of {inline(', '.join(names))}"
+        yield f"Limit{of}: {inline(reason)}.\n"
+    if why := outcomes[0].case.why:
+        yield f"Why: {inline(why.rstrip('.'))}.\n"
+
+
 def _kinds_by_quantity() -> dict[str, list[str]]:
     """For each quantity, the kinds that give it."""
     found: dict[str, list[str]] = {}
@@ -320,4 +416,4 @@ if __name__ == "__main__":
     schema.INDEX.write_text(index_text(), encoding="utf-8")
     TARGET.write_text(text(), encoding="utf-8")
     GLOSSARY.write_text(glossary_text(), encoding="utf-8")
-    VALIDATION.write_text(page.text(), encoding="utf-8")
+    VALIDATION.write_text(validation_text(), encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -10,8 +11,7 @@ from typing import TYPE_CHECKING
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, width
-from gearlink.cli.verification import page
-from gearlink.cli.verification.cases import Case
+from gearlink.cli.verification.cases import Case, decimals
 from gearlink.cli.verification.computing import Outcome
 from gearlink.core.base.errors import named
 from gearlink.core.base.report import Quantity, Report, Table
@@ -107,6 +107,50 @@ def report_of(outcomes: Sequence[Outcome]) -> Verification:
     )
 
 
+_DOUBLE = 15
+"""Digits of a double; the last is rounding."""
+
+
+def computed_digits(outcome: Outcome) -> str:
+    """The computed number with a digit more than is published, but none far below its limit, where rounding begins."""
+    value = outcome.computed
+    if value is None:
+        return "-"
+    size = 0 if value == 0.0 else math.floor(math.log10(abs(value))) + 1
+    below = 1 - math.floor(math.log10(outcome.number.limit))
+    places = min(1 - decimals(outcome.number.published), below, _DOUBLE - size - 1)
+    return f"{value:.{max(places, 0)}f}"
+
+
+def difference(outcome: Outcome) -> str:
+    """The difference to two digits of its limit.
+
+    A tenth of the limit is its last digit but one, so that what another processor rounds otherwise does not show.
+    """
+    found = outcome.difference
+    if found is None:
+        return "-"
+    places = 1 - math.floor(math.log10(outcome.number.limit))
+    shown = round(found, places)
+    return _plain(shown + 0.0, places)
+
+
+def limit(outcome: Outcome) -> str:
+    """The limit."""
+    return f"{outcome.number.limit:.3g}"
+
+
+def share(outcome: Outcome) -> str:
+    """The difference in percent of its limit."""
+    return "-" if outcome.computed is None else f"{100.0 * outcome.share:.0f} %"
+
+
+def _plain(value: float, places: int) -> str:
+    if value == 0.0:
+        return "0"
+    return f"{value:.{max(places, 0)}f}" if places <= 7 else f"{value:.1e}"
+
+
 _NAME_AT_LEAST = 8
 _HEADS = ("published", "computed", "difference", "limit")
 
@@ -142,7 +186,7 @@ def _case(case: Case, outcomes: Sequence[Outcome], column: int) -> str:
     met = sum(each.met for each in outcomes)
     worst = max(outcomes, key=lambda each: each.share)
     count = f"{met} of {len(outcomes)}"
-    line = f"  {case.id:<{column}}  {count:>8}  {page.share(worst):>5} of the limit"
+    line = f"  {case.id:<{column}}  {count:>8}  {share(worst):>5} of the limit"
     named = f"{line}: {worst.number.name}"
     return named if len(named) <= width() else line
 
@@ -152,7 +196,7 @@ def _numbers(outcomes: Sequence[Outcome]) -> Iterator[str]:
     rows = [
         (
             each.number.name + (f" [{each.unit}]" if each.unit not in ("", "1") else ""),
-            (each.number.published, page.computed_digits(each), page.difference(each), page.limit(each)),
+            (each.number.published, computed_digits(each), difference(each), limit(each)),
             "" if each.met else "  OFF",
         )
         for each in outcomes

@@ -14,8 +14,10 @@ from typing import Any
 
 import pytest
 
+from docs import generate
 from gearlink.cli import completing
-from gearlink.cli.verification import cases, page
+from gearlink.cli.commands import verify
+from gearlink.cli.verification import cases
 from gearlink.cli.verification.cases import Case, Source
 from gearlink.cli.verification.computing import KERNELS, computed
 
@@ -161,7 +163,7 @@ def test_a_shell_is_offered_the_cases() -> None:
 
 def test_the_page_is_that_of_the_cases() -> None:
     written = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8").splitlines()
-    for line, (now, then) in enumerate(zip_longest(page.text().splitlines(), written, fillvalue=""), 1):
+    for line, (now, then) in enumerate(zip_longest(generate.validation_text().splitlines(), written, fillvalue=""), 1):
         assert _same(now, then), f"line {line}, run `make docs`:\n{now}\n{then}"
 
 
@@ -194,7 +196,7 @@ def _near(a: str, b: str) -> bool:
 def test_computed_numbers_have_a_digit_more_than_published_ones() -> None:
     case = next(case for case in CASES if case.id == "khurmi-12.7-internal")
     (outcome,) = computed([case])
-    assert (page.computed_digits(outcome), page.difference(outcome), page.limit(outcome)) == (
+    assert (verify.computed_digits(outcome), verify.difference(outcome), verify.limit(outcome)) == (
         "28.035",
         "-0.0047",
         "0.005",
