@@ -321,7 +321,7 @@ KINDS: dict[str, Kind] = {
             motion="mechanism:motion",
             samples="samples:PlanarSamples",
             picture="cli.views.figures.of_motion:draw",
-            profiles="cli.export.planar_parts:makers",
+            profiles="cli.export.parts:planar",
             worked="planar_watt",
         ),
         Kind(
