@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
-from gearlink.cli.export.contour import Contour, rows_of
-from gearlink.cli.export.header import describe, design_hash
+from gearlink.cli.export.contour import Contour, describe, design_hash, error_name, rounded_up, rows_of
 from gearlink.cli.export.options import CONTOUR, DEFAULT_TOLERANCE, CurveForm, Export, FileFormat
 from gearlink.cli.export.sampling import Sampled
 from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
@@ -182,7 +181,6 @@ def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
 
 
 def _words(form: FileFormat, contour: Contour, asked: Export) -> str:
-    from gearlink.cli.export.header import error_name, rounded_up
 
     error = f"{error_name(contour)} {rounded_up(contour.error)} mm (tolerance {asked.tolerance:g} mm)"
     if form is FileFormat.STEP and contour.part.twist:

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, Line, extents
-from gearlink.cli.export.header import describe
+from gearlink.cli.export.contour import Contour, Line, describe, extents
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 from gearlink.cli.quiet import without_notes

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour
-from gearlink.cli.export.header import describe
+from gearlink.cli.export.contour import Contour, describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points, Reals
 from gearlink.cli.files import unfinished

@@ -9,8 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, Line, extents
-from gearlink.cli.export.header import describe
+from gearlink.cli.export.contour import Contour, Line, describe, extents
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 

@@ -22,7 +22,7 @@ import pytest
 from sweeps import mostly_slow
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.export.header import rounded_up
+from gearlink.cli.export.contour import rounded_up
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "tests" / "reference" / "contract"
