@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
 
-from gearlink.cli.reading.allowed_numbers import bound
-from gearlink.cli.reading.model_shapes import aliases_at, meaning_at, shapes_at, unit_at
+from gearlink.cli.reading.model_shapes import aliases_at, bound, meaning_at, shapes_at, unit_at
 from gearlink.cli.reading.units import converted, split
 from gearlink.cli.reading.yaml_reader import format_path
 from gearlink.core.base.remedies.ways import MODULES

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gearlink.cli.reading.columns import rows_of
-from gearlink.cli.reading.design_file import load, validate
+from gearlink.cli.reading.design_file import load, rows_of, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Source
 from gearlink.core.machines.motion_law import MotionLawSpec
 
