@@ -409,7 +409,7 @@ def _as_they_end(given: Iterable[Future[T]]) -> Iterator[Future[T] | None]:
 def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
     """Every file by a worker of a Dask cluster, which must see it under the same path; what it loses, this process
     computes."""
-    from gearlink.cli.parallel.cluster import client
+    from gearlink.cli.parallel.shares import client
 
     with client(options.dask) as cluster:
         pool = cluster.get_executor()

@@ -402,7 +402,7 @@ def _keep(made: Problem, asked: Exploring) -> Opened:
 @contextmanager
 def _means(asked: Exploring) -> Iterator[Means]:
     if asked.dask:
-        from gearlink.cli.parallel.cluster import client
+        from gearlink.cli.parallel.shares import client
 
         with client(asked.dask) as cluster:
             yield Means(executor=cluster.get_executor, workers=max(1, len(cluster.ncores())))

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 import yaml
 
-from gearlink.cli.parallel import cluster as clusters
+from gearlink.cli.parallel import shares as clusters
 from gearlink.cli.reading.diagnostics import DesignFileError
 
 STUDY: dict[str, Any] = {
@@ -68,7 +68,7 @@ def test_no_scheduler_is_said(gearlink: Any, tmp_path: Path, monkeypatch: pytest
     pytest.importorskip("distributed")
     study = tmp_path / "study.yaml"
     study.write_text(yaml.safe_dump(STUDY, sort_keys=False))
-    monkeypatch.setattr("gearlink.cli.parallel.cluster._SECONDS", 1)
+    monkeypatch.setattr("gearlink.cli.parallel.shares._SECONDS", 1)
     ended = gearlink("explore", study, "--dask", "tcp://127.0.0.1:9", "--format", "json")
     assert (ended.status, ended.json["errors"][0]["code"]) == (2, "GL115")
 
