@@ -32,8 +32,7 @@ from gearlink.cli.views.scenes.scene import (
     track,
 )
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell
-from gearlink.core.machines.dwell_gears.mutilated_mechanism import driven
+from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGearDwell, driven
 from gearlink.core.machines.dwell_gears.wheel import end_tooth_radius
 
 if TYPE_CHECKING:

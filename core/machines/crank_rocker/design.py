@@ -12,15 +12,23 @@ from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
+from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.dual import longer
+from gearlink.core.mechanism.links import FRAME, Link, Mechanism
+from gearlink.core.mechanism.motion import Course, Input, Motion, Output
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
 from gearlink.core.parts.linkages.dyad import acute
+from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
 from gearlink.core.parts.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 from gearlink.core.parts.linkages.fourbar.position import FourBar, FourBarState, solve
 from gearlink.core.parts.linkages.standstills import OutputRates, Turning, turnings
+from gearlink.core.studies.movable import Movable
 
 if TYPE_CHECKING:
     from gearlink.core.machines.crank_rocker.spec import CrankRockerSpec
+    from gearlink.core.numerics.arrays import Reals
+
 
 TURN = 2.0 * math.pi
 LENGTHS = ("crank_length", "coupler_length", "rocker_length", "frame_length")
@@ -216,7 +224,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The rocker over a revolution of the crank, or over its range with both ends."""
-        from gearlink.core.machines.crank_rocker.mechanism import rocker
         from gearlink.core.mechanism.courses import Shown, between
 
         course = rocker(self)
@@ -233,7 +240,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def table_links(self, samples: int | None = None) -> Table:
         """Angle, speed, acceleration and jerk of coupler and rocker."""
-        from gearlink.core.machines.crank_rocker.mechanism import rocker
         from gearlink.core.mechanism.courses import all_rates, turned
 
         return self._over("links", all_rates({"coupler": turned("coupler"), "rocker": rocker(self)}), samples)
@@ -314,3 +320,33 @@ def inner_places(start: float, end: float) -> list[float]:
         raise NoSolution("the range has no length", fix="give a greater end")
     first, last = math.ceil(start / math.pi), math.floor(end / math.pi)
     return sorted({start, end, *(k * math.pi for k in range(first, last + 1))})
+
+
+def motion(design: CrankRocker) -> Motion:
+    """Links and joints over the crank angle, A at 0 and D on +x: a revolution, or the range of the file."""
+    linkage, span = design.linkage, design.crank_range
+    point = design.coupler_point
+
+    def make(phi: Reals, order: int, _side: int) -> Mechanism:
+        links = four_bar(linkage, phi, order)
+        if point is not None:
+            coupler = links["coupler"]
+            links["coupler"] = Link(coupler.origin, coupler.turn, {**coupler.points, "P": point})
+        return Mechanism(links, [*four_bar_pins(links)], "crank")
+
+    inputs = Input("crank_angle") if span is None else Input("crank_angle", start=span[0], end=span[1], turns=None)
+    return Motion(make, inputs, (Output("Rocker CD", rocker(design)),))
+
+
+def rocker(design: CrankRocker) -> Course:
+    """Direction of the rocker from D to C, at the first crank angle in (-180, 180] deg [rad]."""
+    first = design.state(0.0 if design.crank_range is None else design.crank_range[0]).rocker_angle
+    turns = math.ceil((first - math.pi) / (2.0 * math.pi))
+    return turned("rocker").less(2.0 * math.pi * turns) if turns else turned("rocker")
+
+
+def errors(design: CrankRocker, mechanism: Mechanism) -> Movable:
+    """The four links; the error is measured at the joint on the rocker where the file says nothing else."""
+    bar = design.linkage
+    ends = {f"links.{name}": (name, getattr(bar, name)) for name in ("crank", "coupler", "rocker")}
+    return Movable(longer(mechanism, ends | {"links.frame": (FRAME, bar.frame)}), radius=bar.rocker)

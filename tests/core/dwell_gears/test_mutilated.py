@@ -20,8 +20,7 @@ from pydantic import ValidationError
 from sweeps import examples
 
 from gearlink.core.base.errors import NoSolution
-from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGear, teeth_for_times
-from gearlink.core.machines.dwell_gears.mutilated_mechanism import driven
+from gearlink.core.machines.dwell_gears.mutilated_design import MutilatedGear, driven, teeth_for_times
 from gearlink.core.parts.linkages.fourbar.position import FourBar, solve
 
 REFERENCE = Path(__file__).parents[2] / "reference"
