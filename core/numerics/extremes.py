@@ -39,27 +39,41 @@ def vertex_of(x: Reals, v: Reals, i: NDArray[np.intp]) -> tuple[Reals, Reals]:
         rounding moves it by. At a kink, where the lines from both sides meet; at a jump, between the samples beside it.
     """
     rows = np.arange(i.size)
-    middle = np.clip(i, 1, POINTS - 2)
+    middle = np.minimum(np.maximum(i, 1), POINTS - 2)
     low, mid, high = v[rows, middle - 1], v[rows, middle], v[rows, middle + 1]
-    bend = low - 2.0 * mid + high
     step = x[:, 1] - x[:, 0]
-    interior = (i == middle) & (bend < 0.0)
-    shift = np.divide(0.5 * (low - high), bend, out=np.zeros_like(bend), where=interior)
-    half = np.where(interior, _WIDE, np.where(_falls_from_its_end(v, i), _END_SHARE, 1.0))
-    inside = np.flatnonzero(interior & (i == np.clip(i, 3, POINTS - 4)))
-    with np.errstate(invalid="ignore"):  # what is infinite is enlarged as a parabola
-        samples = v[inside[:, None], i[inside, None] + _AROUND]
-        better = _quartic_shift(samples[:, 1:-1], shift[inside])
-        noise = np.max(np.abs(np.diff(v[inside], 6, axis=1)), axis=1) / -bend[inside]  # of what no smooth curve leaves
-        rounding = _SURE_ULPS * np.spacing(np.abs(mid[inside])) / -bend[inside]
-        for place, reach in ((better, np.fmax(0.25 * np.abs(better - shift[inside]), noise)), _crossing(samples)):
-            reach = np.fmax(reach, np.fmax(rounding, _NARROW))
-            close = reach < half[inside]
-            shift[inside[close]], half[inside[close]] = place[close], reach[close]
-    jump, at = _jump(v)
-    beside = jump & ((at == i) | (at == i - 1))
-    shift, half = np.where(beside, at - i + 0.5, shift), np.where(beside, 0.5, half)
+    with np.errstate(all="ignore"):  # what is infinite is enlarged as a parabola, what is none told by its distance
+        bend = low - 2.0 * mid + high
+        interior = (i == middle) & (bend < 0.0)
+        shift = np.divide(0.5 * (low - high), bend, out=np.zeros_like(bend), where=interior)
+        if interior.all():
+            half = np.full(i.size, _WIDE)
+        else:
+            half = np.where(interior, _WIDE, np.where(_falls_from_its_end(v, i), _END_SHARE, 1.0))
+        inside = (interior & (i >= 3) & (i <= POINTS - 4)).nonzero()[0]
+        if inside.size:
+            _sharpen(v[inside], i[inside], -bend[inside], inside, shift, half)
+        jump, at = _jump(v)
+    if jump.any():
+        beside = jump & ((at == i) | (at == i - 1))
+        shift, half = np.where(beside, at - i + 0.5, shift), np.where(beside, 0.5, half)
     return x[rows, i] + shift * step, half * step
+
+
+def _sharpen(v: Reals, i: NDArray[np.intp], bend: Reals, inside: NDArray[np.intp], shift: Reals, half: Reals) -> None:
+    """Put the vertex of the quartic, or the crossing of lines, with its reach, where that is less than `half`."""
+    samples = v[np.arange(i.size)[:, None], i[:, None] + _AROUND]
+    before = shift[inside]
+    better, crossing = _quartic_shift(samples[:, 1:-1], before), _crossing(samples)
+    noise = v
+    for _ in range(6):
+        noise = noise[:, 1:] - noise[:, :-1]
+    left = np.maximum.reduce(np.abs(noise), axis=1) / bend  # of what no smooth curve leaves
+    least = np.fmax(_SURE_ULPS * np.spacing(np.abs(samples[:, 3])) / bend, _NARROW)
+    for place, reach in ((better, np.fmax(0.25 * np.abs(better - before), left)), crossing):
+        reach = np.fmax(reach, least)
+        close = reach < half[inside]
+        shift[inside[close]], half[inside[close]] = place[close], reach[close]
 
 
 def _quartic_shift(v: Reals, shift: Reals) -> Reals:
@@ -68,9 +82,9 @@ def _quartic_shift(v: Reals, shift: Reals) -> Reals:
     far_sum, near_sum = v[:, 4] + v[:, 0] - 2.0 * v[:, 2], v[:, 3] + v[:, 1] - 2.0 * v[:, 2]
     a, b = (8.0 * near - far) / 12.0, (16.0 * near_sum - far_sum) / 12.0
     c, d = (far - 2.0 * near) / 4.0, (far_sum - 4.0 * near_sum) / 6.0
-    with np.errstate(all="ignore"):  # what is none is told by its distance from the parabola's
-        for _ in range(_NEWTON):
-            shift = shift - (a + shift * (b + shift * (c + shift * d))) / (b + shift * (2.0 * c + shift * 3.0 * d))
+    c2, d3 = 2.0 * c, 3.0 * d
+    for _ in range(_NEWTON):
+        shift = shift - (a + shift * (b + shift * (c + shift * d))) / (b + shift * (c2 + shift * d3))
     return shift
 
 
@@ -78,19 +92,17 @@ def _crossing(v: Reals) -> tuple[Reals, Reals]:
     """Where the lines from both sides meet, by seven samples a row, in steps from the middle one, and its error."""
     before, after = v[:, 2] - v[:, 1], v[:, 5] - v[:, 4]
     bends = np.abs(before - v[:, 1] + v[:, 0]) + np.abs(v[:, 6] - v[:, 5] - after)
-    with np.errstate(all="ignore"):  # lines that are one do not meet
-        place = (v[:, 4] - v[:, 2] - before - after) / (before - after)
-        error = 4.0 * bends / np.abs(before - after)
-    return place, np.where(np.abs(place) <= 1.0, error, 1.0)
+    apart = before - after  # 0 of lines that are one and do not meet
+    place = (v[:, 4] - v[:, 2] - before - after) / apart
+    return place, np.where(np.abs(place) <= 1.0, 4.0 * bends / np.abs(apart), 1.0)
 
 
 def _jump(v: Reals) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
     """Whether a function jumps within a bracket, and after which sample: there it moves far more than anywhere else."""
-    with np.errstate(invalid="ignore"):  # what is infinite is enlarged as it was
-        steps = np.abs(np.diff(v, axis=1))
-        two = np.partition(steps, -2, axis=1)
-        jumps: NDArray[np.bool_] = two[:, -1] > _JUMPS * two[:, -2]
-    return jumps, np.argmax(steps, axis=1)
+    steps = np.abs(v[:, 1:] - v[:, :-1])
+    two = np.partition(steps, -2, axis=1)
+    jumps: NDArray[np.bool_] = two[:, -1] > _JUMPS * two[:, -2]
+    return jumps, steps.argmax(axis=1)
 
 
 def _falls_from_its_end(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -112,8 +124,8 @@ def is_level(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 def is_noise(v: Reals) -> NDArray[np.bool_]:
     """Whether the samples of a bracket go up and down too often for a function that the first samples resolved."""
-    signs = np.sign(np.diff(v, axis=1))
-    noise: NDArray[np.bool_] = np.count_nonzero(signs[:, :-1] * signs[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
+    signs = np.sign(v[:, 1:] - v[:, :-1])
+    noise: NDArray[np.bool_] = np.add.reduce(signs[:, :-1] * signs[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
     return noise
 
 
@@ -476,7 +488,7 @@ def _enlarged(
     while left.size:
         x = left[:, None] + (right - left)[:, None] * _UNIT
         v = yield _Asked(x, _parts(of))
-        rows, i = np.arange(left.size), np.argmax(v, axis=1)
+        rows, i = np.arange(left.size), v.argmax(axis=1)
         peak, place = v[rows, i], x[rows, i]
         for search, value, where in zip(of.tolist(), peak.tolist(), place.tolist(), strict=True):
             if value > best[search].value:
@@ -486,16 +498,22 @@ def _enlarged(
         low = peak + spread < np.array([top.value for top in best])[of]
         narrow = right - left <= finest
         missed = ((i == 0) & (left > safe_left)) | ((i == POINTS - 1) & (right < safe_right))
+        going = missed | ~(narrow | flat | low | is_noise(v))
+        if not going.all():
+            if not going.any():
+                return
+            of, left, right, safe_left, safe_right = (a[going] for a in (of, left, right, safe_left, safe_right))
+            x, v, i, missed, rows = x[going], v[going], i[going], missed[going], rows[: left.size]
         near = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, POINTS - 1)]
         vertex, half = vertex_of(x, v, i)
         next_left, next_right = np.maximum(vertex - half, near[0]), np.minimum(vertex + half, near[1])
-        # A miss puts the true maximum between the bracket and the safe one: step back and take that whole.
-        safe_left, safe_right = np.where(missed, safe_left, near[0]), np.where(missed, safe_right, near[1])
-        left = np.where(missed, safe_left, next_left)
-        right = np.where(missed, safe_right, next_right)
-        going = missed | ~(narrow | flat | low | is_noise(v))
-        if not going.all():
-            of, left, right, safe_left, safe_right = (a[going] for a in (of, left, right, safe_left, safe_right))
+        if missed.any():
+            # A miss puts the true maximum between the bracket and the safe one: step back and take that whole.
+            safe_left, safe_right = np.where(missed, safe_left, near[0]), np.where(missed, safe_right, near[1])
+            left = np.where(missed, safe_left, next_left)
+            right = np.where(missed, safe_right, next_right)
+        else:
+            (safe_left, safe_right), left, right = near, next_left, next_right
 
 
 def _at_an_end(top: Extreme, v: Reals, grid: _Grid, nothing: float) -> Extreme:
