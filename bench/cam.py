@@ -34,7 +34,7 @@ def family(quick: bool) -> Family:
         tuple(rows),
         (
             "error of points: distance from the profile in 30 digits at the same cam angle; of the radial shortcut: "
-            "how far the roller, set on it, would stand from its place",
+            "distance of the roller that rolls on it from its true position",
             "error of polyline and spline: maximum distance from the envelope between the points",
         ),
     )
@@ -180,7 +180,7 @@ def press(quick: bool) -> Family:
     )
     return Family(
         "press",
-        "Flatbed press: chains, synchronous zone and both cams at 3600 positions",
+        "Flatbed press: both drives, synchronous zone and both cams at 3600 positions",
         "none",
         "one numpy pass of sin + cos + arctan2 + sqrt over one number",
         rows,

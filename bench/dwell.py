@@ -26,7 +26,7 @@ def family(quick: bool) -> Family:
         rows += measure([*_dwell(size, quick), *_momentary(size, quick)], numpy_pass(size), size, 11)
     return Family(
         "dwell",
-        "Dwell angle phi13 and frame of the momentary dwell",
+        "Dwell angle phi13 and frame of the instantaneous dwell",
         "ulp",
         "one numpy pass of sin + cos + arctan2 + sqrt over as many numbers",
         tuple(rows),

@@ -34,7 +34,7 @@ def family(quick: bool) -> Family:
         "ulp",
         "one numpy pass of sin + cos + arctan2 + sqrt over 1e5 numbers",
         rows,
-        ("tan(a) - a loses 8 digits at 1e-4 rad: whatever finds its root well finds a wrong angle",),
+        ("tan(a) - a loses 8 digits at 1e-4 rad: its exact root is then a wrong angle",),
     )
 
 

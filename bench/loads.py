@@ -39,7 +39,7 @@ def family(quick: bool) -> Family:
         (
             "a machine's error is the difference of its two input torques, that of the others is against 30 digits",
             "J' by differences: central ones of J at the 360 positions, as by hand",
-            "textbook flywheel: dW/(delta w^2) from 360 rows, which leaves the variable inertia out",
+            "textbook flywheel: dW/(delta w^2) from 360 rows, which omits the variable inertia",
         ),
     )
 

@@ -47,7 +47,7 @@ def family(quick: bool) -> Family:
         rows = measure(methods, reference, 1, 3 if quick else 5)
     return Family(
         "pictures",
-        "What a designer waits for: the whole process",
+        "Figures, reports and animations: the whole process of a command",
         "none",
         "a process that draws five empty panels and saves them as PNG",
         rows,

@@ -37,7 +37,7 @@ def family(quick: bool) -> Family:
         "relative",
         f"one numpy pass of sin + cos + arctan2 + sqrt over {size} numbers",
         rows,
-        ("crank, frame and both centre distances +-0.02 mm; the drive's checks are judged with every sample",),
+        ("crank, frame and both centre distances +-0.02 mm; the checks of the drive are evaluated for every sample",),
     )
 
 

@@ -85,11 +85,11 @@ def family(quick: bool) -> Family:
     rows: tuple[Row, ...] = measure(methods, numpy_pass(CHUNK), CHUNK, 3)
     return Family(
         "studies",
-        "Studies of three-gear four-bars, gear pairs, slider-cranks: every quantity sought and all checks of a design",
+        "Studies of three-gear four-bars, gear pairs, slider-cranks: required quantities and all checks of a design",
         "relative",
         "one numpy pass of sin + cos + arctan2 + sqrt over 8192 numbers",
         rows,
-        ("statuses and refusals are those of the design class; designs next to a limit are computed by it",),
+        ("statuses and errors are those of the design class; it computes the designs next to a limit",),
     )
 
 

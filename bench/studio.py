@@ -66,7 +66,7 @@ def family(quick: bool) -> Family:
         rows,
         (
             "processor time of the process, which hardly depends on what else the machine does",
-            "key results: the text changed, read, its numbers, the results of all quick commands, handed to the page",
+            "key results: change and read the text, compute the results of all quick commands, give them to the page",
             f"findings and animation of {PICTURES} frames: in a second process, while the next input is read",
             "without the browser (tests/cli/studio/test_browser.py measures the whole way)",
         ),

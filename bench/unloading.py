@@ -31,7 +31,7 @@ def family(quick: bool) -> Family:
     rows = measure(methods, lambda: law.energy_parameter_with(8), 1, 5)
     return Family(
         "unloading",
-        "Unloading law: energy parameter N, pneumatic, pivot ratio 2.5, swing 120 deg",
+        "Law of a balancing device: energy parameter N, pneumatic, pivot ratio 2.5, swing 120 deg",
         "relative",
         "the quadrature with 8 nodes",
         rows,

@@ -26,28 +26,33 @@ _HEAD = """# Run time against error
 This page is written by `make bench`. `.venv/bin/python -m bench` prints the tables;
 `.venv/bin/python -m bench.write_page FAMILY` measures one table again.
 
+How long does a computation take, and how large is its error? Each table compares the method of gearlink with others for
+the same numbers; a figure shows error over time, so that good methods are at the lower left.
+
 * A time is the median of several rounds. In each round all methods of a table are measured one after the other, so the
   ratios within a table also hold on a busy machine; single times do not.
 * An error is the maximum difference from results with 30 digits or more, on a sample of the inputs.
-* A numpy pass is one sine, cosine, arc tangent and square root of each number.
+* The ratio is the time over that of the reference below the table. A numpy pass is one sine, cosine, arc tangent and
+  square root of each number: the least that a computation with angles costs.
+* N is the number of results that are computed together.
 """
 _REASONS = """## Where a goal is missed, and why
 
 * **Small arrays.** A numpy call costs 0.3 to 1 us for any size, and the sweep of a four-bar makes about seventy. Up to
   some hundred positions the scalar kernel is faster; the program uses it for single positions (2 to 3 us).
-* **Times in ns and ms** are goals for an idle machine with AVX-512, where numpy evaluates sine, cosine, arc tangent and
-  square root for eight numbers at a time. Such a machine reached 0.98 passes for the four-bar, 0.031 of the time of
+* **Times in ns and ms** are goals for an idle machine with AVX-512, on which numpy evaluates sine, cosine, arc tangent
+  and square root for eight numbers at a time. Such a machine reached 0.98 passes for the four-bar, 0.031 of the time of
   pylinkage, 8.7 ns for the inverse involute, 19 ns for the frame, 2.7 ms for the press and 1.43 passes for the cam
   profile. Without AVX-512 these functions take three to five times as long; code that numba compiles does not slow down
   as much. Compare the ratios to the numpy pass.
-* **numba.** Not taken. The kernel of the four-bar with two derivatives as one compiled loop (numba 0.68, AVX-512,
+* **numba** is not used. The kernel of the four-bar with two derivatives as one compiled loop (numba 0.68, AVX-512,
   N = 1e6, processor time in one process) takes 0.90 of the time of the numpy blocks, and 0.60 with `fastmath`, which
   allows other rounding and removes the tests for NaN. It costs 0.2 s of import and 0.4 s of compilation in each
   process: the time that 150 million positions save, or 40 million with `fastmath`.
 * **Frame of the instantaneous dwell.** The goal holds for a call on its own. In this table it runs between other
   methods: the caches are cold, and the arrays of results are new memory pages each time.
 * **Cam profile.** The points alone take less than a pass. The whole profile writes seven columns (two complex, three
-  real), the pass four columns into arrays that exist. In blocks the profile stays in the cache, at constant memory.
+  real), the pass writes four, into arrays that exist. In blocks the profile stays in the cache, at constant memory.
 * **Start-up.** Simple command lines are read without Typer, the search of pydantic for plug-ins is switched off, and
   its models are built when a file needs them. The remainder is the import of pydantic (two thirds of a scalar command),
   of numpy for sweeps and of rich for tables on a terminal.
@@ -138,7 +143,12 @@ def goals(wide_vectors: bool) -> list[Goal]:
             _row("involute", "rational start, one Newton step", "nanoseconds"),
         ),
         Goal("inverse involute: error", 2.0, "ulp", _row("involute", "rational start, one Newton step", "error")),
-        Goal("momentary frame, 1e5 designs", 20.0, "ns", _row("dwell", "frame: closed form", "nanoseconds")),
+        Goal(
+            "frame of the instantaneous dwell, 1e5 designs",
+            20.0,
+            "ns",
+            _row("dwell", "frame: closed form", "nanoseconds"),
+        ),
         *(
             Goal(
                 f"design of a study, {command} with all checks",
@@ -155,7 +165,7 @@ def goals(wide_vectors: bool) -> list[Goal]:
             )
         ),
         Goal(
-            "press: chains, zone, both cams, 3600 positions",
+            "press: both drives, zone, both cams, 3600 positions",
             3e6,
             "ns",
             _row("press", "chains, zone, both cams", "nanoseconds"),

@@ -55,7 +55,7 @@ def family(quick: bool) -> Family:
         rows,
         (
             "exact: the reference values of otbenchmark; scrambled: 16 replications of Sobol' points with an interval, "
-            "random: as textbooks have it, which leaves sqrt((1 - p)/(p N))",
+            "random: plain Monte Carlo, whose error is sqrt((1 - p)/(p N))",
         ),
     )
 
