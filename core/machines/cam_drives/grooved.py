@@ -215,7 +215,6 @@ class Grooved(RealSpeed, Design):
     def find_together(cls, designs: Sequence[Any], names: Sequence[str]) -> None:
         """Grooves of one motion are sought together."""
         from gearlink.core.base.many_designs import hand_out, sought, together
-        from gearlink.core.parts.cams.groove import Groove
 
         del names
 
