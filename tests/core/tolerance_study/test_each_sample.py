@@ -174,7 +174,8 @@ def test_every_kind_and_every_way_to_judge_many_is_tried() -> None:
             {"GL307": "target evaluates the search for target,", "gear": "tolerance.command"},
         ),
         ("loaded_feed", "links.crank", {"loads": "samples carry no loads"}),
-        ("slider_crank_tolerances", "rod", {}),
+        ("slider_crank_tolerances", "rod", {"analyze": "tolerance.command"}),
+        ("geneva_drive", "center_distance", {}),
     ],
 )
 def test_what_no_sample_is_judged_by_has_no_row_and_a_reason(name: str, source: str, left: dict[str, str]) -> None:
