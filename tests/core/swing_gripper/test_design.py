@@ -193,7 +193,7 @@ _NO_CAM = [
     (
         {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
         "cam.center",
-        r"passes the relative pole near cam angle 208\.\d+ deg \(pressure angle 90 deg\)$",
+        r"pressure angle: 90 deg at cam angle 208\.\d+ deg, where the roller passes the relative pole$",
     ),
     pytest.param(
         {"cam__center": None, "size": {"pressure_angle": 20.0}},
