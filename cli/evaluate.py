@@ -151,7 +151,6 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     if command in kind.commands:
         return
     message = f"`{command}` does not apply to a {kind.name}; available for this kind: {', '.join(kind.commands)}"
-    from gearlink.core.base.kinds import FILES
     from gearlink.core.base.wording import first_of
 
     serves = [name for name, other in FILES.items() if command in other.commands]

@@ -9,7 +9,7 @@ import sys
 
 from gearlink.cli import process
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import leave_nothing_behind
+from gearlink.cli.files import CannotWrite, leave_nothing_behind
 
 _STANDARD_OUTPUT = 1
 _LEAST_MEMORY = 500 << 20
@@ -165,8 +165,6 @@ def _fault(fault: Exception) -> int:
     if isinstance(fault, MemoryError):
         print("error: out of memory\n  help: reduce rows, samples or --jobs, or raise the limit", file=sys.stderr)
         return ExitCode.WRONG_INPUT
-    from gearlink.cli.files import CannotWrite
-
     if isinstance(fault, CannotWrite):
         what, _, remedy = str(fault).partition("\n")
         print(f"error: {visible(what)}" + (f"\n  help: {visible(remedy)}" if remedy else ""), file=sys.stderr)

@@ -18,7 +18,7 @@ from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
-from gearlink.cli.render.errors import fitted
+from gearlink.cli.render.errors import fitted, show_refusal
 from gearlink.cli.render.json_report import FORMAT, plain_check
 from gearlink.cli.texts.codes import key_of
 from gearlink.core.base.design import Outline
@@ -65,8 +65,6 @@ def run_check(places: Sequence[str], options: Options, *, verbose: bool = False)
         if named := [place for place in places if place != "-"]:
             files += map(str, design_files(named))
     except DesignFileError as error:
-        from gearlink.cli.render.errors import show_refusal
-
         return show_refusal(error, "", options)
     found, of_files = [], _of_all(files, options)
     words = f"checking {files[0]}" if len(files) == 1 else "checking"

@@ -22,7 +22,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.progress import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
-from gearlink.cli.render.markdown_report import text_of
+from gearlink.cli.render.markdown_report import as_markdown, text_of
 from gearlink.core.base.errors import NoSolution
 from gearlink.core.base.nomenclature import fixed_name
 from gearlink.core.base.report import Report
@@ -141,8 +141,6 @@ def print_report(report: Report, options: Options) -> None:
 
         write_csv(report, sys.stdout)
     elif options.format is Format.MARKDOWN:
-        from gearlink.cli.render.markdown_report import as_markdown
-
         print(as_markdown(report))
     elif options.quantities:
         print(as_lines(report))

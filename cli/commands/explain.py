@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, listed
-from gearlink.cli.texts.schema import index
+from gearlink.cli.texts.schema import index, kind_schema, known_keys, spec_keys
 from gearlink.core.base.errors import named
 
 if TYPE_CHECKING:
@@ -287,7 +287,6 @@ def symbols() -> Iterator[tuple[str, str]]:
 
 def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
-    from gearlink.cli.texts.schema import known_keys
     from gearlink.cli.texts.written_design import choice, uncapitalised
 
     for key, kinds in known_keys():
@@ -304,8 +303,6 @@ def _keys(name: str) -> Iterator[Topic]:
 
 def names() -> tuple[str, ...]:
     """Everything that can be explained, but for the last words of keys and single symbols, which lead there too."""
-    from gearlink.cli.texts.schema import known_keys
-
     return tuple(dict.fromkeys([*plain_names(), *(key.path for key, _ in known_keys())]))
 
 
@@ -413,8 +410,6 @@ def _quantity(name: str) -> Topic:
 
 
 def _kind(kind: Kind) -> Topic:
-    from gearlink.cli.texts.schema import kind_schema, spec_keys
-
     keys = [key for key in spec_keys(kind) if "." not in key.path and key.path != "kind"]
     paragraphs = {
         "What": kind_schema(kind)["description"],
@@ -499,8 +494,6 @@ def _as_markdown(topic: Topic) -> str:
 
 
 def _as_json(topics: list[Topic]) -> str:
-    import json
-
     from gearlink.cli.render.json_report import FORMAT
 
     plain: list[dict[str, Any]] = [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
-from gearlink.cli.texts.schema import index, worked_design
+from gearlink.cli.texts.schema import index, spec_keys, worked_design
 from gearlink.core.base.kinds import FILES, KINDS
 from gearlink.core.base.spec_paths import part_at
 
@@ -94,8 +94,6 @@ def _read(text: str) -> Any:
 
 def _left_out(kind: Kind, text: str) -> str:
     """The keys that a design leaves out, as comments; nothing where it uses all."""
-    from gearlink.cli.texts.schema import spec_keys
-
     data = _read(text)
     rows = []
     for key in spec_keys(kind):

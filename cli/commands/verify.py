@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.lists import hanging, width
-from gearlink.cli.verification.cases import Case, decimals
-from gearlink.cli.verification.computing import Outcome
+from gearlink.cli.verification.cases import Case, decimals, names, sources
+from gearlink.cli.verification.computing import Outcome, computed
 from gearlink.core.base.errors import named
 from gearlink.core.base.report import Quantity, Report, Table
 
@@ -31,8 +31,6 @@ def run_verify(prefixes: Sequence[str], options: Options, *, everything: bool = 
     """
     from gearlink.cli.progress import patience
     from gearlink.cli.render.errors import show_errors
-    from gearlink.cli.verification.cases import sources
-    from gearlink.cli.verification.computing import computed
 
     cases = [case for source in sources(prefixes) for case in source.cases]
     if unknown := _unknown(prefixes, [case.id for case in cases]):
@@ -52,7 +50,6 @@ def run_verify(prefixes: Sequence[str], options: Options, *, everything: bool = 
 
 def _unknown(prefixes: Sequence[str], ids: Sequence[str]) -> list[Diagnostic]:
     from gearlink.cli.reading.diagnostics import Diagnostic
-    from gearlink.cli.verification.cases import names
 
     return [
         Diagnostic(

@@ -22,7 +22,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import Contour, describe, design_hash, error_name, rounded_up, rows_of
 from gearlink.cli.export.options import CONTOUR, DEFAULT_TOLERANCE, CurveForm, Export, FileFormat
-from gearlink.cli.export.sampling import Sampled
+from gearlink.cli.export.sampling import Sampled, TooFine
 from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
@@ -97,8 +97,6 @@ def _without_contour(design: Any, asked: Export) -> Export | None:
 @contextmanager
 def _located(loaded: LoadedFile) -> Iterator[None]:
     """Whatever the mechanism refuses becomes an error at its place in the file."""
-    from gearlink.cli.export.sampling import TooFine
-
     try:
         with refusals_located(loaded):
             yield

@@ -22,10 +22,10 @@ from gearlink.core.mechanism.joints import Connection, Contact, Guide
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Input, Motion, Output
 from gearlink.core.mechanism.rates import Point, standing
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.parts.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.parts.cams.follower_design import FOLLOWER_QUANTITIES, OfFollower
-from gearlink.core.parts.cams.follower_motion import FollowerMotion
+from gearlink.core.parts.cams.follower_motion import FollowerMotion, motion_of
 from gearlink.core.parts.cams.motion_spec import OfFollowerKeys, SteepAngle
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE
 
@@ -164,8 +164,6 @@ class CylindricalCamDesign(OfFollower, Design):
     @cached_property
     def follower_motion(self) -> FollowerMotion:
         """Lift over the cam angle [mm]."""
-        from gearlink.core.parts.cams.follower_motion import motion_of
-
         with at_key("motion"):
             return motion_of(self.spec.motion, self.spec.initial_lift, spec=self.spec)
 
@@ -247,10 +245,6 @@ class CylindricalCamDesign(OfFollower, Design):
 
     def table_track(self, samples: int | None = None) -> Table:
         """Pitch line and both walls, developed at the outside and at the bottom, with the pressure angles there."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         phi, columns = np.radians(degrees), {"cam_angle": (degrees, "deg")}
         for name, x in (("outside", self.drum.outside), ("bottom", self.drum.bottom)):
@@ -262,10 +256,6 @@ class CylindricalCamDesign(OfFollower, Design):
 
     def table_walls(self, samples: int | None = None) -> Table:
         """Points of both walls in space at the outside and at the bottom, in the cam's frame, its axis along z."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
         degrees = turn_degrees(samples)
         phi, columns = np.radians(degrees), {"cam_angle": (degrees, "deg")}
         for name, x in (("outside", self.drum.outside), ("bottom", self.drum.bottom)):

@@ -267,7 +267,6 @@ class Grooved(RealSpeed, Design):
 
     @cached_property
     def _rates(self) -> list[Extreme]:
-        from gearlink.core.numerics.extremes import extremes_over
 
         motion = self.output_motion
 
@@ -293,9 +292,6 @@ class Grooved(RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The output over a revolution of the input."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
 
         self.require_closed()
         degrees = turn_degrees(samples)
@@ -396,7 +392,6 @@ class CamGear(Grooved):
 
     @cached_property
     def _swing(self) -> tuple[Extreme, Extreme]:
-        from gearlink.core.numerics.extremes import extremes_over
 
         def place(theta: Reals) -> Reals:
             return self.lever(theta, 0)[0]
@@ -425,7 +420,6 @@ class CamGear(Grooved):
 
     def path(self, theta: Reals) -> Path:
         """P, P', P'' and u = d P/d X."""
-        import numpy as np
 
         from gearlink.core.numerics.arrays import units
 
@@ -441,7 +435,6 @@ class CamGear(Grooved):
 
     def motion_columns(self, theta: Reals) -> dict[str, tuple[Any, str]]:
         """Angle of the lever."""
-        import numpy as np
 
         return {"lever_angle": (np.degrees(self.lever(theta, 0)[0]), "deg")}
 
@@ -495,10 +488,8 @@ class CamLinkage(Grooved):
     @cached_property
     def _span(self) -> tuple[Extreme, Extreme]:
         """Maximum and minimum distance of B and D."""
-        import numpy as np
 
         from gearlink.core.numerics.arrays import units
-        from gearlink.core.numerics.extremes import extremes_over
 
         links, phase = self.spec.links, self.spec.phase * _DEGREE
 
@@ -526,7 +517,6 @@ class CamLinkage(Grooved):
 
     def path(self, theta: Reals) -> Path:
         """C and its derivatives; u is across BC."""
-        import numpy as np
 
         from gearlink.core.machines.cam_drives.mechanism import five_bar
 
@@ -536,7 +526,6 @@ class CamLinkage(Grooved):
 
     def _lean(self, theta: Reals) -> Reals:
         """Signed angle between the lines of follower and output [rad]."""
-        import numpy as np
 
         from gearlink.core.machines.cam_drives.mechanism import five_bar
 
@@ -547,7 +536,6 @@ class CamLinkage(Grooved):
     @cached_property
     def _leans(self) -> tuple[Extreme, Extreme]:
         """Its maximum and minimum."""
-        from gearlink.core.numerics.extremes import extremes_over
 
         wanted = [(self._lean, True), (self._lean, False)]
         high, low = extremes_over(wanted, joints=self.output_motion.joints, samples=1024)
@@ -556,9 +544,7 @@ class CamLinkage(Grooved):
     @cached_property
     def _flattest(self) -> Extreme:
         """That angle where it is nearest to 0; 0 where both are in line."""
-        import numpy as np
 
-        from gearlink.core.numerics.extremes import Extreme
         from gearlink.core.numerics.roots import bracketed_root
 
         self.require_closed()

@@ -12,11 +12,11 @@ from gearlink.core.base.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.base.remedies.ways import either
 from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.mechanism.courses import turned
+from gearlink.core.mechanism.courses import Shown, all_rates, between, coordinate, motion_table, turned
 from gearlink.core.mechanism.dual import longer
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
-from gearlink.core.numerics.motion_extremes import names
+from gearlink.core.numerics.motion_extremes import extremes, names
 from gearlink.core.parts.linkages.checks import check_linkage, transmission_check
 from gearlink.core.parts.linkages.dyad import acute
 from gearlink.core.parts.linkages.fourbar.mechanism import four_bar, four_bar_pins
@@ -207,7 +207,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         return self._within("acceleration_ratio", "rocker_acceleration", 2)
 
     def _within(self, name: str, rate: str, order: int) -> list[Turning]:
-        from gearlink.core.numerics.motion_extremes import extremes
         from gearlink.core.parts.linkages.fourbar import sweep
 
         assert self.crank_range is not None
@@ -224,8 +223,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The rocker over a revolution of the crank, or over its range with both ends."""
-        from gearlink.core.mechanism.courses import Shown, between
-
         course = rocker(self)
         return self._over(
             "motion",
@@ -240,8 +237,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
 
     def table_links(self, samples: int | None = None) -> Table:
         """Angle, speed, acceleration and jerk of coupler and rocker."""
-        from gearlink.core.mechanism.courses import all_rates, turned
-
         return self._over("links", all_rates({"coupler": turned("coupler"), "rocker": rocker(self)}), samples)
 
     def table_path(self, samples: int | None = None) -> Table:
@@ -250,8 +245,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
         The radius is positive where the path curves to the left of its way, and null where it is straight.
         """
         import numpy as np
-
-        from gearlink.core.mechanism.courses import Shown, coordinate
 
         self.require_table("path")
         x, y = (coordinate("coupler", "P", along) for along in (1.0 + 0j, 1j))
@@ -277,8 +270,6 @@ class CrankRocker(OutputRates, OutputSpeed, RealSpeed, Design):
             raise MissingSection("the table path needs coupler_point: [x, y] (mm)", key="coupler_point")
 
     def _over(self, name: str, shown: Any, samples: int | None) -> Table:
-        from gearlink.core.mechanism.courses import motion_table
-
         degrees = None
         if self.crank_range is not None:
             import numpy as np

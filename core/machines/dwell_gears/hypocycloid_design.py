@@ -31,7 +31,7 @@ from gearlink.core.mechanism.courses import coordinate, turned
 from gearlink.core.mechanism.joints import Connection, Contact, Guide, Mesh, Pin
 from gearlink.core.mechanism.links import FRAME, Link, Mechanism
 from gearlink.core.mechanism.motion import Course, Input, Motion, Output
-from gearlink.core.mechanism.rates import fixed, standing, steady
+from gearlink.core.mechanism.rates import Turn, fixed, standing, steady
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.parts.gears.codes import DWELL_QUALITY
@@ -551,8 +551,6 @@ class SlottedArm:
         beta' = 1 + Im u,  u = z_1/z,  u' = z_2/z - u^2,  u'' = z_3/z - u^3 - 3 u u';  z_k the derivatives of z
         """
         import numpy as np
-
-        from gearlink.core.mechanism.rates import Turn
 
         n = self.teeth
         around: Any = self.ratio * np.exp(-1j * n * t)

@@ -485,8 +485,6 @@ class MutilatedGearDwell(RealSpeed, Meshed):
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
-        import numpy as np
-
         from gearlink.core.mechanism.courses import Shown, between, motion_table, turned
 
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)

@@ -20,10 +20,10 @@ from gearlink.core.base.report import Check, Table
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.rows import row_numbers
 from gearlink.core.base.wording import amount, short, unlike
-from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar
-from gearlink.core.machines.five_bar.path import rates
+from gearlink.core.machines.five_bar.function_motion import FunctionFiveBar, outputs
+from gearlink.core.machines.five_bar.path import extent, rates
 from gearlink.core.machines.five_bar.path_motion import PathFiveBar
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.arrays import Reals, turn_degrees
 from gearlink.core.numerics.lm import State, descend
 from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.numerics.quasi_random import halton
@@ -178,7 +178,6 @@ def function_extremes(bar: FunctionFiveBar, start: float, end: float) -> dict[st
 def path_table(design: GearedFiveBar, samples: int | None = None) -> Table:
     """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
     from gearlink.core.mechanism.courses import Shown, between, coordinate, motion_table, turned
-    from gearlink.core.numerics.arrays import turn_degrees
 
     x, y = (coordinate("coupler", "M", along) for along in (1.0 + 0j, 1j))
     shown = [
@@ -228,10 +227,6 @@ def function_table(design: GearedFiveBar, samples: int | None = None) -> Table:
 
 def structural_error_table(design: GearedFiveBar, samples: int | None = None) -> Table:
     """Output angle, what it should be, and the difference, over the interval of the function."""
-    import numpy as np
-
-    from gearlink.core.machines.five_bar.function_motion import outputs
-
     found, wanted = design.function_fit, design.wanted
     assert found is not None, "shown only with a function"
     assert wanted is not None, "shown only with a function"
@@ -582,8 +577,6 @@ class FiveBarParts(Meshed):
         target = self.spec.target
         if not self.is_path or target is None or target.points is None:
             return None
-        import numpy as np
-
         from gearlink.core.machines.five_bar.fit import fit_path
 
         if self.timed_fit is not None:
@@ -600,8 +593,6 @@ class FiveBarParts(Meshed):
         target = self.spec.target
         if target is None or target.points is None or target.input_angles is None:
             return None
-        import numpy as np
-
         from gearlink.core.machines.five_bar.fit import fit_timed
 
         points = np.array([complex(x, y) for x, y in target.points])
@@ -638,8 +629,6 @@ class FiveBarParts(Meshed):
         target = self.spec.target
         if target is None or target.poses is None:
             return None
-        import numpy as np
-
         from gearlink.core.machines.five_bar.guidance import Task, guide
 
         places = np.array([complex(x, y) for x, y, _ in target.poses])
@@ -681,8 +670,6 @@ class FiveBarParts(Meshed):
 
     def table_poses(self, _samples: int | None = None) -> Table:
         """The poses, with the input angle of each and what is missed."""
-        import numpy as np
-
         found = self.guidance
         if found is None:
             raise MissingSection("the table poses needs target.poses: [[x, y, angle], ...]", key="target")
@@ -1010,8 +997,6 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     @cached_property
     def _extent(self) -> tuple[Extreme, Extreme, Extreme, Extreme]:
-        from gearlink.core.machines.five_bar.path import extent
-
         return extent(self.path_bar, self.offset)
 
     @property

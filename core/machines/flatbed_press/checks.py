@@ -35,7 +35,15 @@ from gearlink.core.base.wording import short
 from gearlink.core.machines.flatbed_press import codes
 from gearlink.core.machines.flatbed_press.codes import RACK_LENGTH
 from gearlink.core.machines.flatbed_press.zone import zone_end
-from gearlink.core.parts.cams.checks import HUB, ROLLER_SHARE
+from gearlink.core.parts.cams.checks import (
+    HUB,
+    ROLLER_SHARE,
+    hub_checks,
+    impossible,
+    pressure_angle_checks,
+    step_check,
+    undercut_checks,
+)
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, CONSTANT_SUM, LARGER, VELOCITY_STEP
 from gearlink.core.parts.gears.checks import GEAR_QUANTITIES, gear_quantity
 from gearlink.core.parts.gears.codes import AT_LIMITS
@@ -226,8 +234,6 @@ def register(design: FlatbedPress) -> Iterator[Check]:
 
 def pressure_angle(design: FlatbedPress) -> Iterator[Check]:
     """GL401 for both cams; it fails as well where no cam can make the motion at all."""
-    from gearlink.core.parts.cams.checks import impossible, pressure_angle_checks
-
     limit = design.spec.limits.pressure_angle
     if design.cams.refusal is not None:
         yield impossible("no cam pair is possible", design.cams.refusal, limit)
@@ -256,8 +262,6 @@ def _with_base_radius(design: FlatbedPress, radius: float) -> str:
 
 def cam_undercut(design: FlatbedPress) -> Iterator[Check]:
     """GL402 for both cams."""
-    from gearlink.core.parts.cams.checks import undercut_checks
-
     larger = partial(_base_radius_for_roller, design) if design.advises else str
     if design.cams.refusal is None:
         yield from undercut_checks(design.cams.discs, larger)
@@ -273,8 +277,6 @@ def _base_radius_for_roller(design: FlatbedPress) -> str:
 
 def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:
     """GL302: the profiles against the cam shaft."""
-    from gearlink.core.parts.cams.checks import hub_checks
-
     if design.cams.refusal is not None:
         return
     base = design.cams.base_radius
@@ -299,8 +301,6 @@ def acceleration_step(design: FlatbedPress) -> Check:
 
 
 def _steps(design: FlatbedPress, rule: Rule, derivative: str, unit: str, bad: Any, remedy: str) -> Check:
-    from gearlink.core.parts.cams.checks import step_check
-
     follower = design.cams.follower
     peak = max(
         abs(float(getattr(segment.lift(angle, 2), derivative)))

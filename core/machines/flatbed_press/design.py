@@ -26,7 +26,7 @@ from gearlink.core.machines.flatbed_press.checks import (
 )
 from gearlink.core.machines.flatbed_press.compensation import Compensation, turns_back
 from gearlink.core.machines.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
-from gearlink.core.numerics.motion_extremes import WithExtremes, names
+from gearlink.core.numerics.motion_extremes import WithExtremes, extremes, names
 from gearlink.core.parts.cams.disc_cams import DiscCams, OnDiscCams
 from gearlink.core.parts.cams.shaped_design import LAW_CHECKS, LAW_TABLE, WithShapedLaws, is_shaped
 from gearlink.core.parts.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
@@ -241,8 +241,6 @@ class PressMotion:
     def extremes(self) -> dict[str, float]:
         """Extremes of velocity and acceleration of the cylinder [mm/s, mm/s^2], and their places and those of the least
         transmission angles [rad]."""
-        from gearlink.core.numerics.motion_extremes import extremes
-
         speed, cylinder = self.input_speed, self.cylinder
         curves = {
             "cylinder_velocity": lambda phi: cylinder.travel(phi, 1).first * speed,
@@ -607,8 +605,6 @@ class BedMotion:
         Notes
             Where the lift's acceleration jumps both sides count.
         """
-        from gearlink.core.numerics.motion_extremes import extremes
-
         speed = self.design.input_speed
         curves = {
             "bed_velocity": lambda phi: self.travel(phi).first * speed,

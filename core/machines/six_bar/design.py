@@ -28,7 +28,7 @@ from gearlink.core.base.results import cached_property
 from gearlink.core.base.wording import short
 from gearlink.core.machines.six_bar.spec import LINKS, PINS
 from gearlink.core.mechanism.follow import MOST_TURNS, TURN, Place, Walk
-from gearlink.core.numerics.arrays import Reals, product, turned
+from gearlink.core.numerics.arrays import Reals, product, turn_degrees, turned
 from gearlink.core.numerics.motion_extremes import names
 from gearlink.core.numerics.roots import sign_changes
 from gearlink.core.numerics.roots_sweep import bracketed_roots
@@ -645,7 +645,6 @@ class GearedSixBar(OutputRates, OutputSpeed, RealSpeed, Design):
     def _rows(self, samples: int | None) -> Reals:
         """Input angles of a table [deg]."""
         from gearlink.core.base.rows import row_numbers
-        from gearlink.core.numerics.arrays import turn_degrees
 
         if self.period_turns is not None:
             return turn_degrees(samples, self.period_turns)

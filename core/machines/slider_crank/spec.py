@@ -19,7 +19,7 @@ from gearlink.core.base.spec import (
     SignedLength,
     require_offset_below_rod,
 )
-from gearlink.core.parts.linkages.slider_crank import SliderCrank
+from gearlink.core.parts.linkages.slider_crank import SliderCrank, quick_return
 
 
 class SliderLimits(DrawingLimits, GearLimits, LoadLimits):
@@ -98,8 +98,6 @@ class SliderCrankSpec(DrivenSpec):
             return SliderCrank(self.stroke, self.rod, self.offset)
 
     def _quick_return(self) -> SliderCrank:
-        from gearlink.core.parts.linkages.slider_crank import quick_return
-
         assert self.stroke is not None
         assert self.quick_return_ratio is not None
         found = quick_return(self.stroke, self.quick_return_ratio, self.rod, self.crank)

@@ -19,7 +19,7 @@ from gearlink.core.machines.three_gear.dwell import tolerance_dwell, valley
 from gearlink.core.machines.three_gear.momentary import wrap
 from gearlink.core.machines.three_gear.motion import GearTrain, forward, output_angle
 from gearlink.core.machines.three_gear.synthesis import LEAST_IDLER, TABLES, FamilyTask, candidates_table, with_analysis
-from gearlink.core.parts.linkages.band_dwell import ToleranceDwell
+from gearlink.core.parts.linkages.band_dwell import AlwaysStepping, ToleranceDwell, band_of_window, flattest_of, keeping
 from gearlink.core.parts.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.parts.linkages.fourbar.position import FourBar
 
@@ -196,8 +196,6 @@ class DwellTask(FamilyTask):
 
     def _about_one_standstill(self, always: AlwaysStepping, train: GearTrain, refusal: NoSolution) -> float:
         """The frame, with the asked transmission angle if any; a request that all frames miss is refused."""
-        from gearlink.core.parts.linkages.band_dwell import flattest_of, keeping
-
         self.searched = True
         b, c = (abs(sum(pair)) for pair in pairwise(self.radii(train.idler)))
         parts = keeping(always, self.request.crank, b, c, math.radians(self.spec.limits.transmission_angle))
@@ -291,7 +289,6 @@ def always_stepping(family: Family, train: GearTrain) -> AlwaysStepping | None:
         0.455302
     """
     from gearlink.core.machines.three_gear.families import back_step_of
-    from gearlink.core.parts.linkages.band_dwell import AlwaysStepping
 
     if family.low is None or family.low != family.least or family.least == 0.0:
         return None
@@ -393,8 +390,6 @@ class DwellSynthesis(ThreeGearFourBar):
         if self.task.window is None:
             found = self.task.aimed_at
         else:
-            from gearlink.core.parts.linkages.band_dwell import band_of_window
-
             found = band_of_window(self._frames.valley(self.linkage.frame), self.task.window)
         return found if found < (1.0 - _ROUNDING) * 0.5 * self.back_step.angle else None
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.base.report import Check, Status, Table
 from gearlink.core.base.results import cached_property
-from gearlink.core.numerics.motion_extremes import WithExtremes
+from gearlink.core.numerics.motion_extremes import WithExtremes, extremes
 from gearlink.core.parts.cams.checks import step_check
 from gearlink.core.parts.cams.codes import ACCELERATION_STEP, JERK_STEP, VELOCITY_STEP
 from gearlink.core.parts.cams.shaped_design import WithShapedLaws
@@ -82,8 +82,6 @@ class OfFollower(WithExtremes, WithShapedLaws):
     @cached_property
     def motion_extremes(self) -> Mapping[str, float]:
         """Extremes of the lift and its derivatives."""
-        from gearlink.core.numerics.motion_extremes import extremes
-
         motion = self.follower_motion
         curves = {
             name: (lambda phi, order=order: motion.evaluate(phi, order)[order]) for order, name in enumerate(_CURVES)

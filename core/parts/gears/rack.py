@@ -36,7 +36,7 @@ from gearlink.core.parts.gears.checks import (
 )
 from gearlink.core.parts.gears.codes import AT_LIMITS, FILLET, INTERFERENCE, SLIDING
 from gearlink.core.parts.gears.data import GearData
-from gearlink.core.parts.gears.drawing_checks import backlash_check, drawing_check
+from gearlink.core.parts.gears.drawing_checks import backlash_check, drawing_check, rack_limits
 from gearlink.core.parts.gears.drawing_names import RATING
 from gearlink.core.parts.gears.mesh.contact import PathOfContact
 from gearlink.core.parts.gears.mesh.pair import GearPair
@@ -248,8 +248,6 @@ class RackMesh:
         if name in _OF_PAIR:
             yield from drawing_check(name, self.data, limits)
         if name in AT_LIMITS:
-            from gearlink.core.parts.gears.drawing_checks import rack_limits
-
             yield from rack_limits(name, self, limits)
 
 

@@ -12,7 +12,7 @@ from gearlink.core.base.design import Design, Outline, placed
 from gearlink.core.base.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.base.nomenclature import term
 from gearlink.core.base.remedies.ways import at_least, at_most
-from gearlink.core.base.report import Quantity
+from gearlink.core.base.report import Quantity, without_noise
 from gearlink.core.base.results import cached_property
 from gearlink.core.base.spec_paths import number_at
 from gearlink.core.studies.loads import checks, tables
@@ -412,8 +412,6 @@ class LoadsDesign(Design):
     @cached_property
     def input_torque_mean(self) -> float:
         """Mean input torque [N m]; what is below the rounding of the torque's size is 0."""
-        from gearlink.core.base.report import without_noise
-
         return without_noise(self.machine.mean(self.machine.torque), 16.0 * self.torque_size)
 
     @cached_property
@@ -463,8 +461,6 @@ class LoadsDesign(Design):
     @property
     def energy_fluctuation(self) -> float:
         """Maximum less minimum energy surplus over the period [J]; what is below the rounding of its size is 0."""
-        from gearlink.core.base.report import without_noise
-
         return without_noise(self.energy.fluctuation, 16.0 * self.torque_size * self.machine.period)
 
     @cached_property
@@ -572,8 +568,6 @@ class LoadsDesign(Design):
     @cached_property
     def balanced_force_max(self) -> float | None:
         """Maximum shaking force with the counterweights [N]."""
-        from gearlink.core.base.report import without_noise
-
         if not self.balance:
             return None
         return without_noise(self.balanced_force(self.balance), 64.0 * self.shaking_force_max)

@@ -7,12 +7,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from gearlink.core.base.spec import Deferred, Length, PressureAngle, also
-from gearlink.core.parts.gears.keys.types import ToothKeys, TwoShifts
+from gearlink.core.parts.gears.keys.types import MaterialSpec, ToothKeys, TwoShifts
 
 
 def _usual_material() -> Any:
-    from gearlink.core.parts.gears.keys.types import MaterialSpec
-
     return MaterialSpec.model_construct()
 
 

@@ -166,8 +166,6 @@ class BlockingContour:
     @cached_property
     def _uprights(self) -> tuple[Reals, Rows]:
         """x_1 across the window, and x_2 along each."""
-        import numpy as np
-
         (low1, high1), (low2, high2) = self.window
         seconds = low2 + (high2 - low2) * np.arange(_POINTS) / (_POINTS - 1)
         firsts = low1 + (high1 - low1) * np.arange(_UPRIGHTS) / (_UPRIGHTS - 1)
@@ -189,8 +187,6 @@ class BlockingContour:
 
     def _across(self, sums: list[float]) -> tuple[list[list[tuple[Line, float]]], list[list[Pair]]]:
         """For some shift sums where lines cross them, and between which x_1 they are free."""
-        import numpy as np
-
         grids, totals = [self._on(total) for total in sums], np.array(sums)
         along = np.array(grids).reshape(len(sums), _POINTS)
         diagonals = Rows(self.placed, along, lambda rows, first: (first, totals[rows] - first))

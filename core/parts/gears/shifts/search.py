@@ -362,8 +362,6 @@ def smallest(task: PairTask, carried: Carried) -> tuple[float, list[Carrying]]:
 
 def _promising(task: PairTask, carried: Carried) -> Iterator[tuple[int, int]]:
     """Teeth that nearly carry the load with shifts shared equally: quick to find."""
-    from gearlink.core.parts.gears.mesh.pair import GearPair
-
     relaxed = replace(carried, required=Required(0.9 * carried.required.pitting, 0.5 * carried.required.bending))
     for module in task.modules:
         for teeth in pairs_of_teeth(task, module):
@@ -385,8 +383,6 @@ def _promising(task: PairTask, carried: Carried) -> Iterator[tuple[int, int]]:
 
 def rated_table(found: list[Carrying]) -> Table:
     """The table `candidates` of a search under a load."""
-    from gearlink.core.base.report import Table
-
     table = table_of([each.candidate for each in found])
     distances = [abs(each.candidate.pair.center_distance) for each in found]
     columns: dict[str, tuple[list[float], str]] = {
